@@ -1,0 +1,1 @@
+"""gradysim: one protocol, run on ever more realistic networks of flying nodes."""

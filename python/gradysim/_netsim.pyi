@@ -1,0 +1,102 @@
+"""The compiled engine. Names, arguments and meaning are those of the C++ sources in cpp/netsim."""
+
+from collections.abc import Callable
+from typing import Any
+
+class ConfigError(ValueError):
+    """A value of a configuration is outside its range; the text names the field, the value and the range."""
+
+class SimulationError(RuntimeError):
+    """A command that cannot be carried out (a timer in the past, an unknown destination, a message over the MTU)."""
+
+class MediumConfig:
+    typename: str
+    path_loss: str
+    alpha: float
+    breakpoint_distance_m: float
+    l01_db: float
+    l02_db: float
+    alpha1: float
+    alpha2: float
+    background_noise_w: float
+    propagation: str
+    def __init__(self, typename: str = ...) -> None: ...
+    def validate(self) -> None: ...
+
+class RadioConfig:
+    carrier_hz: float
+    bandwidth_hz: float
+    tx_power_w: float
+    communication_range_m: float
+    sensitivity_w: float
+    energy_detection_w: float
+    snir_threshold: float
+    error_model: str
+    antenna: str
+
+class MacConfig:
+    op_mode: str
+    bitrate_bps: float
+    multicast_bitrate_bps: float
+    short_retry_limit: int
+    cw_min: int
+    cw_max: int
+    queue_capacity: int
+    mtu_bytes: int
+    backoff_optimization: bool
+
+class MobilityConfig:
+    typename: str
+    speed_mps: float
+    telemetry_interval_s: float
+
+class NodeConfig:
+    name: str
+    radio: RadioConfig
+    mac: MacConfig
+    mobility: MobilityConfig
+    initial_position: tuple[float, float, float]
+    def __init__(self, name: str) -> None: ...
+    def validate(self) -> None: ...
+
+class Node:
+    """The engine's side of one node: what its protocol may ask of it. Errors: SimulationError."""
+
+    @property
+    def id(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def position(self) -> tuple[float, float, float]: ...
+    def set_protocol(self, protocol: Any, on_failure: Callable[[BaseException, str], None]) -> None:
+        """Give the node a protocol: any object with the five methods of IProtocol.
+
+        `on_failure(exception, callback_name)` is called when one of them raises, before the exception
+        leaves `Network.run_until`.
+        """
+    def send_communication_command(self, command: Any) -> None: ...
+    def send_mobility_command(self, command: Any) -> None: ...
+    def schedule_timer(self, timer: str, timestamp: float) -> None: ...
+    def cancel_timer(self, timer: str) -> None: ...
+    def current_time(self) -> float: ...
+    def get_id(self) -> int: ...
+
+class Network:
+    def __init__(self, medium: MediumConfig, seed: int) -> None: ...
+    def add_node(self, config: NodeConfig) -> Node: ...
+    def initialize(self) -> None: ...
+    def run_until(self, time: float, max_events: int = ...) -> bool:
+        """Run the events up to and including `time` (seconds). False when `max_events` came first."""
+    def finish(self) -> None: ...
+    @property
+    def now(self) -> float:
+        """Simulated time in seconds."""
+    @property
+    def event_count(self) -> int: ...
+    @property
+    def fingerprint(self) -> str:
+        """16 hexadecimal digits: a hash of all that happened on the air, in the queues and in the protocols."""
+    def frame_fates(self) -> dict[str, dict[str, int]]:
+        """Copies of frames: {kind: {fate: count}}; kind "broadcast", "unicast", "unicast overheard", "ack", "ack overheard"."""
+    def message_fates(self) -> dict[str, dict[str, int]]:
+        """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""
