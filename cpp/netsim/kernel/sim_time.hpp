@@ -1,0 +1,45 @@
+// Simulated time: a signed 64-bit count of picoseconds (about ±106 days).
+//
+// An integer, so that sums are exact and equal instants compare equal; a type of its own, so that seconds and
+// picoseconds cannot be mixed up. Float seconds exist only at the border to the user (from_seconds, seconds).
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <limits>
+
+namespace netsim {
+
+class SimTime {
+public:
+    constexpr SimTime() = default;
+
+    static constexpr SimTime from_ps(std::int64_t picoseconds) { return SimTime(picoseconds); }
+    static constexpr SimTime from_ns(std::int64_t nanoseconds) { return SimTime(nanoseconds * 1'000); }
+    static constexpr SimTime from_us(std::int64_t microseconds) { return SimTime(microseconds * 1'000'000); }
+    // Rounds to the nearest picosecond. Throws SimulationError for NaN and for what is out of range.
+    static SimTime from_seconds(double seconds);
+    static constexpr SimTime max() { return SimTime(std::numeric_limits<std::int64_t>::max()); }
+    // Far enough in the past to count as "always"; differences with any instant of a run do not overflow.
+    static constexpr SimTime long_ago() { return SimTime(std::numeric_limits<std::int64_t>::min() / 4); }
+
+    constexpr std::int64_t ps() const { return ps_; }
+    constexpr double seconds() const { return static_cast<double>(ps_) / 1e12; }
+
+    constexpr auto operator<=>(const SimTime&) const = default;
+
+    constexpr SimTime operator+(SimTime other) const { return SimTime(ps_ + other.ps_); }
+    constexpr SimTime operator-(SimTime other) const { return SimTime(ps_ - other.ps_); }
+    constexpr SimTime operator*(std::int64_t factor) const { return SimTime(ps_ * factor); }
+    constexpr SimTime& operator+=(SimTime other) {
+        ps_ += other.ps_;
+        return *this;
+    }
+
+private:
+    explicit constexpr SimTime(std::int64_t ps) : ps_(ps) {}
+
+    std::int64_t ps_ = 0;
+};
+
+}  // namespace netsim
