@@ -1,0 +1,42 @@
+"""Commands with which a protocol sends a message to other nodes."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class CommunicationCommandType(int, Enum):
+    """How a message finds its receivers."""
+
+    SEND = 0
+    """To one node, named by `CommunicationCommand.destination`."""
+    BROADCAST = 1
+    """To every node that can hear it."""
+
+
+@dataclass
+class CommunicationCommand:
+    """Sends `message`. There is no report of its delivery: messages may be lost.
+
+    Attributes:
+        command_type: How the message finds its receivers.
+        message: Any text. Its length in UTF-8 counts where airtime is simulated.
+        destination: Id of the receiving node; only for `SEND`.
+    """
+
+    command_type: CommunicationCommandType
+    message: str
+    destination: int | None = None
+
+
+class SendMessageCommand(CommunicationCommand):
+    """Sends `message` to the node `destination` alone."""
+
+    def __init__(self, message: str, destination: int) -> None:
+        super().__init__(CommunicationCommandType.SEND, message, destination)
+
+
+class BroadcastMessageCommand(CommunicationCommand):
+    """Sends `message` to every node in reach."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(CommunicationCommandType.BROADCAST, message)

@@ -1,0 +1,56 @@
+"""Commands with which a protocol moves its node."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class MobilityCommandType(int, Enum):
+    """What a mobility command asks for; the meaning of its parameters depends on it."""
+
+    GOTO_COORDS = 1
+    """Go to (x, y, z) = (param_1, param_2, param_3), metres."""
+    GOTO_GEO_COORDS = 2
+    """Go to (latitude, longitude, altitude) = (param_1, param_2, param_3), degrees, degrees, metres."""
+    SET_SPEED = 3
+    """Set the speed to param_1; or, if all three are given, the velocity to (param_1, param_2, param_3); m/s."""
+
+
+@dataclass
+class MobilityCommand:
+    """An order to the vehicle. Use the subclasses, which name their parameters; unused ones are None."""
+
+    command_type: MobilityCommandType
+    param_1: float | None = None
+    param_2: float | None = None
+    param_3: float | None = None
+    param_4: float | None = None
+    param_5: float | None = None
+    param_6: float | None = None
+
+
+class GotoCoordsMobilityCommand(MobilityCommand):
+    """Go straight to the point (x, y, z), metres, in the simulation's Cartesian frame."""
+
+    def __init__(self, x: float, y: float, z: float) -> None:
+        super().__init__(MobilityCommandType.GOTO_COORDS, x, y, z)
+
+
+class GotoGeoCoordsMobilityCommand(MobilityCommand):
+    """Go straight to a geographic point: latitude and longitude in degrees, altitude in metres."""
+
+    def __init__(self, lat: float, lon: float, alt: float) -> None:
+        super().__init__(MobilityCommandType.GOTO_GEO_COORDS, lat, lon, alt)
+
+
+class SetSpeedMobilityCommand(MobilityCommand):
+    """Fly at `speed` (m/s, >= 0) from now on."""
+
+    def __init__(self, speed: float) -> None:
+        super().__init__(MobilityCommandType.SET_SPEED, speed)
+
+
+class SetVelocityMobilityCommand(MobilityCommand):
+    """Hold the velocity (vx, vy, vz), m/s, until told otherwise; for vehicles steered by velocity."""
+
+    def __init__(self, vx: float, vy: float, vz: float) -> None:
+        super().__init__(MobilityCommandType.SET_SPEED, vx, vy, vz)

@@ -1,0 +1,16 @@
+"""What a vehicle reports to its protocol, periodically."""
+
+from dataclasses import dataclass
+
+from gradysim.protocol.position import Position
+
+
+@dataclass
+class Telemetry:
+    """State of the vehicle now.
+
+    Attributes:
+        current_position: (x, y, z) in metres.
+    """
+
+    current_position: Position

@@ -1,0 +1,61 @@
+"""Points in space, and the flat frame in which a simulation places them.
+
+The frame is Cartesian, in metres, with a reference point of the Earth at its origin: x to the North,
+y to the East, z up.
+"""
+
+import math
+
+Position = tuple[float, float, float]
+"""(x, y, z) in metres."""
+
+EARTH_RADIUS_M = 6_371_000.0
+"""Mean radius of the Earth (IUGG R1, rounded)."""
+
+
+def squared_distance(start: Position, end: Position) -> float:
+    """Square of the distance between two points, m²; cheaper than the distance where only order matters."""
+    dx = end[0] - start[0]
+    dy = end[1] - start[1]
+    dz = end[2] - start[2]
+    return dx * dx + dy * dy + dz * dz
+
+
+def geo_to_cartesian(reference: Position, target: Position) -> Position:
+    """Place a geographic point in the frame whose origin is another one.
+
+    Args:
+        reference: (latitude deg, longitude deg, altitude m) of the origin.
+        target: (latitude deg, longitude deg, altitude m) of the point.
+
+    Returns:
+        (x, y, z) in metres: North, East and up of the reference. x is the length of the meridian between
+        the two latitudes, y the great-circle distance between the two longitudes at the reference's latitude.
+    """
+    north = _haversine_distance(reference[0], reference[1], target[0], reference[1])
+    east = _haversine_distance(reference[0], reference[1], reference[0], target[1])
+    # The shorter way round decides the side: 179.9 deg W lies East of 179.9 deg E.
+    longitude_difference = (target[1] - reference[1] + 180.0) % 360.0 - 180.0
+    return (
+        math.copysign(north, target[0] - reference[0]),
+        math.copysign(east, longitude_difference),
+        target[2] - reference[2],
+    )
+
+
+def rotate_position_2d(position: Position, angle_degrees: float) -> Position:
+    """Turn a point counter-clockwise about the z axis, seen from above; z stays."""
+    cosine = math.cos(math.radians(angle_degrees))
+    sine = math.sin(math.radians(angle_degrees))
+    x, y, z = position
+    return (x * cosine - y * sine, x * sine + y * cosine, z)
+
+
+def _haversine_distance(lat_1: float, lon_1: float, lat_2: float, lon_2: float) -> float:
+    """Great-circle distance in metres between two points given in degrees (haversine formula)."""
+    phi_1 = math.radians(lat_1)
+    phi_2 = math.radians(lat_2)
+    sin_lat = math.sin((phi_2 - phi_1) / 2.0)
+    sin_lon = math.sin(math.radians(lon_2 - lon_1) / 2.0)
+    square = sin_lat * sin_lat + math.cos(phi_1) * math.cos(phi_2) * sin_lon * sin_lon
+    return 2.0 * EARTH_RADIUS_M * math.asin(min(1.0, math.sqrt(square)))
