@@ -1,0 +1,34 @@
+// One 802.11 interface: what `*.<node>.wlan[*].opMode`, `.bitrate` and `.mac.…` set in an .ini file. Used by
+// the mac.
+//
+// Defaults are those of INET 4.5's Ieee80211Interface. -1 stands for "as the operation mode has it"; whether
+// a bitrate is one of the operation mode's is checked where it is looked up, by ModeSet::mode_for_bitrate.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace netsim {
+
+inline constexpr std::array<std::string_view, 4> op_mode_names{"b", "g(erp)", "g(mixed)", "a"};
+
+struct MacConfig {
+    std::string op_mode = "g(mixed)";   // one of op_mode_names
+    double bitrate_bps = -1;            // of data frames; -1: the fastest mandatory one; otherwise > 0
+    double multicast_bitrate_bps = -1;  // of broadcast frames; -1: as data; otherwise > 0
+
+    int short_retry_limit = 7;  // failures at which a frame is given up; 1 … 255
+    int long_retry_limit = 4;   // the same from the RTS threshold on; 1 … 255
+    int cw_min = -1;  // smallest contention window in slots; -1: of the operation mode; otherwise 0 … 32767
+    int cw_max = -1;  // largest one; -1: of the operation mode; otherwise cw_min … 32767
+
+    int queue_capacity = 100;  // waiting frames, without the one in progress; 1 … 1000000
+    int mtu_bytes = 2304;      // largest IP packet; 29 … 2304: 28 B of IPv4 and UDP headers and a payload
+    bool backoff_optimization = true;  // immediate access: idle time before the frame counts towards its wait
+
+    // Throws ConfigError for the first field out of its range: "mac.cw_min = -2: expected …".
+    void validate() const;
+};
+
+}  // namespace netsim

@@ -1,0 +1,33 @@
+// One radio: what `*.<node>.wlan[*].radio.…` sets in an .ini file. Used by the phy and the medium.
+//
+// Defaults are those of INET 4.5's Ieee80211ScalarRadio. All powers are linear, in watts.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace netsim {
+
+inline constexpr std::array<std::string_view, 1> error_model_names{"Ieee80211NistErrorModel"};
+inline constexpr std::array<std::string_view, 1> antenna_names{"IsotropicAntenna"};
+
+struct RadioConfig {
+    double carrier_hz = 2.412e9;        // centre frequency, > 0; channel 1 of 2.4 GHz
+    double bandwidth_hz = 22e6;         // > 0
+    double tx_power_w = 0.02;           // ≥ 0
+    double communication_range_m = 60;  // unit disk medium only, ≥ 0
+
+    double sensitivity_w = 3.1622776601683794e-12;  // -85 dBm; > 0: the least power to lock on to
+    double energy_detection_w =
+        3.1622776601683794e-12;                  // -85 dBm; > 0: noise and signals that make the channel busy
+    double snir_threshold = 2.5118864315095801;  // 4 dB; linear ratio, ≥ 0: at or below it every frame fails
+
+    std::string error_model = "Ieee80211NistErrorModel";  // one of error_model_names
+    std::string antenna = "IsotropicAntenna";             // one of antenna_names
+
+    // Throws ConfigError for the first field out of its range: "radio.tx_power_w = -1 W: expected …".
+    void validate() const;
+};
+
+}  // namespace netsim

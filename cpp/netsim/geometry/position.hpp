@@ -1,0 +1,39 @@
+// A point, or the difference of two points, in the scene's Cartesian frame: metres, x east, y north, z up.
+#pragma once
+
+#include <cmath>
+
+namespace netsim {
+
+struct Position {
+    double x = 0;
+    double y = 0;
+    double z = 0;
+
+    constexpr bool operator==(const Position&) const = default;
+};
+
+constexpr Position operator+(const Position& a, const Position& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+constexpr Position operator-(const Position& a, const Position& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+constexpr Position operator*(const Position& a, double factor) {
+    return {a.x * factor, a.y * factor, a.z * factor};
+}
+constexpr Position operator*(double factor, const Position& a) {
+    return a * factor;
+}
+
+// In m². Cheaper than distance, and enough for comparisons and for path loss.
+constexpr double squared_distance(const Position& a, const Position& b) {
+    const Position d = a - b;
+    return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+inline double distance(const Position& a, const Position& b) {
+    return std::sqrt(squared_distance(a, b));
+}
+
+}  // namespace netsim

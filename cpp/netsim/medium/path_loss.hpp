@@ -1,0 +1,56 @@
+// Path loss: the share of a transmitted power that is left after a distance, a number from 0 to 1.
+//
+// Both models are power laws, gain = coefficient / distance^exponent, capped at 1; the breakpoint model has
+// one law on each side of a distance. So one plain final class serves both, without a virtual call per
+// receiver.
+//   FreeSpacePathLoss   gain = λ² / (16 π² d^α): H. T. Friis, "A Note on a Simple Transmission Formula",
+//   1946, for
+//                       α = 2; λ = c / carrier_hz the wavelength in m, d in m.
+//   BreakpointPathLoss  loss in dB = l01 + 10 α1 log10(d / 1 m)           for d below the breakpoint,
+//                                    l02 + 10 α2 log10(d / breakpoint)    at and above it; the same for all
+//                                    carriers.
+//                       The model with which IEEE 802.15.4-2006 (annex E) studies coexistence: 8 m,
+//                       40.2 dB, 2, 58.5 dB, 3.3.
+// Used by the medium for every pair of radios. Adding a model that is no power law: give the class a variant.
+#pragma once
+
+#include <limits>
+
+#include "netsim/config/medium_config.hpp"
+
+namespace netsim {
+
+class PathLoss {
+public:
+    // Received over transmitted power at `distance_m` ≥ 0, between isotropic antennas. Distance 0 gives 1.
+    double gain(double distance_m, double carrier_hz) const {
+        return gain_at_squared_distance(distance_m * distance_m, carrier_hz);
+    }
+
+    // The same for the square of a distance, in m²: saves the root.
+    double gain_at_squared_distance(double squared_distance_m2, double carrier_hz) const;
+
+    // The distance in m within which the gain is at least `gain`, up to rounding: a search radius needs a
+    // margin. 0 if `gain` is greater than 1, infinite if it is 0.
+    double reach_m(double gain, double carrier_hz) const;
+
+private:
+    friend PathLoss make_path_loss(const MediumConfig& config);
+
+    struct PowerLaw {
+        double coefficient = 1;  // gain at 1 m; if it depends on the carrier, at 1 m and a wavelength of 1 m
+        double exponent = 2;
+    };
+
+    double wavelength_factor(double carrier_hz) const;
+
+    PowerLaw near_;
+    PowerLaw far_;
+    double squared_breakpoint_m2_ = std::numeric_limits<double>::infinity();
+    bool depends_on_carrier_ = false;
+};
+
+// The table of models: config.path_loss chooses. Throws ConfigError for a name that is not in it.
+PathLoss make_path_loss(const MediumConfig& config);
+
+}  // namespace netsim

@@ -1,0 +1,46 @@
+// The chance that a frame survives noise and interference.
+//
+// Used by the radio at the end of a reception, with the least SNIR that the frame saw.
+//
+// NIST model, s the linear SNIR: G. Pei and T. R. Henderson, "Validation of OFDM error rate model in ns-3",
+// 2010.
+//   OFDM  raw bit error p: BPSK ½erfc(√s), QPSK ½erfc(√(s/2)), 16-QAM ¾·½erfc(√(s/10)), 64-QAM
+//   7/12·½erfc(√(s/42));
+//         D = √(4p(1-p)); coded bit error = union bound over the weight spectrum of the 802.11 convolutional
+//         code, at most 1. Header 24 bits at BPSK 1/2, then the data bits of Mode::data_bits.
+//   DSSS  bit error: 1 Mbps ½e^(-2s), 2 Mbps (√2+1)/√(8π√2) · s^-½ · e^(-(2-√2)s), at most 1
+//   CCK   fits; 0 above s = 10, ½ below s = 0.1. Header of DSSS and CCK 48 bits at 1 Mbps, data 8 bits per
+//   byte.
+// success = (1 - header bit error)^header bits · (1 - data bit error)^data bits.
+//
+// ns-3's model of the same name has the same bit errors for OFDM, and for DSSS takes s times the ratio of
+// bandwidth to bitrate (22 at 1 Mbps) where this one, like INET, takes s times 2.
+#pragma once
+
+#include <string_view>
+
+#include "netsim/phy/modes.hpp"
+
+namespace netsim {
+
+class ErrorModel {
+public:
+    virtual ~ErrorModel() = default;
+
+    // In [0, 1]. `snir` is a linear ratio ≥ 0, may be infinite; `psdu_bytes` ≥ 0.
+    virtual double success_probability(const Mode& mode, double snir, int psdu_bytes) const = 0;
+};
+
+class NistErrorModel final : public ErrorModel {
+public:
+    double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
+
+    // Of one data bit after decoding, in [0, 1].
+    static double bit_error_rate(const Mode& mode, double snir);
+};
+
+// The table of models (RadioConfig::error_model); the models are stateless constants. Throws ConfigError for
+// another name.
+const ErrorModel& error_model(std::string_view name);
+
+}  // namespace netsim

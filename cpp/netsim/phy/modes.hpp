@@ -1,0 +1,99 @@
+// The modes of IEEE 802.11 b, g and a: bitrates, modulations, durations of frames, and the intervals that go
+// with them.
+//
+// A mode is one way to put a frame on the air; a mode set is what the stations of one operation mode can do.
+// Both are constant tables: references and pointers into them are valid for the whole program. Used by the
+// radio (durations), the error model (modulation) and the MAC (choice of bitrate, intervals).
+//
+// Durations (IEEE Std 802.11-2020), n the bytes of the PSDU = MPDU, headers and FCS included:
+//   OFDM      16 µs preamble + 4 µs SIGNAL + ⌈(16 + 8n + 6) / N_DBPS⌉ symbols of 4 µs, and in g 6 µs signal
+//   extension
+//             (clauses 17.4.3, 18.5.3)
+//   DSSS/CCK  144 µs long preamble + 48 µs header + ⌈8n / bitrate⌉ whole µs (clauses 15.2, 16.2.3.5)
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "netsim/kernel/sim_time.hpp"
+
+namespace netsim {
+
+enum class ModeFamily { dsss, cck, ofdm };  // 1 and 2; 5.5 and 11; 6 to 54 Mbps
+enum class Constellation { bpsk, qpsk, qam16, qam64 };
+enum class CodeRate { none, one_half, two_thirds, three_quarters };
+
+struct Mode {
+    std::string_view name;  // "ERP-OFDM 24 Mbps"
+    ModeFamily family = ModeFamily::ofdm;
+    std::int64_t bitrate_bps = 0;
+    bool mandatory = false;
+
+    // OFDM only.
+    Constellation constellation = Constellation::bpsk;
+    CodeRate code_rate = CodeRate::none;
+    int data_bits_per_symbol = 0;  // N_DBPS
+    SimTime signal_extension;
+
+    SimTime preamble;            // until the PHY header begins
+    SimTime header;              // SIGNAL or PLCP header
+    SimTime phy_rx_start_delay;  // from the start of a frame on the air until the PHY reports it
+
+    // Bits of the data part as sent: for OFDM with service field, tail and padding.
+    std::int64_t data_bits(int psdu_bytes) const;
+    // Time on the air of a whole frame. `psdu_bytes` ≥ 0.
+    SimTime duration(int psdu_bytes) const;
+};
+
+class ModeSet {
+public:
+    // `modes` in rising order of bitrate, at least one of them mandatory.
+    constexpr ModeSet(std::string_view name, std::span<const Mode> modes, SimTime slot, SimTime sifs,
+                      int cw_min, int cw_max)
+        : name_(name), modes_(modes), slot_(slot), sifs_(sifs), cw_min_(cw_min), cw_max_(cw_max) {}
+
+    std::string_view name() const { return name_; }
+    std::span<const Mode> modes() const { return modes_; }
+
+    static SimTime duration(const Mode& mode, int psdu_bytes) { return mode.duration(psdu_bytes); }
+
+    // The intervals are those of the slowest mode of the set.
+    SimTime slot() const { return slot_; }
+    SimTime sifs() const { return sifs_; }
+    // SIFS + 2 slots.
+    SimTime difs() const { return sifs_ + slot_ * 2; }
+    // After a broken frame, room for an ACK that this station may not hear: SIFS + DIFS + a frame of 14 B at
+    // the slowest mandatory mode.
+    SimTime eifs() const;
+    // Contention windows in slots: a backoff is drawn from 0 … cw.
+    int cw_min() const { return cw_min_; }
+    int cw_max() const { return cw_max_; }
+
+    // -1 gives the fastest mandatory mode. Throws ConfigError with the valid rates for one that the set has
+    // not; `field` is the name under which the user set it.
+    const Mode& mode_for_bitrate(double bitrate_bps, std::string_view field = "mac.bitrate_bps") const;
+    const Mode& fastest_mandatory() const;
+    const Mode& slowest_mandatory() const;
+    // Of the ACK or CTS that answers a frame in mode `received`: that mode if it is mandatory, else the next
+    // slower mandatory one, or the slowest mandatory one if there is none slower.
+    const Mode& response_mode(const Mode& received) const;
+    // How long a sender waits for a response to begin: SIFS + slot + the PHY's receive start delay.
+    SimTime response_timeout(const Mode& response) const {
+        return sifs_ + slot_ + response.phy_rx_start_delay;
+    }
+
+private:
+    std::string_view name_;
+    std::span<const Mode> modes_;
+    SimTime slot_;
+    SimTime sifs_;
+    int cw_min_;
+    int cw_max_;
+};
+
+// The table of operation modes: "b", "g(erp)", "g(mixed)", "a" (MacConfig::op_mode). Throws ConfigError for
+// another.
+const ModeSet& mode_set(std::string_view op_mode);
+
+}  // namespace netsim
