@@ -1,0 +1,84 @@
+"""The result of one run, in the same shape for both modes.
+
+`gradysim.prototype.run` and `gradysim.integrated.run` make it; the command line prints and writes it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from gradysim.results.plain_value import plain_value
+
+Mode = Literal["integrated", "prototype"]
+Fates = Mapping[str, Mapping[str, Mapping[str, int]]]
+
+
+@dataclass(frozen=True)
+class NodeResult:
+    """What one node was at the end of its run."""
+
+    id: int
+    """0 to n-1."""
+    name: str
+    """As in the scenario: `uavs[0]`, `groundStation`."""
+    protocol: str
+    """Name of the protocol's class."""
+    position: tuple[float, float, float]
+    """Where it ended: x, y, z in metres."""
+    tracked_variables: Mapping[str, object]
+    """The last value of each variable that the protocol tracked."""
+
+    def to_json_object(self) -> dict[str, object]:
+        """Return the fields as plain values; see `plain_value` for tracked variables of other kinds."""
+        return {
+            "id": self.id,
+            "name": self.name,
+            "protocol": self.protocol,
+            "position": plain_value(self.position),
+            "tracked_variables": plain_value(self.tracked_variables),
+        }
+
+
+@dataclass(frozen=True)
+class RunResult:
+    """What one run computed and what it cost."""
+
+    config: str
+    """Name of the configuration in the .ini file."""
+    run: int
+    """Run number within the configuration, from 0."""
+    seed: int
+    mode: Mode
+    sim_time_s: float
+    """Simulated time reached, in seconds."""
+    wall_s: float
+    """Time that building and running took by the clock, in seconds."""
+    cpu_s: float
+    """Processor time of building and running, in seconds."""
+    events: int
+    """Events that the simulator executed."""
+    interrupted: bool
+    """Whether the run ended before its time limit: by the user, or by an exception in a protocol."""
+    fingerprint: str | None
+    """Hash of all that happened; None in prototype mode."""
+    fates: Fates
+    """{what: {kind: {fate: count}}}; `what` is "frames" or "messages"."""
+    nodes: tuple[NodeResult, ...]
+    """In the order of their ids."""
+
+    def to_json_object(self) -> dict[str, object]:
+        """Return the result as plain dicts, lists, text and numbers."""
+        return {
+            "config": self.config,
+            "run": self.run,
+            "seed": self.seed,
+            "mode": self.mode,
+            "sim_time_s": self.sim_time_s,
+            "wall_s": self.wall_s,
+            "cpu_s": self.cpu_s,
+            "events": self.events,
+            "interrupted": self.interrupted,
+            "fingerprint": self.fingerprint,
+            "fates": plain_value(self.fates),
+            "nodes": [node.to_json_object() for node in self.nodes],
+        }

@@ -1,0 +1,92 @@
+import enum
+import json
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.results.plain_value import plain_value
+
+anything = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text()
+    | st.binary()
+    | st.complex_numbers()
+    | st.sets(st.integers()),
+    lambda inner: (
+        st.lists(inner)
+        | st.tuples(inner, inner)
+        | st.dictionaries(st.text() | st.integers() | st.tuples(st.integers()), inner)
+    ),
+    max_leaves=20,
+)
+
+
+@given(anything)
+def test_every_value_becomes_strict_json(value):
+    json.dumps(plain_value(value), allow_nan=False)
+
+
+@given(
+    st.recursive(
+        st.none()
+        | st.booleans()
+        | st.integers()
+        | st.floats(allow_nan=False, allow_infinity=False)
+        | st.text(),
+        lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+        max_leaves=20,
+    )
+)
+def test_a_plain_value_stays_what_it_is(value):
+    assert plain_value(value) == value
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
+def test_a_number_that_json_lacks_is_given_as_text(number):
+    assert plain_value(number) == repr(number)
+
+
+def test_numpy_numbers_and_arrays_become_pythons():
+    np = pytest.importorskip("numpy")
+    value = {
+        "count": np.int64(3),
+        "mean": np.float32(0.5),
+        "done": np.bool_(True),
+        "path": np.array([1.0, 2.0]),
+    }
+    assert plain_value(value) == {"count": 3, "mean": 0.5, "done": True, "path": [1.0, 2.0]}
+
+
+def test_a_member_of_a_text_enumeration_is_its_value():
+    class Status(str, enum.Enum):  # noqa: UP042 - StrEnum would hide what is tested
+        IDLE = "idle"
+
+    assert plain_value([Status.IDLE]) == ["idle"]
+
+
+def test_a_key_that_is_no_text_is_given_as_repr():
+    assert plain_value({(1, 2): 0, 3: 0}) == {"(1, 2)": 0, "3": 0}
+
+
+def test_a_container_inside_itself_ends():
+    knot: list[object] = [1]
+    knot.append(knot)
+    assert plain_value(knot) == [1, "[1, [...]]"]
+
+
+def test_the_same_container_twice_is_not_a_knot():
+    inner = [1]
+    assert plain_value([inner, inner]) == [[1], [1]]
+
+
+def test_an_object_whose_repr_fails_is_named_by_its_class():
+    class Broken:
+        def __repr__(self):
+            raise RuntimeError
+
+    assert "Broken object at" in str(plain_value(Broken()))

@@ -1,0 +1,34 @@
+import dataclasses
+import json
+
+import pytest
+
+from gradysim.results.run_file import write_run_file
+from gradysim.results.run_result import RunResult
+
+RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
+
+
+def test_name_of_the_file(tmp_path):
+    assert write_run_file(RESULT, tmp_path) == tmp_path / "ZigZag5-#3.json"
+
+
+def test_content_is_the_json_object(tmp_path):
+    path = write_run_file(RESULT, tmp_path)
+    assert json.loads(path.read_text(encoding="utf-8")) == RESULT.to_json_object()
+
+
+def test_a_missing_directory_is_made(tmp_path):
+    assert write_run_file(RESULT, tmp_path / "a" / "b").is_file()
+
+
+def test_an_earlier_file_of_the_run_is_replaced(tmp_path):
+    write_run_file(RESULT, tmp_path)
+    path = write_run_file(dataclasses.replace(RESULT, events=11), tmp_path)
+    assert json.loads(path.read_text(encoding="utf-8"))["events"] == 11
+
+
+def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):
+    (tmp_path / "taken").write_text("")
+    with pytest.raises(OSError, match="taken"):
+        write_run_file(RESULT, tmp_path / "taken")

@@ -1,0 +1,54 @@
+import json
+
+from gradysim.results.run_result import NodeResult, RunResult
+
+
+def result_with(tracked_variables):
+    node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.0, 3.0), tracked_variables)
+    return RunResult(
+        config="General",
+        run=2,
+        seed=7,
+        mode="prototype",
+        sim_time_s=10.0,
+        wall_s=0.5,
+        cpu_s=0.4,
+        events=1000,
+        interrupted=False,
+        fingerprint=None,
+        fates={"messages": {"broadcast": {"delivered": 3}}},
+        nodes=(node,),
+    )
+
+
+def test_keys_of_the_json_object():
+    assert list(result_with({}).to_json_object()) == [
+        "config",
+        "run",
+        "seed",
+        "mode",
+        "sim_time_s",
+        "wall_s",
+        "cpu_s",
+        "events",
+        "interrupted",
+        "fingerprint",
+        "fates",
+        "nodes",
+    ]
+
+
+def test_keys_of_a_node():
+    (node,) = json.loads(json.dumps(result_with({"packets": 5}).to_json_object()))["nodes"]
+    assert node == {
+        "id": 0,
+        "name": "uavs[0]",
+        "protocol": "Mobile",
+        "position": [1.0, 2.0, 3.0],
+        "tracked_variables": {"packets": 5},
+    }
+
+
+def test_a_tracked_variable_without_a_json_form_is_given_as_repr():
+    (node,) = json.loads(json.dumps(result_with({"seen": {4}}).to_json_object()))["nodes"]
+    assert node["tracked_variables"] == {"seen": "{4}"}
