@@ -1,0 +1,97 @@
+# One command per chore; `make help` lists them, CONTRIBUTING.md says when to use which.
+# Each does its own set-up: what it needs from PyPI goes to .venv, what it needs from Debian is installed with apt-get.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMPS := $(VENV)/stamps
+comma := ,
+
+# cmake and ninja come from .venv, whatever the machine has.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export DEBIAN_FRONTEND := noninteractive
+
+cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
+cpp_checked := $(shell find cpp tests/cpp bench -name '*.[ch]pp')
+python_checked := python tests examples bench
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help demo test test-cpp test-python lint format build bench clean distclean system-gtest
+
+help:  ## List the commands.
+	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
+
+demo: build  ## Run ZigZag in both modes and print the comparison.
+	$(BIN)/python examples/zigzag/compare.py
+
+test: test-cpp test-python  ## Build and run all tests, C++ and Python.
+
+test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+	cmake -S cpp --preset asan --log-level=WARNING
+	cmake --build build/asan
+	ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error
+
+test-python: build $(STAMPS)/test  ## Python tests, in parallel.
+	$(BIN)/python -m pytest --numprocesses=auto
+
+lint: build $(STAMPS)/test $(STAMPS)/lint system-gtest  ## ruff, mypy --strict, lint-imports, clang-format, clang-tidy.
+	ruff check $(python_checked)
+	ruff format --check $(python_checked)
+	mypy
+	lint-imports
+	clang-format --dry-run -Werror $(cpp_checked)
+	cmake -S cpp --preset lint --log-level=WARNING
+	@$(MAKE) --no-print-directory --jobs=$$(nproc) -f cpp/clang-tidy.mk
+
+format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
+	ruff check --fix-only --quiet $(python_checked)
+	ruff format $(python_checked)
+	clang-format -i $(cpp_checked)
+
+build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the engine compiled.
+
+bench: build $(STAMPS)/bench  ## Benchmarks, with the distance to their goals.
+	$(BIN)/python -m pytest bench -o addopts= --benchmark-only
+
+clean:  ## Remove what was built; .venv stays.
+	rm -rf build dist $(STAMPS)/editable
+
+distclean: clean  ## Remove .venv, too.
+	rm -rf $(VENV)
+
+# ---- set-up ---------------------------------------------------------------------------------------------------------
+
+# $(call need,CHECK,PACKAGE): when the shell command CHECK fails, install the Debian package PACKAGE.
+define need
+@$(1) >/dev/null 2>&1 || { \
+  echo "Installing the Debian package $(2)"; \
+  if [ "$$(id -u)" = 0 ]; then root=; else root=sudo; fi; \
+  if ! command -v apt-get >/dev/null || { [ -n "$$root" ] && ! command -v sudo >/dev/null; }; then \
+    echo "Please install $(2) (the name of the Debian package) and run make again." >&2; exit 1; fi; \
+  get() { $$root env DEBIAN_FRONTEND=noninteractive apt-get -qq "$$@" </dev/null; }; \
+  { get update && get install -y --no-install-recommends $(2) >/dev/null; } || { \
+    echo "apt-get could not install $(2): please install it and run make again." >&2; exit 1; }; }
+endef
+
+system-gtest:
+	$(call need,echo '#include <gtest/gtest.h>' | $${CXX:-g++} -E -x c++ -,libgtest-dev)
+
+$(VENV)/bin/python:
+	$(call need,$(PYTHON) -c 'import venv$(comma) ensurepip',python3-venv)
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and f"gradysim needs Python 3.11 or newer, {sys.executable} is {sys.version}")'
+	$(PYTHON) -m venv $(VENV)
+
+# Which packages, and which version of each: [dependency-groups] of pyproject.toml.
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/bench: pyproject.toml | $(VENV)/bin/python
+	@mkdir -p $(STAMPS)
+	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
+	$(BIN)/pip install --quiet --group $(@F)
+	@touch $@
+
+# Editable: Python sources are used where they lie, the compiled module is rebuilt here when a source of it changes.
+$(STAMPS)/editable: pyproject.toml $(cpp_engine) | $(STAMPS)/build
+	$(call need,$(BIN)/python -c 'import os$(comma)sys$(comma)sysconfig; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))',python3-dev)
+	$(BIN)/pip install --quiet --no-build-isolation --editable .
+	@touch $@
