@@ -4,8 +4,8 @@ A protocol is a set of callbacks (`IProtocol`); all it can do to the world goes 
 (`IProvider`). Neither knows which environment stands behind the other.
 """
 
-import random
 from abc import ABC, abstractmethod
+from random import Random
 from typing import Any, Self
 
 from gradysim.protocol.messages.communication import CommunicationCommand
@@ -17,7 +17,7 @@ class IProvider(ABC):
     """What a node offers to its protocol."""
 
     tracked_variables: dict[str, Any]
-    """Values that the protocol wants to be seen: environments show and record them, under the names given here."""
+    """Values that the protocol wants to be seen; environments show and record them under these names."""
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:
@@ -49,14 +49,14 @@ class IProvider(ABC):
         """Id of this node, unique in the network."""
 
     @property
-    def random(self) -> random.Random:
+    def random(self) -> Random:
         """The node's own stream of random numbers: the same in every run with the same seed.
 
         A provider that does not say otherwise gets a stream that depends on the node's id alone.
         """
-        stream: random.Random | None = getattr(self, "_default_random", None)
+        stream: Random | None = getattr(self, "_default_random", None)
         if stream is None:
-            stream = self._default_random = random.Random(self.get_id())
+            stream = self._default_random = Random(self.get_id())
         return stream
 
 
@@ -64,7 +64,7 @@ class IProtocol(ABC):
     """The behaviour of one node: what it does when something happens.
 
     Subclasses take no constructor arguments. `provider` is there from `initialize` on, not yet in the
-    constructor. The order in which the nodes' `initialize` and `finish` are called is not part of the contract.
+    constructor. The order of the nodes' `initialize` and `finish` is not part of the contract.
     """
 
     provider: IProvider

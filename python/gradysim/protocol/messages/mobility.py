@@ -12,7 +12,7 @@ class MobilityCommandType(int, Enum):
     GOTO_GEO_COORDS = 2
     """Go to (latitude, longitude, altitude) = (param_1, param_2, param_3), degrees, degrees, metres."""
     SET_SPEED = 3
-    """Set the speed to param_1; or, if all three are given, the velocity to (param_1, param_2, param_3); m/s."""
+    """Set the speed to param_1; or, if three are given, the velocity to (param_1, param_2, param_3); m/s."""
 
 
 @dataclass
