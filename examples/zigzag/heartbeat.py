@@ -1,0 +1,33 @@
+"""When heartbeats are sent."""
+
+import math
+from random import Random
+
+
+class HeartbeatClock:
+    """The times of a node's heartbeats: number k goes out at k * interval + a random delay of up to `jitter`.
+
+    All nodes count from time zero, so without jitter they all send at exactly the same instants. On a real
+    channel such heartbeats are never heard: a radio that transmits receives nothing. Hence the jitter.
+
+    Args:
+        interval: Seconds between two heartbeats, > 0.
+        jitter: Longest random delay in seconds, 0 (none) to `interval`.
+        start: The first heartbeat is the first one after this time in seconds.
+        random: Where the delays come from.
+    """
+
+    def __init__(self, interval: float, jitter: float, start: float, random: Random) -> None:
+        if not interval > 0:
+            raise ValueError(f"heartbeat_interval is {interval} s, expected more than 0 s")
+        if not 0 <= jitter <= interval:
+            raise ValueError(f"heartbeat_jitter is {jitter} s, expected 0 s to the interval, {interval} s")
+        self._interval = interval
+        self._jitter = jitter
+        self._random = random
+        self._number = math.floor(start / interval)
+
+    def next(self) -> float:
+        """Time of the next heartbeat in seconds."""
+        self._number += 1
+        return self._number * self._interval + self._random.uniform(0, self._jitter)

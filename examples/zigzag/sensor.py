@@ -1,0 +1,37 @@
+"""The sensor's part of ZigZag."""
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import SendMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+from zigzag.message import SensorData, UavHeartbeat, decode, encode
+
+
+class ZigZagSensor(IProtocol):
+    """Stands still and answers each heartbeat of a UAV with a reading.
+
+    Tracked variables:
+        answered: Readings sent so far.
+    """
+
+    def initialize(self) -> None:
+        """Start with nothing sent."""
+        self._answered = 0
+        self.provider.tracked_variables["answered"] = self._answered
+
+    def handle_packet(self, message: str) -> None:
+        """Answer the heartbeat of a UAV; what else is on the air does not concern a sensor."""
+        match decode(message):
+            case UavHeartbeat(sender=uav):
+                reading = SensorData(sender=self.provider.get_id())
+                self.provider.send_communication_command(SendMessageCommand(encode(reading), uav))
+                self._answered += 1
+                self.provider.tracked_variables["answered"] = self._answered
+
+    def handle_timer(self, timer: str) -> None:
+        """A sensor has no timers."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """A sensor does not need to know where it is."""
+
+    def finish(self) -> None:
+        """All that matters is tracked already."""
