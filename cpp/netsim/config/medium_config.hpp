@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 1> propagation_names{"ConstantSpee
 
 struct MediumConfig {
     // Sets the defaults of that medium. Throws ConfigError if it is none of medium_type_names.
-    explicit MediumConfig(std::string type_name = std::string(ieee80211_scalar_medium));
+    explicit MediumConfig(std::string medium_type_name = std::string(ieee80211_scalar_medium));
 
     std::string type_name;  // `typename` in Python; one of medium_type_names
 

@@ -18,10 +18,12 @@ struct RadioConfig {
     double tx_power_w = 0.02;           // ≥ 0
     double communication_range_m = 60;  // unit disk medium only, ≥ 0
 
-    double sensitivity_w = 3.1622776601683794e-12;  // -85 dBm; > 0: the least power to lock on to
-    double energy_detection_w =
-        3.1622776601683794e-12;                  // -85 dBm; > 0: noise and signals that make the channel busy
-    double snir_threshold = 2.5118864315095801;  // 4 dB; linear ratio, ≥ 0: at or below it every frame fails
+    // The least power to lock on to; > 0; -85 dBm.
+    double sensitivity_w = 3.1622776601683794e-12;
+    // Noise and signals together that make the channel busy; > 0; -85 dBm.
+    double energy_detection_w = 3.1622776601683794e-12;
+    // Linear ratio at or below which every frame fails; ≥ 0; 4 dB.
+    double snir_threshold = 2.5118864315095801;
 
     std::string error_model = "Ieee80211NistErrorModel";  // one of error_model_names
     std::string antenna = "IsotropicAntenna";             // one of antenna_names

@@ -4,13 +4,13 @@
 //
 // NIST model, s the linear SNIR: G. Pei and T. R. Henderson, "Validation of OFDM error rate model in ns-3",
 // 2010.
-//   OFDM  raw bit error p: BPSK ½erfc(√s), QPSK ½erfc(√(s/2)), 16-QAM ¾·½erfc(√(s/10)), 64-QAM
-//   7/12·½erfc(√(s/42));
-//         D = √(4p(1-p)); coded bit error = union bound over the weight spectrum of the 802.11 convolutional
-//         code, at most 1. Header 24 bits at BPSK 1/2, then the data bits of Mode::data_bits.
-//   DSSS  bit error: 1 Mbps ½e^(-2s), 2 Mbps (√2+1)/√(8π√2) · s^-½ · e^(-(2-√2)s), at most 1
-//   CCK   fits; 0 above s = 10, ½ below s = 0.1. Header of DSSS and CCK 48 bits at 1 Mbps, data 8 bits per
-//   byte.
+//   OFDM: raw bit error p = ½erfc(√s) for BPSK, ½erfc(√(s/2)) for QPSK, ¾·½erfc(√(s/10)) for 16-QAM and
+//     7/12·½erfc(√(s/42)) for 64-QAM. With D = √(4p(1-p)), coded bit error = the union bound over the weight
+//     spectrum of the 802.11 convolutional code, at most 1. Header 24 bits at BPSK 1/2, data the bits of
+//     Mode::data_bits.
+//   DSSS: bit error ½e^(-2s) at 1 Mbps and (√2+1)/√(8π√2) · s^-½ · e^(-(2-√2)s), at most 1, at 2 Mbps.
+//   CCK: fitted curves; 0 above s = 10, ½ below s = 0.1.
+//   Header of DSSS and CCK 48 bits at 1 Mbps, data 8 bits per byte.
 // success = (1 - header bit error)^header bits · (1 - data bit error)^data bits.
 //
 // ns-3's model of the same name has the same bit errors for OFDM, and for DSSS takes s times the ratio of

@@ -1,0 +1,30 @@
+#include "netsim/config/medium_config.hpp"
+
+#include <utility>
+
+#include "netsim/config/check.hpp"
+
+namespace netsim {
+
+MediumConfig::MediumConfig(std::string medium_type_name) : type_name(std::move(medium_type_name)) {
+    check_name("medium.typename", type_name, medium_type_names);
+    if (type_name == ieee802154_scalar_medium) {
+        path_loss = "BreakpointPathLoss";
+        background_noise_w = 2.179717791595641e-13;  // -96.616 dBm
+    }
+}
+
+void MediumConfig::validate() const {
+    check_name("medium.typename", type_name, medium_type_names);
+    check_name("medium.path_loss", path_loss, path_loss_names);
+    check_greater("medium.alpha", alpha, 0, "");
+    check_greater("medium.breakpoint_distance_m", breakpoint_distance_m, 0, "m");
+    check_finite("medium.l01_db", l01_db, "dB");
+    check_finite("medium.l02_db", l02_db, "dB");
+    check_greater("medium.alpha1", alpha1, 0, "");
+    check_greater("medium.alpha2", alpha2, 0, "");
+    check_at_least("medium.background_noise_w", background_noise_w, 0, "W");
+    check_name("medium.propagation", propagation, propagation_names);
+}
+
+}  // namespace netsim

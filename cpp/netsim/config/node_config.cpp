@@ -1,0 +1,20 @@
+#include "netsim/config/node_config.hpp"
+
+#include "netsim/config/check.hpp"
+#include "netsim/error.hpp"
+
+namespace netsim {
+
+void NodeConfig::validate() const {
+    if (name.empty()) {
+        throw ConfigError("node.name = \"\": expected a name that is not empty");
+    }
+    check_finite("node.initial_position.x", initial_position.x, "m");
+    check_finite("node.initial_position.y", initial_position.y, "m");
+    check_finite("node.initial_position.z", initial_position.z, "m");
+    radio.validate();
+    mac.validate();
+    mobility.validate();
+}
+
+}  // namespace netsim

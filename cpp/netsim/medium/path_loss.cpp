@@ -1,0 +1,65 @@
+#include "netsim/medium/path_loss.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "netsim/config/check.hpp"
+#include "netsim/error.hpp"
+#include "netsim/units.hpp"
+
+namespace netsim {
+
+double PathLoss::wavelength_factor(double carrier_hz) const {
+    if (!depends_on_carrier_) {
+        return 1;
+    }
+    const double wavelength_m = speed_of_light_mps / carrier_hz;
+    return wavelength_m * wavelength_m;
+}
+
+double PathLoss::gain_at_squared_distance(double squared_distance_m2, double carrier_hz) const {
+    const PowerLaw& law = squared_distance_m2 < squared_breakpoint_m2_ ? near_ : far_;
+    const double at_one_metre = law.coefficient * wavelength_factor(carrier_hz);
+    // Comparing before dividing also covers distance 0.
+    const double divisor =
+        law.exponent == 2 ? squared_distance_m2 : std::pow(squared_distance_m2, law.exponent / 2);
+    return at_one_metre >= divisor ? 1 : at_one_metre / divisor;
+}
+
+double PathLoss::reach_m(double gain, double carrier_hz) const {
+    if (gain > 1) {
+        return 0;
+    }
+    if (gain <= 0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double factor = wavelength_factor(carrier_hz);
+    const auto reach_of = [&](const PowerLaw& law) {
+        return std::pow(law.coefficient * factor / gain, 1 / law.exponent);
+    };
+    const double breakpoint_m = std::sqrt(squared_breakpoint_m2_);
+    const double far_reach_m = reach_of(far_);
+    // The two laws need not meet at the breakpoint: the far one may still reach where the near one does not.
+    return far_reach_m >= breakpoint_m ? far_reach_m : std::min(reach_of(near_), breakpoint_m);
+}
+
+PathLoss make_path_loss(const MediumConfig& config) {
+    check_name("medium.path_loss", config.path_loss, path_loss_names);
+    PathLoss path_loss;
+    if (config.path_loss == "FreeSpacePathLoss") {
+        constexpr double pi = std::numbers::pi;
+        path_loss.near_ = {1 / (16 * pi * pi), config.alpha};
+        path_loss.far_ = path_loss.near_;
+        path_loss.depends_on_carrier_ = true;
+        return path_loss;
+    }
+    NETSIM_ASSERT(config.path_loss == "BreakpointPathLoss");
+    path_loss.near_ = {ratio_from_db(-config.l01_db), config.alpha1};
+    path_loss.far_ = {ratio_from_db(-config.l02_db) * std::pow(config.breakpoint_distance_m, config.alpha2),
+                      config.alpha2};
+    path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
+    return path_loss;
+}
+
+}  // namespace netsim

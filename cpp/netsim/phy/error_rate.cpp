@@ -1,0 +1,156 @@
+#include "netsim/phy/error_rate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "netsim/config/check.hpp"
+#include "netsim/config/radio_config.hpp"
+#include "netsim/error.hpp"
+
+namespace netsim {
+namespace {
+
+// coefficients[0] + coefficients[1] x + …, by Horner's rule.
+template <std::size_t N>
+double polynomial(double x, const std::array<double, N>& coefficients) {
+    double sum = 0;
+    for (std::size_t i = N; i-- > 0;) {
+        sum = sum * x + coefficients[i];
+    }
+    return sum;
+}
+
+double to_the_fifth(double x) {
+    return x * x * x * x * x;
+}
+
+// Of OFDM after decoding. Raw bit error p = share · ½ erfc(√x), where x is the SNIR over the constellation's
+// spread.
+double coded_bit_error(Constellation constellation, CodeRate code_rate, double snir) {
+    double share = 1;
+    double x = snir;
+    switch (constellation) {
+        case Constellation::bpsk:
+            break;
+        case Constellation::qpsk:
+            x = snir / 2;
+            break;
+        case Constellation::qam16:
+            share = 3.0 / 4;
+            x = snir / 10;
+            break;
+        case Constellation::qam64:
+            share = 7.0 / 12;
+            x = snir / 42;
+            break;
+    }
+    // From these x on the union bound is below 1e-24: over a million bits it changes no digit of the success.
+    constexpr double last_x_one_half = 13;
+    constexpr double last_x_two_thirds = 20;
+    constexpr double last_x_three_quarters = 24;
+    const double last_x = code_rate == CodeRate::one_half     ? last_x_one_half
+                          : code_rate == CodeRate::two_thirds ? last_x_two_thirds
+                                                              : last_x_three_quarters;
+    if (x > last_x) {
+        return 0;
+    }
+
+    const double p = share * 0.5 * std::erfc(std::sqrt(x));
+    const double d_squared = 4 * p * (1 - p);
+    double bound = 0;
+    switch (code_rate) {
+        case CodeRate::one_half:  // even powers only, from D^10 on
+            bound =
+                1.0 / 2 * to_the_fifth(d_squared) *
+                polynomial<9>(d_squared, {36, 211, 1404, 11633, 77433, 502690, 3322763, 21292910, 134365911});
+            break;
+        case CodeRate::two_thirds:  // from D^6 on
+            bound = 1.0 / 4 * d_squared * d_squared * d_squared *
+                    polynomial<10>(std::sqrt(d_squared),
+                                   {3, 70, 285, 1276, 6160, 27128, 117019, 498860, 2103891, 8784123});
+            break;
+        case CodeRate::three_quarters: {  // from D^5 on
+            const double d = std::sqrt(d_squared);
+            bound = 1.0 / 6 * to_the_fifth(d) *
+                    polynomial<10>(
+                        d, {42, 201, 1492, 10469, 62935, 379644, 2253373, 13073811, 75152755, 428005675});
+            break;
+        }
+        case CodeRate::none:
+            NETSIM_ASSERT(code_rate != CodeRate::none);
+    }
+    return std::min(bound, 1.0);
+}
+
+double dsss_1_bit_error(double snir) {
+    return 0.5 * std::exp(-2 * snir);
+}
+
+double dsss_2_bit_error(double snir) {
+    constexpr double sqrt2 = std::numbers::sqrt2;
+    static const double factor = (sqrt2 + 1) / std::sqrt(8 * std::numbers::pi * sqrt2);
+    return std::min(factor / std::sqrt(snir) * std::exp(-(2 - sqrt2) * snir), 1.0);
+}
+
+// Fits to simulated CCK receivers, with the range in which they hold.
+double cck_bit_error(double snir, double (*fit)(double)) {
+    if (snir > 10) {
+        return 0;
+    }
+    return snir < 0.1 ? 0.5 : fit(snir);
+}
+
+double cck_5_5_fit(double snir) {
+    return 0.53681634344 * std::exp(-std::pow((snir - 0.0033092430026) / 0.416543723610, 1.02889815344));
+}
+
+double cck_11_fit(double snir) {
+    const double dividend = polynomial<3>(snir, {1.07406894673, -0.18397449399, 0.0079056742265});
+    const double divisor = polynomial<4>(snir, {2.20327151287, 0.30552298746, 1.05233169046, 1});
+    return dividend / divisor;
+}
+
+double log_success(double bit_error, double bits) {
+    if (bit_error == 0 || bits == 0) {
+        return 0;
+    }
+    return bit_error < 1 ? bits * std::log1p(-bit_error) : -std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double NistErrorModel::bit_error_rate(const Mode& mode, double snir) {
+    NETSIM_ASSERT(snir >= 0);
+    switch (mode.family) {
+        case ModeFamily::ofdm:
+            return coded_bit_error(mode.constellation, mode.code_rate, snir);
+        case ModeFamily::dsss:
+            return mode.bitrate_bps == 1'000'000 ? dsss_1_bit_error(snir) : dsss_2_bit_error(snir);
+        case ModeFamily::cck:
+            return cck_bit_error(snir, mode.bitrate_bps == 5'500'000 ? cck_5_5_fit : cck_11_fit);
+    }
+    NETSIM_ASSERT(false);
+}
+
+double NistErrorModel::success_probability(const Mode& mode, double snir, int psdu_bytes) const {
+    NETSIM_ASSERT(snir >= 0);
+    const bool is_ofdm = mode.family == ModeFamily::ofdm;
+    const double header_bits = is_ofdm ? 24 : 48;
+    const double header_bit_error =
+        is_ofdm ? coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir) : dsss_1_bit_error(snir);
+    const double log_of_both =
+        log_success(header_bit_error, header_bits) +
+        log_success(bit_error_rate(mode, snir), static_cast<double>(mode.data_bits(psdu_bytes)));
+    return log_of_both == 0 ? 1 : std::exp(log_of_both);
+}
+
+const ErrorModel& error_model(std::string_view name) {
+    static const NistErrorModel nist;
+    check_name("radio.error_model", name, error_model_names);
+    return nist;
+}
+
+}  // namespace netsim
