@@ -88,6 +88,8 @@ class Network:
     def run_until(self, time: float, max_events: int = ...) -> bool:
         """Run the events up to and including `time` (seconds). False when `max_events` came first."""
     def finish(self) -> None: ...
+    def release_protocols(self) -> None:
+        """Let go of the protocols, which refer back to the network. Call it when done, also after a failure."""
     @property
     def now(self) -> float:
         """Simulated time in seconds."""
@@ -98,5 +100,9 @@ class Network:
         """16 hexadecimal digits: a hash of all that happened on the air, in the queues and in the protocols."""
     def frame_fates(self) -> dict[str, dict[str, int]]:
         """Copies of frames: {kind: {fate: count}}; kind "broadcast", "unicast", "unicast overheard", "ack", "ack overheard"."""
+    def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
+        """The same for the copies at one node that were strong enough to be received."""
+    def interferers_at(self, receiver: int) -> dict[int, int]:
+        """{node: copies that this receiver lost to interference while that node was on the air}."""
     def message_fates(self) -> dict[str, dict[str, int]]:
         """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""

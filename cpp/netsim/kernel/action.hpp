@@ -1,0 +1,35 @@
+// What an event does when its time has come: a callable without arguments, stored in place.
+//
+// Events are made and dropped by the million, so an Action never allocates: it takes trivially copyable callables of
+// at most 32 bytes (a lambda that captures a few pointers and numbers), which is checked when it is compiled.
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <type_traits>
+
+namespace netsim {
+
+class Action {
+public:
+    Action() = default;
+
+    template <typename Callable>
+        requires(!std::is_same_v<std::decay_t<Callable>, Action>)
+    Action(Callable callable)  // NOLINT(google-explicit-constructor): a lambda is meant to become an Action silently
+        : invoke_([](void* storage) { (*static_cast<Callable*>(storage))(); }) {
+        static_assert(sizeof(Callable) <= capacity_bytes, "an event's lambda captures at most 32 bytes");
+        static_assert(std::is_trivially_copyable_v<Callable>, "an event's lambda captures only pointers and numbers");
+        ::new (static_cast<void*>(storage_)) Callable(callable);
+    }
+
+    void operator()() { invoke_(storage_); }
+
+private:
+    static constexpr std::size_t capacity_bytes = 32;
+
+    void (*invoke_)(void*) = nullptr;
+    alignas(std::max_align_t) std::byte storage_[capacity_bytes];
+};
+
+}  // namespace netsim

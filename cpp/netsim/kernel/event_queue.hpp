@@ -1,0 +1,72 @@
+// The pending events of one simulation, in the order in which they will run.
+//
+// The order is a contract: by time, then by priority, then by the order of scheduling. Small keys live in a binary
+// heap, what an event does lives in a pool beside it. Cancelling marks the pool's slot; the key is dropped when it
+// reaches the top, or all dead keys together when they outnumber the living.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "netsim/kernel/action.hpp"
+#include "netsim/kernel/sim_time.hpp"
+
+namespace netsim {
+
+// Among events of one instant, `last` runs after all `normal` ones, whenever they were scheduled.
+enum class Priority : std::uint8_t { normal = 0, last = 1 };
+
+// Names one scheduled event. A handle of an event that has run or was cancelled is harmless.
+struct EventHandle {
+    std::uint32_t slot = 0;
+    std::uint32_t generation = 0;  // 0: no event
+};
+
+class EventQueue {
+public:
+    EventHandle push(SimTime time, Priority priority, Action action);
+
+    // True if the event was pending. O(1) amortised.
+    bool cancel(EventHandle handle);
+    bool is_pending(EventHandle handle) const;
+
+    bool empty() const { return live_ == 0; }
+    std::size_t size() const { return live_; }
+
+    // Time of the next event. Only when not empty.
+    SimTime next_time();
+    // Takes the next event out of the queue. Only when not empty.
+    Action pop();
+
+private:
+    struct Key {
+        std::int64_t time_ps;
+        std::uint64_t order;  // priority in the top bit, sequence number below
+        std::uint32_t slot;
+        std::uint32_t generation;
+
+        bool operator<(const Key& other) const {
+            return time_ps != other.time_ps ? time_ps < other.time_ps : order < other.order;
+        }
+    };
+    struct Slot {
+        Action action;
+        std::uint32_t generation = 1;
+    };
+
+    bool is_dead(const Key& key) const { return slots_[key.slot].generation != key.generation; }
+    void release(std::uint32_t slot);
+    void drop_dead_top();
+    void drop_all_dead();
+    void sift_up(std::size_t position);
+    void sift_down(std::size_t position);
+    void remove_top();
+
+    std::vector<Key> heap_;
+    std::vector<Slot> slots_;
+    std::vector<std::uint32_t> free_slots_;
+    std::uint64_t next_sequence_ = 0;
+    std::size_t live_ = 0;
+};
+
+}  // namespace netsim

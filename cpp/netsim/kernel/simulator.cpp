@@ -1,0 +1,33 @@
+#include "netsim/kernel/simulator.hpp"
+
+#include "netsim/error.hpp"
+
+namespace netsim {
+
+EventHandle Simulator::schedule_at(SimTime time, Action action, Priority priority) {
+    NETSIM_ASSERT(time >= now_);
+    return queue_.push(time, priority, action);
+}
+
+bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
+    std::uint64_t budget = max_events;
+    while (!queue_.empty()) {
+        const SimTime time = queue_.next_time();
+        if (time > limit) {
+            break;
+        }
+        if (budget-- == 0) {
+            return false;
+        }
+        now_ = time;
+        ++event_count_;
+        Action action = queue_.pop();
+        action();
+    }
+    if (limit > now_) {
+        now_ = limit;
+    }
+    return true;
+}
+
+}  // namespace netsim

@@ -1,0 +1,39 @@
+// The clock and the event loop under all layers.
+//
+// Knows nothing of networks: it runs actions in the order of EventQueue and tells the time. An exception thrown by
+// an action leaves `run_until`; the simulator stays usable (the failed event is gone, the clock stands at its time).
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/kernel/event_queue.hpp"
+#include "netsim/kernel/sim_time.hpp"
+
+namespace netsim {
+
+class Simulator {
+public:
+    SimTime now() const { return now_; }
+    // Events that have run so far.
+    std::uint64_t event_count() const { return event_count_; }
+    std::size_t pending_count() const { return queue_.size(); }
+
+    // The caller sees to it that `time` is not in the past.
+    EventHandle schedule_at(SimTime time, Action action, Priority priority = Priority::normal);
+    EventHandle schedule_after(SimTime delay, Action action, Priority priority = Priority::normal) {
+        return schedule_at(now_ + delay, action, priority);
+    }
+    bool cancel(EventHandle handle) { return queue_.cancel(handle); }
+    bool is_pending(EventHandle handle) const { return queue_.is_pending(handle); }
+
+    // Runs the events up to and including `limit`, then sets the clock to it. Returns false, with the clock at the
+    // last event, when `max_events` have run before that.
+    bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0});
+
+private:
+    EventQueue queue_;
+    SimTime now_;
+    std::uint64_t event_count_ = 0;
+};
+
+}  // namespace netsim

@@ -1,0 +1,69 @@
+// The wait for the channel of one station: interframe space and backoff, also called channel access function.
+//
+//   IDLE --start, channel free--> WAITING --time is up--> IDLE, and the channel is granted
+//     |                            |   ^
+//     +--start, channel busy--+  busy  | free: interframe space again, then the slots that were left
+//                             v    v   |
+//                             DEFERRING
+//
+// Every wait is DIFS (EIFS after a broken frame) + backoff · slot. Immediate access (`backoff_optimization`): time for
+// which the channel was free and this station idle before `start` counts towards it, so a frame that meets a channel
+// idle for long enough leaves at once. A grant is the last event of its instant: what made the channel busy at the
+// same instant wins.
+#pragma once
+
+#include "netsim/kernel/random.hpp"
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/timing.hpp"
+
+namespace netsim {
+
+class ContentionListener {
+public:
+    virtual void channel_granted() = 0;
+
+protected:
+    ~ContentionListener() = default;
+};
+
+class Contention {
+public:
+    Contention(Simulator& simulator, const MacTiming& timing, bool backoff_optimization, RandomStream draws,
+               ContentionListener& listener)
+        : simulator_(simulator),
+          timing_(timing),
+          backoff_optimization_(backoff_optimization),
+          draws_(draws),
+          listener_(listener) {}
+
+    // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
+    void start(int contention_window);
+    bool in_progress() const { return state_ != State::idle; }
+
+    // The channel became busy (by the radio's word or the NAV's) or free. Told in every state, at changes only.
+    void channel_busy_changed(bool busy);
+    // A frame was received broken: the next wait begins with EIFS. Counts only while a wait is in progress.
+    void frame_corrupted();
+
+private:
+    enum class State { idle, deferring, waiting };
+
+    void schedule_grant(SimTime credit);
+    void granted();
+
+    Simulator& simulator_;
+    MacTiming timing_;
+    bool backoff_optimization_;
+    RandomStream draws_;
+    ContentionListener& listener_;
+    State state_ = State::idle;
+    bool busy_ = false;
+    int slots_left_ = 0;
+    SimTime free_since_ = SimTime::long_ago();
+    SimTime idle_since_ = SimTime::long_ago();
+    SimTime eifs_until_ = SimTime::long_ago();
+    SimTime grant_time_;
+    EventHandle grant_;
+};
+
+}  // namespace netsim

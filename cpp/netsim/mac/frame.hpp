@@ -1,0 +1,45 @@
+// The frames of the 802.11 MAC and their sizes.
+//
+// A frame is a value: made once for each attempt to send it, never changed, shared by all that hear it.
+// Source of sizes: IEEE 802.11 frame formats; LLC/SNAP, IPv4 and UDP headers as a datagram over WLAN has them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/trace/frame_fates.hpp"
+
+namespace netsim {
+
+// The text of a message, in UTF-8, shared by all that receive it.
+using Payload = std::shared_ptr<const std::string>;
+
+// Octets.
+constexpr int mac_header_bytes = 24;
+constexpr int fcs_bytes = 4;
+constexpr int llc_snap_bytes = 8;
+constexpr int ipv4_header_bytes = 20;
+constexpr int udp_header_bytes = 8;
+constexpr int ack_bytes = 14;
+
+// Length of the MPDU that carries a payload: 100 B make 164 B.
+constexpr int data_psdu_bytes(int payload_bytes) {
+    return mac_header_bytes + llc_snap_bytes + ipv4_header_bytes + udp_header_bytes + payload_bytes + fcs_bytes;
+}
+// Length of the IP datagram, which the MTU limits.
+constexpr int datagram_bytes(int payload_bytes) { return ipv4_header_bytes + udp_header_bytes + payload_bytes; }
+
+struct Frame {
+    FrameKind kind = FrameKind::broadcast;
+    NodeId transmitter = 0;
+    NodeId receiver = broadcast_id;
+    std::uint32_t sequence = 0;  // of the transmitter's data frames; a retry keeps it
+    bool retry = false;
+    SimTime duration_field;  // how long the exchange goes on after this frame: sets the NAV of others
+    int psdu_bytes = 0;
+    Payload payload;  // none in an ACK
+};
+
+}  // namespace netsim

@@ -1,0 +1,27 @@
+// What a node asks of its network interface, and what it hears from it.
+//
+// Two interfaces exist: Dcf (an 802.11 station) and UnitDiskLink (a perfect channel).
+#pragma once
+
+#include "netsim/mac/frame.hpp"
+
+namespace netsim {
+
+class LinkListener {
+public:
+    virtual void message_received(NodeId source, const Payload& payload) = 0;
+
+protected:
+    ~LinkListener() = default;
+};
+
+class Link {
+public:
+    virtual ~Link() = default;
+    // Takes a message for `destination` (broadcast_id: for all in reach). Throws SimulationError if it is too long.
+    virtual void send(NodeId destination, Payload payload) = 0;
+    // Messages that were accepted and are in no other fate yet: a census to check the ledger with.
+    virtual std::size_t queued_messages() const = 0;
+};
+
+}  // namespace netsim

@@ -1,0 +1,70 @@
+#include "netsim/mac/unit_disk_link.hpp"
+
+#include <utility>
+
+namespace netsim {
+
+UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, double range_m,
+                           const Trajectory& trajectory, FrameFates& frame_fates, MessageFates& message_fates,
+                           Fingerprint& fingerprint, LinkListener& listener)
+    : simulator_(simulator),
+      channel_(channel),
+      range_m_(range_m),
+      trajectory_(trajectory),
+      frame_fates_(frame_fates),
+      message_fates_(message_fates),
+      fingerprint_(fingerprint),
+      listener_(listener),
+      id_(static_cast<NodeId>(channel.links.size())) {
+    channel.links.push_back(this);
+}
+
+void UnitDiskLink::send(NodeId destination, Payload payload) {
+    const bool broadcast = destination == broadcast_id;
+    const MessageKind kind = broadcast ? MessageKind::broadcast : MessageKind::unicast;
+    const FrameLabel label{broadcast ? FrameKind::broadcast : FrameKind::unicast, destination};
+    message_fates_.accept(kind);
+    fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
+    fingerprint_.add(static_cast<std::uint64_t>(id_));
+    CopyCount addressed;
+    for (NodeId node = 0; node < static_cast<NodeId>(channel_.links.size()); ++node) {
+        if (node == id_ || !label.is_for(node)) {
+            continue;
+        }
+        UnitDiskLink* receiver = channel_.links[node];
+        ++addressed.made;
+        if (!reaches(*receiver)) {
+            ++addressed.too_weak;
+            continue;
+        }
+        std::size_t flight = flights_.size();
+        if (free_flights_.empty()) {
+            flights_.emplace_back();
+        } else {
+            flight = free_flights_.back();
+            free_flights_.pop_back();
+        }
+        flights_[flight] = Flight{payload, receiver, label};
+        simulator_.schedule_after(SimTime{}, [this, flight] { deliver(flight); });
+    }
+    frame_fates_.book_transmission(label, addressed, CopyCount{});
+    if (broadcast) {
+        message_fates_.book(kind, MessageFate::sent);
+    } else {
+        message_fates_.book(kind, addressed.too_weak == 0 ? MessageFate::acknowledged : MessageFate::out_of_range);
+    }
+}
+
+bool UnitDiskLink::reaches(const UnitDiskLink& other) const {
+    const SimTime now = simulator_.now();
+    return distance(trajectory_.position_at(now), other.trajectory_.position_at(now)) <= range_m_;
+}
+
+void UnitDiskLink::deliver(std::size_t flight) {
+    const Flight landed = std::move(flights_[flight]);
+    free_flights_.push_back(flight);
+    frame_fates_.book(landed.receiver->id_, landed.label, FrameFate::delivered);
+    landed.receiver->listener_.message_received(id_, landed.payload);
+}
+
+}  // namespace netsim

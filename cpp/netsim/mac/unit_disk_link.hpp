@@ -1,0 +1,60 @@
+// A perfect channel: whoever is within the sender's range gets the message, at the instant it is sent.
+//
+// No airtime, no interference, no loss: the channel of prototype mode (whose rules it follows to the letter), so that
+// a protocol's logic can be told apart from what the radio does to it. The range is inclusive and judged at sending.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/link.hpp"
+#include "netsim/mobility/trajectory.hpp"
+#include "netsim/trace/frame_fates.hpp"
+#include "netsim/trace/message_fates.hpp"
+
+namespace netsim {
+
+class UnitDiskLink;
+
+// All links of one network, by node id.
+struct UnitDiskChannel {
+    std::vector<UnitDiskLink*> links;
+};
+
+class UnitDiskLink final : public Link {
+public:
+    UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, double range_m, const Trajectory& trajectory,
+                 FrameFates& frame_fates, MessageFates& message_fates, Fingerprint& fingerprint,
+                 LinkListener& listener);
+    UnitDiskLink(const UnitDiskLink&) = delete;
+    UnitDiskLink& operator=(const UnitDiskLink&) = delete;
+
+    void send(NodeId destination, Payload payload) override;
+    std::size_t queued_messages() const override { return 0; }
+
+private:
+    bool reaches(const UnitDiskLink& other) const;
+    void deliver(std::size_t flight);
+
+    Simulator& simulator_;
+    UnitDiskChannel& channel_;
+    double range_m_;
+    const Trajectory& trajectory_;
+    FrameFates& frame_fates_;
+    MessageFates& message_fates_;
+    Fingerprint& fingerprint_;
+    LinkListener& listener_;
+    NodeId id_;
+
+    struct Flight {  // a message between its sending and its delivery within the same instant
+        Payload payload;
+        UnitDiskLink* receiver = nullptr;
+        FrameLabel label;
+    };
+    std::vector<Flight> flights_;
+    std::vector<std::size_t> free_flights_;
+};
+
+}  // namespace netsim

@@ -1,0 +1,178 @@
+#include "netsim/medium/medium.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "netsim/units.hpp"
+
+namespace netsim {
+
+Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint)
+    : simulator_(simulator),
+      fates_(fates),
+      fingerprint_(fingerprint),
+      path_loss_(make_path_loss(config)),
+      background_noise_w_(config.background_noise_w) {}
+
+NodeId Medium::attach(const Receiver& receiver) {
+    receivers_.push_back(receiver);
+    return static_cast<NodeId>(receivers_.size()) - 1;
+}
+
+void Medium::transmit(Transmission transmission) {
+    forget_the_past();
+    const SimTime now = simulator_.now();
+    const bool others_on_air = !on_air_.empty();
+    transmission.id = next_id_++;
+    transmission.start = now;
+    transmission.origin = receivers_[transmission.sender].trajectory->position_at(now);
+    fingerprint_.add(static_cast<std::uint64_t>(now.ps()));
+    fingerprint_.add((static_cast<std::uint64_t>(transmission.sender) << 32) ^ transmission.psdu_bytes);
+
+    OnAir& entry = on_air_.emplace_back(OnAir{std::move(transmission), now, {}});
+    const Transmission& sent = entry.transmission;
+    entry.last_end = now + sent.duration;
+    CopyCount addressed;
+    CopyCount overheard;
+    for (NodeId node = 0; node < static_cast<NodeId>(receivers_.size()); ++node) {
+        const Receiver& receiver = receivers_[node];
+        if (node == sent.sender || !sent.band.fits_in(receiver.band)) {
+            continue;
+        }
+        const Arrival arrival = arrival_at(sent, receiver);
+        entry.last_end = std::max(entry.last_end, arrival.end);
+        CopyCount& count = sent.label.is_for(node) ? addressed : overheard;
+        ++count.made;
+        if (arrival.power_w < receiver.sensitivity_w) {
+            ++count.too_weak;
+        }
+        const bool told = is_told_alone(receiver, arrival.power_w);
+        if (told) {
+            tell(receiver, arrival);
+        }
+        if (others_on_air && background_noise_w_ + arrival.power_w < receiver.energy_detection_w) {
+            tell_if_energy_adds_up(node, entry, arrival);
+        }
+    }
+    fates_.book_transmission(sent.label, addressed, overheard);
+}
+
+Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& receiver) const {
+    const Position there = receiver.trajectory->position_at(transmission.start);
+    const double distance_m = distance(transmission.origin, there);
+    const SimTime start = transmission.start + SimTime::from_seconds(distance_m / speed_of_light_mps);
+    return Arrival{&transmission, start, start + transmission.duration,
+                   transmission.power_w * path_loss_.gain(distance_m, transmission.band.carrier_hz)};
+}
+
+void Medium::tell(const Receiver& receiver, const Arrival& arrival) {
+    MediumListener* listener = receiver.listener;
+    if (arrival.start < simulator_.now()) {
+        // It came to matter after it had begun: nothing that the radio could have noticed happened in between.
+        begin(listener, arrival);
+        return;
+    }
+    simulator_.schedule_at(arrival.start,
+                           [this, listener, transmission = arrival.transmission, power_w = arrival.power_w] {
+                               const SimTime start = simulator_.now();
+                               begin(listener, Arrival{transmission, start, start + transmission->duration, power_w});
+                           });
+}
+
+void Medium::begin(MediumListener* listener, const Arrival& arrival) {
+    listener->arrival_started(arrival);
+    simulator_.schedule_at(arrival.end,
+                           [this, listener, transmission = arrival.transmission, power_w = arrival.power_w] {
+                               const SimTime end = simulator_.now();
+                               listener->arrival_ended(Arrival{transmission, end - transmission->duration, end, power_w});
+                           });
+}
+
+void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival) {
+    const Receiver& receiver = receivers_[node];
+    double sum_w = background_noise_w_ + arrival.power_w;
+    together_.clear();
+    if (!is_told_alone(receiver, arrival.power_w)) {
+        together_.emplace_back(&newest, arrival);
+    }
+    for (OnAir& other : on_air_) {
+        if (&other == &newest || other.transmission.sender == node ||
+            !other.transmission.band.fits_in(receiver.band)) {
+            continue;
+        }
+        const Arrival beside = arrival_at(other.transmission, receiver);
+        if (beside.end <= arrival.start || beside.start >= arrival.end ||
+            background_noise_w_ + beside.power_w >= receiver.energy_detection_w) {
+            continue;
+        }
+        sum_w += beside.power_w;
+        if (!is_told_alone(receiver, beside.power_w) &&
+            std::find(other.told_later.begin(), other.told_later.end(), node) == other.told_later.end()) {
+            together_.emplace_back(&other, beside);
+        }
+    }
+    if (sum_w < receiver.energy_detection_w) {
+        return;
+    }
+    for (auto& [on_air, unnoticed] : together_) {
+        on_air->told_later.push_back(node);
+        tell(receiver, unnoticed);
+    }
+}
+
+const Interference& Medium::interference_with(NodeId receiver, const Arrival& arrival) {
+    interference_.max_power_w = 0;
+    interference_.interferers.clear();
+    if (on_air_.size() <= 1) {
+        return interference_;
+    }
+    const Receiver& here = receivers_[receiver];
+    overlapping_.clear();
+    for (const OnAir& other : on_air_) {
+        if (&other.transmission == arrival.transmission || other.transmission.sender == receiver ||
+            !other.transmission.band.fits_in(here.band) || other.last_end <= arrival.start ||
+            other.transmission.start >= arrival.end) {
+            continue;
+        }
+        const Arrival beside = arrival_at(other.transmission, here);
+        if (beside.start < arrival.end && beside.end > arrival.start) {
+            overlapping_.push_back(beside);
+        }
+    }
+    // The sum is a step function that only rises where an arrival starts: look there.
+    SimTime worst;
+    for (const Arrival& candidate : overlapping_) {
+        const SimTime moment = std::max(candidate.start, arrival.start);
+        double sum_w = 0;
+        for (const Arrival& beside : overlapping_) {
+            if (beside.start <= moment && moment < beside.end) {
+                sum_w += beside.power_w;
+            }
+        }
+        if (sum_w > interference_.max_power_w) {
+            interference_.max_power_w = sum_w;
+            worst = moment;
+        }
+    }
+    for (const Arrival& beside : overlapping_) {
+        const NodeId sender = beside.transmission->sender;
+        auto& interferers = interference_.interferers;
+        if (beside.start <= worst && worst < beside.end &&
+            std::find(interferers.begin(), interferers.end(), sender) == interferers.end()) {
+            interferers.push_back(sender);
+        }
+    }
+    return interference_;
+}
+
+void Medium::forget_the_past() {
+    const SimTime now = simulator_.now();
+    const auto active = std::find_if(on_air_.begin(), on_air_.end(),
+                                     [now](const OnAir& entry) { return entry.last_end >= now; });
+    const SimTime needed_from = active == on_air_.end() ? now : active->transmission.start;
+    while (!on_air_.empty() && on_air_.front().last_end < needed_from) {
+        on_air_.pop_front();
+    }
+}
+
+}  // namespace netsim

@@ -1,0 +1,51 @@
+// One frame on the air: made once, never changed, shared by all that hear it.
+//
+// The medium knows only the physical side. `mode` and `frame` belong to the layers above and are handed through.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "netsim/geometry/position.hpp"
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/trace/frame_fates.hpp"
+
+namespace netsim {
+
+struct Frame;  // mac/frame.hpp
+struct Mode;   // phy/modes.hpp
+
+// The slice of spectrum of a transmission, or the one that a receiver listens to.
+struct Band {
+    double carrier_hz = 0;
+    double bandwidth_hz = 0;
+
+    // A receiver in band `listener` gets a signal only if the centre frequencies are equal and the signal fits.
+    bool fits_in(const Band& listener) const {
+        return carrier_hz == listener.carrier_hz && bandwidth_hz <= listener.bandwidth_hz;
+    }
+};
+
+struct Transmission {
+    std::uint64_t id = 0;  // 0, 1, 2, … in the order of starting
+    NodeId sender = 0;
+    SimTime start;
+    SimTime duration;
+    double power_w = 0;
+    Band band;
+    Position origin;  // of the sender, at the start
+    FrameLabel label;
+    int psdu_bytes = 0;
+    const Mode* mode = nullptr;
+    std::shared_ptr<const Frame> frame;
+};
+
+// A transmission as one receiver gets it.
+struct Arrival {
+    const Transmission* transmission = nullptr;
+    SimTime start;
+    SimTime end;
+    double power_w = 0;
+};
+
+}  // namespace netsim

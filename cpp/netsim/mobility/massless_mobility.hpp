@@ -1,0 +1,22 @@
+// A vehicle without inertia: straight to the target at the set speed, there a dead stop.
+#pragma once
+
+#include <optional>
+
+#include "netsim/mobility/mobility.hpp"
+
+namespace netsim {
+
+class MasslessMobility final : public Mobility {
+public:
+    MasslessMobility(Position initial, double speed_mps) : Mobility(initial), speed_mps_(speed_mps) {}
+
+    void go_to(SimTime now, Position target) override;
+    void set_speed(SimTime now, double speed_mps) override;
+
+private:
+    double speed_mps_;
+    std::optional<Position> target_;
+};
+
+}  // namespace netsim

@@ -1,0 +1,42 @@
+// Where a node is, as a formula of time: a sequence of straight legs at constant speed.
+//
+// No event moves a node; whoever needs a position asks for it. The legs of the last second are kept, because the
+// medium works out powers of frames that started a moment ago.
+#pragma once
+
+#include <deque>
+
+#include "netsim/geometry/position.hpp"
+#include "netsim/kernel/sim_time.hpp"
+
+namespace netsim {
+
+class Trajectory {
+public:
+    // How far before the newest leg position_at may ask. Longer than any frame with its propagation.
+    static constexpr SimTime memory = SimTime::from_us(1'000'000);
+
+    explicit Trajectory(Position initial) { legs_.push_back(Leg{SimTime::long_ago(), SimTime::long_ago(), initial, initial}); }
+
+    Position position_at(SimTime time) const;
+
+    // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is.
+    void go_to(SimTime now, Position target, double speed_mps);
+    // From `now` on stand still.
+    void stop(SimTime now);
+
+private:
+    struct Leg {
+        SimTime start;
+        SimTime arrival;
+        Position origin;
+        Position target;
+    };
+
+    static Position position_on(const Leg& leg, SimTime time);
+    void add(const Leg& leg);
+
+    std::deque<Leg> legs_;  // by start; the last one holds from its start on
+};
+
+}  // namespace netsim

@@ -1,0 +1,57 @@
+#include "netsim/node/network.hpp"
+
+#include "netsim/mac/dcf.hpp"
+
+namespace netsim {
+
+namespace {
+
+const MediumConfig& validated(const MediumConfig& config) {
+    config.validate();
+    return config;
+}
+
+}  // namespace
+
+Network::Network(const MediumConfig& medium, std::uint64_t seed)
+    : seed_(seed),
+      perfect_channel_(validated(medium).type_name == "UnitDiskRadioMedium"),
+      medium_(simulator_, medium, frame_fates_, fingerprint_) {}
+
+Node& Network::add_node(const NodeConfig& config) {
+    config.validate();
+    Node& node = nodes_.emplace_back(simulator_, config, node_count_++, fingerprint_);
+    node.set_node_count(&node_count_);
+    frame_fates_.add_node();
+    if (perfect_channel_) {
+        node.set_link(std::make_unique<UnitDiskLink>(simulator_, unit_disk_, config.radio.communication_range_m,
+                                                     node.trajectory(), frame_fates_, message_fates_, fingerprint_,
+                                                     node.link_listener()));
+    } else {
+        Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_, frame_fates_,
+                                            fingerprint_);
+        node.set_link(
+            std::make_unique<Dcf>(simulator_, radio, config.mac, seed_, message_fates_, node.link_listener()));
+    }
+    return node;
+}
+
+void Network::initialize() {
+    for (Node& node : nodes_) {
+        node.initialize();
+    }
+}
+
+void Network::finish() {
+    for (Node& node : nodes_) {
+        node.finish();
+    }
+}
+
+void Network::release_protocols() {
+    for (Node& node : nodes_) {
+        node.set_protocol(nullptr);
+    }
+}
+
+}  // namespace netsim

@@ -1,0 +1,68 @@
+// A whole simulation: the clock, the medium, the nodes and the ledgers. Owns everything, shares nothing.
+//
+// Two networks may run interleaved, step by step, in one process. Use: add_node and set_protocol for each node,
+// initialize(), run_until() as often as wanted, finish(), then read the ledgers.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+
+#include "netsim/config/medium_config.hpp"
+#include "netsim/config/node_config.hpp"
+#include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/unit_disk_link.hpp"
+#include "netsim/medium/medium.hpp"
+#include "netsim/node/node.hpp"
+#include "netsim/phy/radio.hpp"
+#include "netsim/trace/frame_fates.hpp"
+#include "netsim/trace/message_fates.hpp"
+
+namespace netsim {
+
+class Network {
+public:
+    // Throws ConfigError for values out of range.
+    Network(const MediumConfig& medium, std::uint64_t seed);
+    Network(const Network&) = delete;
+    Network& operator=(const Network&) = delete;
+
+    // Nodes get the ids 0, 1, … in the order of adding. The reference stays valid as long as the network.
+    Node& add_node(const NodeConfig& config);
+    Node& node(NodeId id) { return nodes_.at(static_cast<std::size_t>(id)); }
+    const Node& node(NodeId id) const { return nodes_.at(static_cast<std::size_t>(id)); }
+    std::int32_t node_count() const { return node_count_; }
+
+    // Calls the protocols' initialize, in the order of ids, at time 0.
+    void initialize();
+    // Runs the events up to and including `limit`; false if `max_events` ran before that.
+    bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
+        return simulator_.run_until(limit, max_events);
+    }
+    // Calls the protocols' finish, in the order of ids.
+    void finish();
+    // Drops the protocols, which may own more than their memory (a Python object that refers back to its node).
+    void release_protocols();
+
+    SimTime now() const { return simulator_.now(); }
+    std::uint64_t event_count() const { return simulator_.event_count(); }
+    std::uint64_t fingerprint() const { return fingerprint_.value(); }
+    const FrameFates& frame_fates() const { return frame_fates_; }
+    const MessageFates& message_fates() const { return message_fates_; }
+
+private:
+    Simulator simulator_;
+    std::uint64_t seed_;
+    Fingerprint fingerprint_;
+    FrameFates frame_fates_;
+    MessageFates message_fates_;
+    bool perfect_channel_;
+    Medium medium_;
+    UnitDiskChannel unit_disk_;
+    std::deque<Radio> radios_;
+    std::deque<Node> nodes_;
+    std::int32_t node_count_ = 0;
+};
+
+}  // namespace netsim

@@ -1,0 +1,88 @@
+#include "netsim/node/node.hpp"
+
+#include "netsim/error.hpp"
+
+namespace netsim {
+
+namespace {
+
+// Words of the fingerprint that tell kinds of events apart.
+constexpr std::uint64_t packet_word = 0x7061636B6574;
+constexpr std::uint64_t timer_word = 0x74696D6572;
+
+}  // namespace
+
+Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, Fingerprint& fingerprint)
+    : simulator_(simulator),
+      fingerprint_(fingerprint),
+      id_(id),
+      name_(config.name),
+      telemetry_interval_(SimTime::from_seconds(config.mobility.telemetry_interval_s)),
+      mobility_(make_mobility(config.mobility, config.initial_position)) {}
+
+void Node::initialize() {
+    if (!protocol_) {
+        return;
+    }
+    protocol_->initialize();
+    if (telemetry_interval_ > SimTime{}) {
+        simulator_.schedule_after(telemetry_interval_, [this] { telemetry_due(); });
+    }
+}
+
+void Node::finish() {
+    if (protocol_) {
+        protocol_->finish();
+    }
+}
+
+void Node::broadcast(Payload payload) { link_->send(broadcast_id, std::move(payload)); }
+
+void Node::send(NodeId destination, Payload payload) {
+    if (destination < 0 || destination >= *node_count_) {
+        throw SimulationError("cannot send to node " + std::to_string(destination) + ": nodes are 0 … " +
+                              std::to_string(*node_count_ - 1));
+    }
+    if (destination == id_) {
+        throw SimulationError("node " + std::to_string(id_) + " cannot send a message to itself");
+    }
+    link_->send(destination, std::move(payload));
+}
+
+void Node::schedule_timer(std::string timer, SimTime time) {
+    if (time < simulator_.now()) {
+        throw SimulationError("timer '" + timer + "' at " + std::to_string(time.seconds()) +
+                              " s is in the past: it is " + std::to_string(simulator_.now().seconds()) +
+                              " s now (timers take absolute simulated time)");
+    }
+    const std::size_t number = timers_.add(std::move(timer));
+    timers_.set_event(number, simulator_.schedule_at(time, [this, number] { timer_due(number); }));
+}
+
+void Node::cancel_timer(const std::string& timer) {
+    timers_.cancel(timer, [this](EventHandle event) { simulator_.cancel(event); });
+}
+
+void Node::message_received(NodeId source, const Payload& payload) {
+    if (!protocol_) {
+        return;
+    }
+    fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(source) << 40) ^ static_cast<std::uint64_t>(id_));
+    fingerprint_.add_text(*payload);
+    protocol_->handle_packet(payload);
+}
+
+void Node::timer_due(std::size_t number) {
+    const std::string timer = timers_.take(number);
+    fingerprint_.add(timer_word ^ static_cast<std::uint64_t>(id_));
+    fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
+    fingerprint_.add_text(timer);
+    protocol_->handle_timer(timer);
+}
+
+void Node::telemetry_due() {
+    simulator_.schedule_after(telemetry_interval_, [this] { telemetry_due(); });
+    protocol_->handle_telemetry(position());
+}
+
+}  // namespace netsim

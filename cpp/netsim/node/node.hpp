@@ -1,0 +1,70 @@
+// One node: its protocol above, its mobility and network interface below.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "netsim/config/node_config.hpp"
+#include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/link.hpp"
+#include "netsim/mobility/mobility.hpp"
+#include "netsim/node/protocol.hpp"
+#include "netsim/node/timers.hpp"
+
+namespace netsim {
+
+class Node final : private LinkListener {
+public:
+    Node(Simulator& simulator, const NodeConfig& config, NodeId id, Fingerprint& fingerprint);
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+
+    NodeId id() const { return id_; }
+    const std::string& name() const { return name_; }
+    Position position() const { return mobility_->trajectory().position_at(simulator_.now()); }
+    const Trajectory& trajectory() const { return mobility_->trajectory(); }
+
+    // Wiring, before the run. The interface reports to `link_listener()`.
+    LinkListener& link_listener() { return *this; }
+    void set_link(std::unique_ptr<Link> link) { link_ = std::move(link); }
+    void set_node_count(const std::int32_t* count) { node_count_ = count; }
+    void set_protocol(std::unique_ptr<Protocol> protocol) { protocol_ = std::move(protocol); }
+    Protocol* protocol() { return protocol_.get(); }
+    const Link& link() const { return *link_; }
+
+    // Life cycle, driven by the Network.
+    void initialize();
+    void finish();
+
+    // What a protocol may ask for. All throw SimulationError for what cannot be done.
+    SimTime now() const { return simulator_.now(); }
+    void broadcast(Payload payload);
+    void send(NodeId destination, Payload payload);
+    void go_to(Position target) { mobility_->go_to(simulator_.now(), target); }
+    void set_speed(double speed_mps) { mobility_->set_speed(simulator_.now(), speed_mps); }
+    // At `time`, not before now; equal names may be pending several times.
+    void schedule_timer(std::string timer, SimTime time);
+    // All pending timers of that name; none is fine.
+    void cancel_timer(const std::string& timer);
+
+private:
+    void message_received(NodeId source, const Payload& payload) override;
+    void timer_due(std::size_t number);
+    void telemetry_due();
+
+    Simulator& simulator_;
+    Fingerprint& fingerprint_;
+    NodeId id_;
+    std::string name_;
+    const std::int32_t* node_count_ = nullptr;
+    SimTime telemetry_interval_;  // zero: none
+    std::unique_ptr<Mobility> mobility_;
+    std::unique_ptr<Link> link_;
+    std::unique_ptr<Protocol> protocol_;
+    Timers timers_;
+};
+
+}  // namespace netsim

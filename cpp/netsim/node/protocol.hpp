@@ -1,0 +1,30 @@
+// The contract of a protocol in C++: the same five events as in Python.
+//
+// A protocol reacts to events and acts through its Node (send, go_to, schedule_timer, …). The Python proxy is one
+// implementation; native protocols are others. An exception thrown by a callback ends the run.
+#pragma once
+
+#include <string>
+
+#include "netsim/geometry/position.hpp"
+#include "netsim/mac/frame.hpp"
+
+namespace netsim {
+
+class Protocol {
+public:
+    virtual ~Protocol() = default;
+
+    // Once, at the start of the run, in the order of node ids.
+    virtual void initialize() = 0;
+    // A timer of this node is due.
+    virtual void handle_timer(const std::string& timer) = 0;
+    // A message for this node arrived.
+    virtual void handle_packet(const Payload& message) = 0;
+    // Where the node is now; every telemetry interval.
+    virtual void handle_telemetry(const Position& position) = 0;
+    // Once, at the end of the run, in the order of node ids.
+    virtual void finish() = 0;
+};
+
+}  // namespace netsim

@@ -1,0 +1,60 @@
+// The pending timers of one node, by name. Several of one name may be pending.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "netsim/kernel/event_queue.hpp"
+
+namespace netsim {
+
+class Timers {
+public:
+    // Keeps a timer and returns its number; the caller schedules the event and tells its handle with set_event.
+    std::size_t add(std::string name) {
+        std::size_t number = timers_.size();
+        if (free_.empty()) {
+            timers_.emplace_back();
+        } else {
+            number = free_.back();
+            free_.pop_back();
+        }
+        timers_[number].name = std::move(name);
+        timers_[number].pending = true;
+        return number;
+    }
+    void set_event(std::size_t number, EventHandle event) { timers_[number].event = event; }
+
+    // Takes a timer out because it is due.
+    std::string take(std::size_t number) {
+        timers_[number].pending = false;
+        free_.push_back(number);
+        return std::move(timers_[number].name);
+    }
+
+    // Takes out all timers of that name and calls cancel_event(EventHandle) for each.
+    template <typename CancelEvent>
+    void cancel(const std::string& name, CancelEvent cancel_event) {
+        for (std::size_t number = 0; number < timers_.size(); ++number) {
+            Timer& timer = timers_[number];
+            if (timer.pending && timer.name == name) {
+                cancel_event(timer.event);
+                timer.pending = false;
+                free_.push_back(number);
+            }
+        }
+    }
+
+private:
+    struct Timer {
+        std::string name;
+        EventHandle event;
+        bool pending = false;
+    };
+
+    std::vector<Timer> timers_;
+    std::vector<std::size_t> free_;
+};
+
+}  // namespace netsim

@@ -1,0 +1,42 @@
+#include "netsim/trace/frame_fates.hpp"
+
+#include "netsim/error.hpp"
+
+namespace netsim {
+
+void FrameFates::book(NodeId receiver, FrameLabel label, FrameFate fate) {
+    auto& sums = label.is_for(receiver) ? addressed_ : overheard_;
+    ++sums[index(label.kind)].counts[index(fate)];
+    ++nodes_[receiver].counts[index(label.kind)][index(fate)];
+}
+
+void FrameFates::book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers) {
+    book(receiver, label, FrameFate::interference);
+    for (const NodeId interferer : interferers) {
+        ++nodes_[receiver].interferers[interferer];
+    }
+}
+
+void FrameFates::book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard) {
+    const std::size_t kind = index(label.kind);
+    constexpr std::size_t weak = index(FrameFate::below_sensitivity);
+    ++frames_[kind];
+    addressed_[kind].copies += addressed.made;
+    addressed_[kind].counts[weak] += addressed.too_weak;
+    overheard_[kind].copies += overheard.made;
+    overheard_[kind].counts[weak] += overheard.too_weak;
+}
+
+FrameFates::Counts FrameFates::counts(FrameKind kind, bool overheard) const {
+    const Book& book = (overheard ? overheard_ : addressed_)[index(kind)];
+    Counts counts = book.counts;
+    std::uint64_t booked = 0;
+    for (const std::uint64_t count : counts) {
+        booked += count;
+    }
+    NETSIM_ASSERT(booked <= book.copies);
+    counts[index(FrameFate::in_air)] = book.copies - booked;
+    return counts;
+}
+
+}  // namespace netsim

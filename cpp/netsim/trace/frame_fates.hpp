@@ -1,0 +1,96 @@
+// The ledger of frames: what became of each copy of each frame.
+//
+// A transmission makes one copy for every other radio in its band, and every copy ends in exactly one fate, so that
+// for each kind of frame: copies made = sum over the fates. The medium books copies too weak to be received in bulk,
+// the radios book the rest one by one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace netsim {
+
+using NodeId = std::int32_t;
+constexpr NodeId broadcast_id = -1;
+
+enum class FrameKind : std::uint8_t { broadcast, unicast, ack };
+constexpr std::size_t frame_kind_count = 3;
+constexpr std::array<const char*, frame_kind_count> frame_kind_names{"broadcast", "unicast", "ack"};
+
+enum class FrameFate : std::uint8_t {
+    delivered,             // decoded by that radio, whoever it was for
+    below_sensitivity,     // too weak for that radio to notice
+    noise,                 // locked on, lost, and would have been lost without interference
+    interference,          // locked on, lost, and would have been decoded without interference
+    receiver_transmitting, // the receiver was transmitting when it came, or began to while it lasted
+    receiver_locked,       // the receiver was locked on another frame when it came
+    in_air,                // still on its way when the run ended
+};
+constexpr std::size_t frame_fate_count = 7;
+constexpr std::array<const char*, frame_fate_count> frame_fate_names{
+    "delivered", "below_sensitivity", "noise", "interference", "receiver_transmitting", "receiver_locked", "in_air"};
+
+// What the ledger wants to know of a frame. Travels with its transmission.
+struct FrameLabel {
+    FrameKind kind = FrameKind::broadcast;
+    NodeId destination = broadcast_id;
+
+    bool is_for(NodeId node) const { return destination == node || destination == broadcast_id; }
+};
+
+// How many copies a transmission made, and how many of them are below sensitivity.
+struct CopyCount {
+    std::uint64_t made = 0;
+    std::uint64_t too_weak = 0;
+};
+
+class FrameFates {
+public:
+    // counts[fate] of the copies of one kind, at their addressees or overheard by others.
+    using Counts = std::array<std::uint64_t, frame_fate_count>;
+
+    void add_node() { nodes_.emplace_back(); }
+
+    // One copy of `label`'s frame ended at `receiver`.
+    void book(NodeId receiver, FrameLabel label, FrameFate fate);
+    // That copy was lost to interference by frames of `interferers` (nodes; each once).
+    void book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers);
+    // A frame went on the air and made these copies, of which some are below sensitivity at their receivers.
+    void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
+
+    std::uint64_t frames(FrameKind kind) const { return frames_[index(kind)]; }
+    std::uint64_t copies(FrameKind kind, bool overheard) const {
+        return (overheard ? overheard_ : addressed_)[index(kind)].copies;
+    }
+    // Sums over all receivers. The copies that are in no other fate yet are in_air. `overheard` selects the copies
+    // that were not for their receiver; broadcast frames are for everybody.
+    Counts counts(FrameKind kind, bool overheard) const;
+    // Of the copies that could be received at one receiver (below_sensitivity is not kept for each node).
+    Counts counts_at(NodeId receiver, FrameKind kind) const { return nodes_[receiver].counts[index(kind)]; }
+    // {interfering node: copies lost at `receiver` with its help}
+    const std::map<NodeId, std::uint64_t>& interferers_at(NodeId receiver) const { return nodes_[receiver].interferers; }
+
+private:
+    struct Book {
+        std::uint64_t copies = 0;
+        Counts counts{};
+    };
+    struct NodeBook {
+        std::array<Counts, frame_kind_count> counts{};
+        std::map<NodeId, std::uint64_t> interferers;
+    };
+
+    static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
+    static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
+
+    std::vector<NodeBook> nodes_;
+    std::array<std::uint64_t, frame_kind_count> frames_{};
+    std::array<Book, frame_kind_count> addressed_{};
+    std::array<Book, frame_kind_count> overheard_{};
+};
+
+}  // namespace netsim

@@ -1,0 +1,46 @@
+// The ledger of messages: what became of each message that a protocol handed to its network interface.
+//
+// accepted = sum over the fates; the balance is checked by tests on random scenarios.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace netsim {
+
+enum class MessageKind : std::uint8_t { broadcast, unicast };
+constexpr std::size_t message_kind_count = 2;
+constexpr std::array<const char*, message_kind_count> message_kind_names{"broadcast", "unicast"};
+
+enum class MessageFate : std::uint8_t {
+    sent,            // broadcast: was on the air once
+    acknowledged,    // unicast: its receiver's ACK came back
+    retry_limit,     // unicast: given up after the last retry
+    queue_overflow,  // dropped, the queue was full
+    out_of_range,    // unicast on a perfect channel: its receiver was too far away
+    queued,          // still waiting or in progress when the run ended
+};
+constexpr std::size_t message_fate_count = 6;
+constexpr std::array<const char*, message_fate_count> message_fate_names{
+    "sent", "acknowledged", "retry_limit", "queue_overflow", "out_of_range", "queued"};
+
+class MessageFates {
+public:
+    using Counts = std::array<std::uint64_t, message_fate_count>;
+
+    void accept(MessageKind kind) { ++accepted_[static_cast<std::size_t>(kind)]; }
+    void book(MessageKind kind, MessageFate fate) {
+        ++counts_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(fate)];
+    }
+
+    std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
+    // What is in no other fate yet is queued.
+    Counts counts(MessageKind kind) const;
+
+private:
+    std::array<std::uint64_t, message_kind_count> accepted_{};
+    std::array<Counts, message_kind_count> counts_{};
+};
+
+}  // namespace netsim

@@ -1,0 +1,85 @@
+// The config structs, field by field under their own names (C++'s type_name is Python's typename).
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+
+#include "netsim/config/mac_config.hpp"
+#include "netsim/config/medium_config.hpp"
+#include "netsim/config/mobility_config.hpp"
+#include "netsim/config/node_config.hpp"
+#include "netsim/config/radio_config.hpp"
+#include "proxy_protocol/bindings.hpp"
+
+namespace py = pybind11;
+using namespace netsim;
+
+namespace proxy_protocol {
+
+void bind_config(py::module_& module) {
+    py::class_<MediumConfig>(module, "MediumConfig")
+        .def(py::init<std::string>(), py::arg("typename") = "Ieee80211ScalarRadioMedium")
+        .def_readwrite("typename", &MediumConfig::type_name)
+        .def_readwrite("path_loss", &MediumConfig::path_loss)
+        .def_readwrite("alpha", &MediumConfig::alpha)
+        .def_readwrite("breakpoint_distance_m", &MediumConfig::breakpoint_distance_m)
+        .def_readwrite("l01_db", &MediumConfig::l01_db)
+        .def_readwrite("l02_db", &MediumConfig::l02_db)
+        .def_readwrite("alpha1", &MediumConfig::alpha1)
+        .def_readwrite("alpha2", &MediumConfig::alpha2)
+        .def_readwrite("background_noise_w", &MediumConfig::background_noise_w)
+        .def_readwrite("propagation", &MediumConfig::propagation)
+        .def("validate", &MediumConfig::validate);
+
+    py::class_<RadioConfig>(module, "RadioConfig")
+        .def(py::init<>())
+        .def_readwrite("carrier_hz", &RadioConfig::carrier_hz)
+        .def_readwrite("bandwidth_hz", &RadioConfig::bandwidth_hz)
+        .def_readwrite("tx_power_w", &RadioConfig::tx_power_w)
+        .def_readwrite("communication_range_m", &RadioConfig::communication_range_m)
+        .def_readwrite("sensitivity_w", &RadioConfig::sensitivity_w)
+        .def_readwrite("energy_detection_w", &RadioConfig::energy_detection_w)
+        .def_readwrite("snir_threshold", &RadioConfig::snir_threshold)
+        .def_readwrite("error_model", &RadioConfig::error_model)
+        .def_readwrite("antenna", &RadioConfig::antenna)
+        .def("validate", &RadioConfig::validate);
+
+    py::class_<MacConfig>(module, "MacConfig")
+        .def(py::init<>())
+        .def_readwrite("op_mode", &MacConfig::op_mode)
+        .def_readwrite("bitrate_bps", &MacConfig::bitrate_bps)
+        .def_readwrite("multicast_bitrate_bps", &MacConfig::multicast_bitrate_bps)
+        .def_readwrite("short_retry_limit", &MacConfig::short_retry_limit)
+        .def_readwrite("cw_min", &MacConfig::cw_min)
+        .def_readwrite("cw_max", &MacConfig::cw_max)
+        .def_readwrite("queue_capacity", &MacConfig::queue_capacity)
+        .def_readwrite("mtu_bytes", &MacConfig::mtu_bytes)
+        .def_readwrite("backoff_optimization", &MacConfig::backoff_optimization)
+        .def("validate", &MacConfig::validate);
+
+    py::class_<MobilityConfig>(module, "MobilityConfig")
+        .def(py::init<>())
+        .def_readwrite("typename", &MobilityConfig::type_name)
+        .def_readwrite("speed_mps", &MobilityConfig::speed_mps)
+        .def_readwrite("telemetry_interval_s", &MobilityConfig::telemetry_interval_s)
+        .def("validate", &MobilityConfig::validate);
+
+    py::class_<NodeConfig>(module, "NodeConfig")
+        .def(py::init<std::string>(), py::arg("name"))
+        .def_readwrite("name", &NodeConfig::name)
+        .def_readwrite("radio", &NodeConfig::radio)
+        .def_readwrite("mac", &NodeConfig::mac)
+        .def_readwrite("mobility", &NodeConfig::mobility)
+        .def_property(
+            "initial_position",
+            [](const NodeConfig& config) {
+                const Position& position = config.initial_position;
+                return py::make_tuple(position.x, position.y, position.z);
+            },
+            [](NodeConfig& config, const std::array<double, 3>& position) {
+                config.initial_position = Position{position[0], position[1], position[2]};
+            })
+        .def("validate", &NodeConfig::validate);
+}
+
+}  // namespace proxy_protocol

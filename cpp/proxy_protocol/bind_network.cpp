@@ -1,0 +1,96 @@
+// The network: building it, running it, reading its ledgers.
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "netsim/node/network.hpp"
+#include "proxy_protocol/bindings.hpp"
+
+namespace py = pybind11;
+using namespace netsim;
+
+namespace proxy_protocol {
+
+namespace {
+
+template <typename Counts, typename Names>
+py::dict named_counts(const Counts& counts, const Names& names) {
+    py::dict result;
+    for (std::size_t index = 0; index < counts.size(); ++index) {
+        result[names[index]] = counts[index];
+    }
+    return result;
+}
+
+py::dict frame_fates(const Network& network) {
+    py::dict result;
+    for (std::size_t index = 0; index < frame_kind_count; ++index) {
+        const auto kind = static_cast<FrameKind>(index);
+        const std::string name = frame_kind_names[index];
+        result[py::str(name)] = named_counts(network.frame_fates().counts(kind, false), frame_fate_names);
+        if (kind != FrameKind::broadcast) {
+            result[py::str(name + " overheard")] = named_counts(network.frame_fates().counts(kind, true), frame_fate_names);
+        }
+    }
+    return result;
+}
+
+py::dict frame_fates_at(const Network& network, NodeId receiver) {
+    py::dict result;
+    for (std::size_t index = 0; index < frame_kind_count; ++index) {
+        result[frame_kind_names[index]] =
+            named_counts(network.frame_fates().counts_at(network.node(receiver).id(), static_cast<FrameKind>(index)), frame_fate_names);
+    }
+    return result;
+}
+
+py::dict interferers_at(const Network& network, NodeId receiver) {
+    py::dict result;
+    for (const auto& [interferer, copies] : network.frame_fates().interferers_at(network.node(receiver).id())) {
+        result[py::int_(interferer)] = copies;
+    }
+    return result;
+}
+
+py::dict message_fates(const Network& network) {
+    py::dict result;
+    for (std::size_t index = 0; index < message_kind_count; ++index) {
+        result[message_kind_names[index]] =
+            named_counts(network.message_fates().counts(static_cast<MessageKind>(index)), message_fate_names);
+    }
+    return result;
+}
+
+std::string fingerprint(const Network& network) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(network.fingerprint()));
+    return text;
+}
+
+}  // namespace
+
+void bind_network(py::module_& module) {
+    py::class_<Network>(module, "Network")
+        .def(py::init<const MediumConfig&, std::uint64_t>(), py::arg("medium"), py::arg("seed"))
+        .def("add_node", &Network::add_node, py::arg("config"), py::return_value_policy::reference_internal)
+        .def("initialize", &Network::initialize)
+        .def(
+            "run_until",
+            [](Network& network, double time, std::uint64_t max_events) {
+                return network.run_until(SimTime::from_seconds(time), max_events);
+            },
+            py::arg("time"), py::arg("max_events") = ~std::uint64_t{0})
+        .def("finish", &Network::finish)
+        .def("release_protocols", &Network::release_protocols)
+        .def_property_readonly("now", [](const Network& network) { return network.now().seconds(); })
+        .def_property_readonly("event_count", &Network::event_count)
+        .def_property_readonly("fingerprint", &fingerprint)
+        .def("frame_fates", &frame_fates)
+        .def("frame_fates_at", &frame_fates_at, py::arg("receiver"))
+        .def("interferers_at", &interferers_at, py::arg("receiver"))
+        .def("message_fates", &message_fates);
+}
+
+}  // namespace proxy_protocol

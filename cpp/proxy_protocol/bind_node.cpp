@@ -1,0 +1,39 @@
+// A node as its Python protocol's provider sees it.
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "netsim/node/node.hpp"
+#include "proxy_protocol/bindings.hpp"
+#include "proxy_protocol/node_commands.hpp"
+#include "proxy_protocol/python_protocol.hpp"
+
+namespace py = pybind11;
+using netsim::Node;
+
+namespace proxy_protocol {
+
+void bind_node(py::module_& module) {
+    py::class_<Node>(module, "Node")
+        .def_property_readonly("id", &Node::id)
+        .def_property_readonly("name", &Node::name)
+        .def_property_readonly("position",
+                               [](const Node& node) {
+                                   const netsim::Position position = node.position();
+                                   return py::make_tuple(position.x, position.y, position.z);
+                               })
+        .def(
+            "set_protocol",
+            [](Node& node, py::object protocol, py::object on_failure) {
+                node.set_protocol(std::make_unique<PythonProtocol>(std::move(protocol), std::move(on_failure)));
+            },
+            py::arg("protocol"), py::arg("on_failure"))
+        .def("send_communication_command", &send_communication_command, py::arg("command"))
+        .def("send_mobility_command", &send_mobility_command, py::arg("command"))
+        .def("schedule_timer", &schedule_timer, py::arg("timer"), py::arg("timestamp"))
+        .def("cancel_timer", &cancel_timer, py::arg("timer"))
+        .def("current_time", [](const Node& node) { return node.now().seconds(); })
+        .def("get_id", &Node::id);
+}
+
+}  // namespace proxy_protocol

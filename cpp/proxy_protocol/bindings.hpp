@@ -1,0 +1,12 @@
+// One function per topic; module.cpp calls them all.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace proxy_protocol {
+
+void bind_config(pybind11::module_& module);
+void bind_node(pybind11::module_& module);
+void bind_network(pybind11::module_& module);
+
+}  // namespace proxy_protocol

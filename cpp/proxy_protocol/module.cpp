@@ -1,0 +1,16 @@
+// The compiled module gradysim._netsim. Python's side of it is described in python/gradysim/_netsim.pyi.
+#include <pybind11/pybind11.h>
+
+#include "netsim/error.hpp"
+#include "proxy_protocol/bindings.hpp"
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_netsim, module) {
+    module.doc() = "The engine of integrated mode.";
+    py::register_exception<netsim::ConfigError>(module, "ConfigError", PyExc_ValueError);
+    py::register_exception<netsim::SimulationError>(module, "SimulationError", PyExc_RuntimeError);
+    proxy_protocol::bind_config(module);
+    proxy_protocol::bind_node(module);
+    proxy_protocol::bind_network(module);
+}

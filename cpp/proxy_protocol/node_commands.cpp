@@ -1,0 +1,101 @@
+#include "proxy_protocol/node_commands.hpp"
+
+#include <memory>
+#include <string>
+
+#include "proxy_protocol/python_text.hpp"
+
+namespace py = pybind11;
+
+namespace proxy_protocol {
+
+namespace {
+
+// Values of the enumerations in gradysim.protocol.messages.
+constexpr long send_type = 0;
+constexpr long broadcast_type = 1;
+constexpr long goto_coords_type = 1;
+constexpr long set_speed_type = 3;
+
+// Attribute names, made once for the life of the interpreter.
+PyObject* name_of(const char* text) { return PyUnicode_InternFromString(text); }
+
+py::object attribute(py::handle object, PyObject* name) {
+    PyObject* value = PyObject_GetAttr(object.ptr(), name);
+    if (value == nullptr) {
+        throw py::error_already_set();
+    }
+    return py::reinterpret_steal<py::object>(value);
+}
+
+long integer(py::handle value, const char* what) {
+    const long number = PyLong_Check(value.ptr()) ? PyLong_AsLong(value.ptr()) : -1;
+    if (number == -1) {
+        const bool is_minus_one = PyLong_Check(value.ptr()) && !PyErr_Occurred();
+        PyErr_Clear();
+        if (!is_minus_one) {
+            throw py::type_error(std::string(what) + " must be an int, not " + std::string(py::repr(value)));
+        }
+    }
+    return number;
+}
+
+double number(py::handle value, const char* what) {
+    const double result = PyFloat_AsDouble(value.ptr());
+    if (result == -1.0 && PyErr_Occurred()) {
+        PyErr_Clear();
+        throw py::type_error(std::string(what) + " must be a number, not " + std::string(py::repr(value)));
+    }
+    return result;
+}
+
+}  // namespace
+
+void send_communication_command(netsim::Node& node, py::handle command) {
+    static PyObject* const type_name = name_of("command_type");
+    static PyObject* const message_name = name_of("message");
+    static PyObject* const destination_name = name_of("destination");
+    const long type = integer(attribute(command, type_name), "command_type");
+    auto payload = std::make_shared<const std::string>(utf8_from_python(attribute(command, message_name), "a message"));
+    if (type == broadcast_type) {
+        node.broadcast(std::move(payload));
+        return;
+    }
+    if (type != send_type) {
+        throw py::value_error("command_type " + std::to_string(type) + " is not a CommunicationCommandType: expected SEND (0) or BROADCAST (1)");
+    }
+    const py::object destination = attribute(command, destination_name);
+    if (destination.is_none()) {
+        throw py::value_error("a SEND command needs a destination: the id of a node");
+    }
+    node.send(static_cast<netsim::NodeId>(integer(destination, "destination")), std::move(payload));
+}
+
+void send_mobility_command(netsim::Node& node, py::handle command) {
+    static PyObject* const type_name = name_of("command_type");
+    static PyObject* const parameter_names[] = {name_of("param_1"), name_of("param_2"), name_of("param_3")};
+    const long type = integer(attribute(command, type_name), "command_type");
+    const auto parameter = [&](int index, const char* what) {
+        return number(attribute(command, parameter_names[index]), what);
+    };
+    if (type == goto_coords_type) {
+        node.go_to(netsim::Position{parameter(0, "x (metres)"), parameter(1, "y (metres)"), parameter(2, "z (metres)")});
+    } else if (type == set_speed_type) {
+        if (!attribute(command, parameter_names[1]).is_none()) {
+            throw py::value_error("SET_SPEED with three velocity components needs a mobility model that obeys velocities");
+        }
+        node.set_speed(parameter(0, "speed (m/s)"));
+    } else {
+        throw py::value_error("command_type " + std::to_string(type) + " is not a MobilityCommandType: expected GOTO_COORDS (1), GOTO_GEO_COORDS (2) or SET_SPEED (3)");
+    }
+}
+
+void schedule_timer(netsim::Node& node, py::handle timer, double timestamp) {
+    node.schedule_timer(utf8_from_python(timer, "a timer's name"), netsim::SimTime::from_seconds(timestamp));
+}
+
+void cancel_timer(netsim::Node& node, py::handle timer) {
+    node.cancel_timer(utf8_from_python(timer, "a timer's name"));
+}
+
+}  // namespace proxy_protocol

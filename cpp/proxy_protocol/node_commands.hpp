@@ -1,0 +1,20 @@
+// What a Python protocol asks of its node, taken apart: commands and numbers of Python to calls of the engine.
+//
+// Refuses wrong types and values with TypeError and ValueError; what the engine refuses is its SimulationError.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "netsim/node/node.hpp"
+
+namespace proxy_protocol {
+
+// command: gradysim.protocol.messages.communication.CommunicationCommand (or an object with its attributes).
+void send_communication_command(netsim::Node& node, pybind11::handle command);
+// command: gradysim.protocol.messages.mobility.MobilityCommand; not GOTO_GEO_COORDS, which is converted before.
+void send_mobility_command(netsim::Node& node, pybind11::handle command);
+// timestamp: absolute simulated time in seconds.
+void schedule_timer(netsim::Node& node, pybind11::handle timer, double timestamp);
+void cancel_timer(netsim::Node& node, pybind11::handle timer);
+
+}  // namespace proxy_protocol

@@ -1,0 +1,68 @@
+#include "proxy_protocol/python_protocol.hpp"
+
+#include <utility>
+
+#include "proxy_protocol/python_text.hpp"
+
+namespace py = pybind11;
+
+namespace proxy_protocol {
+
+namespace {
+
+py::object interned(const char* text) { return py::reinterpret_steal<py::object>(PyUnicode_InternFromString(text)); }
+
+}  // namespace
+
+PythonProtocol::PythonProtocol(py::object protocol, py::object on_failure)
+    : protocol_(std::move(protocol)),
+      on_failure_(std::move(on_failure)),
+      telemetry_class_(py::module_::import("gradysim.protocol.messages.telemetry").attr("Telemetry")),
+      initialize_(interned("initialize")),
+      handle_timer_(interned("handle_timer")),
+      handle_packet_(interned("handle_packet")),
+      handle_telemetry_(interned("handle_telemetry")),
+      finish_(interned("finish")) {}
+
+void PythonProtocol::initialize() { call(initialize_); }
+
+void PythonProtocol::handle_timer(const std::string& timer) { call(handle_timer_, python_from_utf8(timer)); }
+
+void PythonProtocol::handle_packet(const netsim::Payload& message) {
+    call(handle_packet_, python_from_utf8(*message));
+}
+
+void PythonProtocol::handle_telemetry(const netsim::Position& position) {
+    const auto coordinates = py::make_tuple(position.x, position.y, position.z);
+    PyObject* arguments[] = {nullptr, coordinates.ptr()};
+    const auto telemetry = py::reinterpret_steal<py::object>(PyObject_Vectorcall(
+        telemetry_class_.ptr(), arguments + 1, 1 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr));
+    if (!telemetry) {
+        throw py::error_already_set();
+    }
+    call(handle_telemetry_, telemetry);
+}
+
+void PythonProtocol::finish() { call(finish_); }
+
+void PythonProtocol::call(py::handle method) {
+    PyObject* arguments[] = {nullptr, protocol_.ptr()};
+    check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 1 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr), method);
+}
+
+void PythonProtocol::call(py::handle method, py::handle argument) {
+    PyObject* arguments[] = {nullptr, protocol_.ptr(), argument.ptr()};
+    check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 2 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr), method);
+}
+
+void PythonProtocol::check(PyObject* result, py::handle method) {
+    if (result != nullptr) {
+        Py_DECREF(result);
+        return;
+    }
+    const py::error_already_set failure;
+    on_failure_(failure.value(), method);
+    throw failure;  // NOLINT(misc-throw-by-value-catch-by-reference): a copy shares the Python exception
+}
+
+}  // namespace proxy_protocol

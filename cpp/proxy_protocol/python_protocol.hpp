@@ -1,0 +1,40 @@
+// The proxy protocol: a protocol of the engine that hands every event to a Python object.
+//
+// The methods are called by name at each event, not through bound methods kept from the start: the dispatcher plugin
+// binds them anew on the instance at any time. A call by name costs what the same call costs within Python.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "netsim/node/protocol.hpp"
+
+namespace proxy_protocol {
+
+class PythonProtocol final : public netsim::Protocol {
+public:
+    // `protocol` has the five methods of IProtocol. `on_failure(exception, callback_name)` is called when one of
+    // them raises, before the exception goes on through the engine to the caller of run_until.
+    PythonProtocol(pybind11::object protocol, pybind11::object on_failure);
+
+    void initialize() override;
+    void handle_timer(const std::string& timer) override;
+    void handle_packet(const netsim::Payload& message) override;
+    void handle_telemetry(const netsim::Position& position) override;
+    void finish() override;
+
+private:
+    void call(pybind11::handle method);
+    void call(pybind11::handle method, pybind11::handle argument);
+    void check(PyObject* result, pybind11::handle method);
+
+    pybind11::object protocol_;
+    pybind11::object on_failure_;
+    pybind11::object telemetry_class_;
+    pybind11::object initialize_;  // the interned names of the methods
+    pybind11::object handle_timer_;
+    pybind11::object handle_packet_;
+    pybind11::object handle_telemetry_;
+    pybind11::object finish_;
+};
+
+}  // namespace proxy_protocol

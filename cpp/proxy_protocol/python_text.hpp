@@ -1,0 +1,18 @@
+// Text across the border: Python str <-> UTF-8.
+//
+// Any Python string may be sent, also one with lone surrogates, which plain UTF-8 cannot hold ("surrogatepass").
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+namespace proxy_protocol {
+
+// Throws a Python TypeError that names `what` if `text` is not a str.
+std::string utf8_from_python(pybind11::handle text, const char* what);
+
+// A new reference to a str.
+pybind11::object python_from_utf8(const std::string& text);
+
+}  // namespace proxy_protocol
