@@ -1,0 +1,53 @@
+"""What the distribution says of itself."""
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+
+@pytest.fixture
+def project(root: Path) -> dict[str, Any]:
+    with (root / "pyproject.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
+def test_the_version_satisfies_what_users_require(project: dict[str, Any]) -> None:
+    assert project["project"]["version"] == "1.0.0.dev0"
+
+
+def test_the_changelog_opens_with_what_is_unreleased(root: Path) -> None:
+    headings = re.findall(r"^## (.+)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)
+    assert headings[0] == "Unreleased (1.0.0)"
+
+
+def test_the_licence_is_mit(root: Path, project: dict[str, Any]) -> None:
+    assert project["project"]["license"] == "MIT"
+    assert (root / "LICENSE").read_text().startswith("MIT License")
+
+
+def test_the_package_itself_needs_little(project: dict[str, Any]) -> None:
+    names = {re.split(r"[<>=!~ \[]", requirement)[0] for requirement in project["project"]["dependencies"]}
+    assert names <= {"cyclopts", "rich", "numpy", "pymap3d"}
+
+
+def test_tools_are_pinned_exactly(project: dict[str, Any]) -> None:
+    tools = [
+        tool
+        for group in [project["build-system"]["requires"], *project["dependency-groups"].values()]
+        for tool in group
+        if isinstance(tool, str)
+    ]
+    assert [tool for tool in tools if not re.fullmatch(r"[\w.-]+==[\w.]+", tool)] == []
+
+
+def test_tools_have_one_version_each(project: dict[str, Any]) -> None:
+    versions: dict[str, set[str]] = {}
+    for group in [project["build-system"]["requires"], *project["dependency-groups"].values()]:
+        for tool in group:
+            if isinstance(tool, str):
+                name, version = tool.split("==")
+                versions.setdefault(name, set()).add(version)
+    assert {name: found for name, found in versions.items() if len(found) > 1} == {}
