@@ -1,0 +1,53 @@
+"""The errors of a configuration: for the person who wrote the file, with the place and what was expected."""
+
+from pathlib import Path
+from typing import Self
+
+from gradysim.config.source import Source
+
+
+class ConfigError(ValueError):
+    """A mistake in a configuration. Its text is "FILE:LINE: what is wrong; what was expected".
+
+    Attributes:
+        message: The text without the place.
+        source: The place, or None for a mistake that has none (a run number that does not exist).
+        file: The file of the place, or None.
+        line: The line of the place; 0 for the command line, for a whole file and for no place.
+        key: The key concerned, or "".
+    """
+
+    def __init__(self, message: str, source: Source | None = None) -> None:
+        super().__init__(message, source)
+        self.message = message
+        self.source = source
+        self.file: Path | None = source.file if source else None
+        self.line = source.line if source else 0
+        self.key = source.key if source else ""
+
+    @classmethod
+    def at(cls, source: Source, text: str) -> Self:
+        """An error found elsewhere (the engine's check of a range, say) in the value at `source`."""
+        return cls(f"{source.key}: {text}" if source.line and source.key else text, source)
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.message}" if self.source else self.message
+
+
+class BadValue(ValueError):  # noqa: N818 - no error of its own: see below
+    """A text is not a value of the kind that was asked for. Who knows the place turns it into a ConfigError.
+
+    Attributes:
+        problem: What is wrong.
+        suggestion: "" or "; did you mean ...?", to be put at the end of the whole message.
+    """
+
+    def __init__(self, problem: str, suggestion: str = "") -> None:
+        super().__init__(problem + suggestion)
+        self.problem = problem
+        self.suggestion = suggestion
+
+
+def format_config_error(error: ConfigError) -> str:
+    """The text that a user sees: "FILE:LINE: what is wrong; what was expected; did you mean ...?"."""
+    return str(error)

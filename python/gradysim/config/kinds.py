@@ -1,0 +1,219 @@
+"""What a value has to be: a quantity of some dimension, an integer, one of some names, and so on.
+
+A kind turns the value that was written into the plain number or text that a struct holds: SI units, powers in watts.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from gradysim.config.error import BadValue
+from gradysim.config.expression import Value
+from gradysim.config.nearest import did_you_mean
+from gradysim.config.quantity import Quantity
+from gradysim.config.units import UNITS, Dimension
+
+Scalar = float | int | str | bool
+
+MAX_INTEGER = 2**31 - 1
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of value.
+
+    Attributes:
+        expected: How messages name it, after "expected".
+        convert: Checks a value and gives what is to be stored; raises BadValue.
+        is_text: Whether a text is meant: on the command line it needs no quotes.
+    """
+
+    expected: str
+    convert: Callable[[Value], Scalar]
+    is_text: bool = False
+
+
+def quantity(
+    unit: str,
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
+    special: float | None = None,
+) -> Kind:
+    """A finite quantity, converted to `unit` and of a range in that unit; `special` is allowed beside it."""
+    target = UNITS[unit]
+
+    def convert(value: Value) -> float:
+        number = _quantity_of(value).to(target)
+        _check_range(number, value, at_least, above, at_most, special)
+        return number
+
+    expected = target.dimension.value + _range_text(at_least, above, at_most, unit)
+    return Kind(expected + (f", or {special:g}{unit}" if special is not None else ""), convert)
+
+
+def number(at_least: float | None = None, above: float | None = None, at_most: float | None = None) -> Kind:
+    """A finite number without a unit, of a range."""
+
+    def convert(value: Value) -> float:
+        result = float(_plain(_quantity_of(value)).number)
+        _check_range(result, value, at_least, above, at_most, None)
+        return result
+
+    return Kind("a plain number" + _range_text(at_least, above, at_most, ""), convert)
+
+
+def integer(at_least: int = -MAX_INTEGER, at_most: int = MAX_INTEGER) -> Kind:
+    """A whole number, written without a point."""
+
+    def convert(value: Value) -> int:
+        result = _plain(_quantity_of(value)).number
+        if not isinstance(result, int):
+            raise BadValue(f"`{value}` is no whole number")
+        _check_range(result, value, at_least, None, at_most, None)
+        return result
+
+    return Kind(
+        "a whole number" + _range_text(None if at_least == -MAX_INTEGER else at_least, None, None, ""),
+        convert,
+    )
+
+
+def whole_bytes() -> Kind:
+    """A size, converted to a whole number of bytes."""
+    size = quantity("B", at_least=0, at_most=MAX_INTEGER)
+
+    def convert(value: Value) -> int:
+        result = float(size.convert(value))
+        if not result.is_integer():
+            raise BadValue(f"`{value}` is no whole number of bytes")
+        return int(result)
+
+    return replace(size, convert=convert)
+
+
+def power_ratio() -> Kind:
+    """A level in decibels, converted to a linear ratio of powers."""
+    level = quantity("dB", at_least=-300, at_most=300)
+    return replace(level, convert=lambda value: math.pow(10.0, float(level.convert(value)) / 10.0))
+
+
+def channel_of_2_4_ghz() -> Kind:
+    """A channel number of the 2.4 GHz band, counted from 0 as INET does, converted to its centre in hertz.
+
+    The centres are those of IEEE 802.11-2020, 15.4.4.3: 2.412 GHz and every 5 MHz from there, the 14th at 2.484 GHz.
+    """
+    index = integer(0, 13)
+
+    def convert(value: Value) -> float:
+        channel = int(index.convert(value))
+        return 2.484e9 if channel == 13 else 2.412e9 + 5e6 * channel
+
+    return Kind("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert)
+
+
+def boolean() -> Kind:
+    """True or false."""
+
+    def convert(value: Value) -> bool:
+        if not isinstance(value, bool):
+            raise BadValue(f"it is {_description(value)}")
+        return value
+
+    return Kind("true or false", convert)
+
+
+def text() -> Kind:
+    """Any text in quotes."""
+    return Kind('a text in quotes ("...")', _text_of, is_text=True)
+
+
+def choice(*names: str) -> Kind:
+    """One of some texts."""
+
+    def convert(value: Value) -> str:
+        name = _text_of(value)
+        if name not in names:
+            raise BadValue(f"`{name}` is not known", did_you_mean(name, names))
+        return name
+
+    quoted = [f'"{name}"' for name in names]
+    return Kind(f"one of {', '.join(quoted)}" if len(quoted) > 1 else quoted[0], convert, is_text=True)
+
+
+def si_number() -> Kind:
+    """A number, or a quantity that is converted to its SI unit; sizes have none, decibels stay as they are."""
+
+    def convert(value: Value) -> float:
+        given = _quantity_of(value)
+        if given.unit is None:
+            return _not_nan(float(given.number), value)
+        if given.unit.dimension is Dimension.DATA:
+            raise BadValue("bits and bytes have no SI unit")
+        base = next(u for u in UNITS.values() if u.dimension is given.unit.dimension and u.factor == 1)
+        return _not_nan(given.to(base), value)
+
+    return Kind("a number, or a quantity that has an SI unit", convert)
+
+
+def _quantity_of(value: Value) -> Quantity:
+    if not isinstance(value, Quantity):
+        raise BadValue(f"it is {_description(value)}")
+    return value
+
+
+def _plain(given: Quantity) -> Quantity:
+    if given.unit is None or given.unit.dimension is Dimension.RATIO:
+        return given
+    raise BadValue(f"it has the unit `{given.unit.name}`")
+
+
+def _text_of(value: Value) -> str:
+    if not isinstance(value, str):
+        raise BadValue(f"it is {_description(value)}")
+    return value
+
+
+def _description(value: Value) -> str:
+    if isinstance(value, str):
+        return "a text"
+    if isinstance(value, bool):
+        return "a truth value"
+    return "a quantity" if value.unit else "a number"
+
+
+def _not_nan(result: float, value: Value) -> float:
+    if math.isnan(result):
+        raise BadValue(f"`{value}` is no number")
+    return result
+
+
+def _check_range(
+    result: float,
+    value: Value,
+    at_least: float | None,
+    above: float | None,
+    at_most: float | None,
+    special: float | None,
+) -> None:
+    if special is not None and result == special:
+        return
+    if not math.isfinite(result):
+        raise BadValue(f"`{value}` is not finite")
+    if (
+        (at_least is not None and result < at_least)
+        or (above is not None and result <= above)
+        or (at_most is not None and result > at_most)
+    ):
+        raise BadValue("it is out of range")
+
+
+def _range_text(at_least: float | None, above: float | None, at_most: float | None, unit: str) -> str:
+    parts = []
+    if at_least is not None:
+        parts.append(f"at least {at_least:.10g}{unit}")
+    if above is not None:
+        parts.append(f"greater than {above:.10g}{unit}")
+    if at_most is not None and at_most < MAX_INTEGER:
+        parts.append(f"at most {at_most:.10g}{unit}")
+    return f", {' and '.join(parts)}" if parts else ""
