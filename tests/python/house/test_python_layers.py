@@ -7,6 +7,8 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+ProjectFiles = Callable[..., list[Path]]
+
 PACKAGE = Path("python/gradysim")
 
 
