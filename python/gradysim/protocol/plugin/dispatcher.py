@@ -1,0 +1,123 @@
+"""Lets others take part in the callbacks of a protocol: the base of every plugin.
+
+A dispatcher puts a chain of handlers in front of each of the five callbacks of one protocol instance.
+It lives on that instance and dies with it.
+"""
+
+from collections.abc import Callable
+from enum import Enum
+from typing import Any
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.telemetry import Telemetry
+
+_ATTRIBUTE = "_gradysim_dispatcher"
+
+
+class DispatchReturn(Enum):
+    """What a handler wants to become of the event that it was given."""
+
+    INTERRUPT = 1
+    """The event ends here: neither the handlers behind nor the protocol get it."""
+    CONTINUE = 2
+    """The next in the chain gets it too. Returning nothing means the same."""
+
+
+class _Chain:
+    """One callback of a protocol with the handlers in front of it."""
+
+    def __init__(self, protocol: IProtocol, callback: str, interruptible: bool) -> None:
+        self._protocol = protocol
+        self._callback = callback
+        self._original: Callable[..., None] = getattr(protocol, callback)
+        self._interruptible = interruptible
+        # A tuple, replaced on every change: an event under way keeps the chain that it started with.
+        self._handlers: tuple[Callable[..., Any], ...] = ()
+        setattr(protocol, callback, self.dispatch)
+
+    def dispatch(self, *arguments: Any) -> None:
+        for handler in self._handlers:
+            answer = handler(self._protocol, *arguments)
+            if answer is DispatchReturn.INTERRUPT and self._interruptible:
+                return
+        self._original(*arguments)
+
+    def register(self, handler: Callable[..., Any]) -> None:
+        if not callable(handler):
+            raise TypeError(f"a handler of {self._callback} must be callable, not {handler!r}")
+        self._handlers = (handler, *self._handlers)
+
+    def unregister(self, handler: Callable[..., Any]) -> None:
+        remaining = list(self._handlers)
+        try:
+            remaining.remove(handler)
+        except ValueError:
+            raise ValueError(f"{handler!r} is not registered as a handler of {self._callback}") from None
+        self._handlers = tuple(remaining)
+
+
+class ProtocolWrapper:
+    """The handlers registered on one protocol; made by `create_dispatcher`.
+
+    Handlers are called with the protocol and the arguments of its callback. The one registered last is called
+    first, the protocol's own callback last. `DispatchReturn.INTERRUPT` stops a timer, a packet or telemetry
+    on its way; it has no effect on `initialize` and `finish`, which always reach everybody. Registering and
+    unregistering while an event is being handled counts from the next event on.
+    """
+
+    def __init__(self, protocol: IProtocol) -> None:
+        self.protocol = protocol
+        self._initialize = _Chain(protocol, "initialize", interruptible=False)
+        self._handle_timer = _Chain(protocol, "handle_timer", interruptible=True)
+        self._handle_telemetry = _Chain(protocol, "handle_telemetry", interruptible=True)
+        self._handle_packet = _Chain(protocol, "handle_packet", interruptible=True)
+        self._finish = _Chain(protocol, "finish", interruptible=False)
+
+    def register_initialize(self, handler: Callable[[Any], DispatchReturn | None]) -> None:
+        """Call `handler(protocol)` before the protocol's `initialize`."""
+        self._initialize.register(handler)
+
+    def unregister_initialize(self, handler: Callable[[Any], DispatchReturn | None]) -> None:
+        """Undo `register_initialize`; ValueError if it is not registered."""
+        self._initialize.unregister(handler)
+
+    def register_handle_timer(self, handler: Callable[[Any, str], DispatchReturn | None]) -> None:
+        """Call `handler(protocol, timer)` before the protocol's `handle_timer`."""
+        self._handle_timer.register(handler)
+
+    def unregister_handle_timer(self, handler: Callable[[Any, str], DispatchReturn | None]) -> None:
+        """Undo `register_handle_timer`; ValueError if it is not registered."""
+        self._handle_timer.unregister(handler)
+
+    def register_handle_telemetry(self, handler: Callable[[Any, Telemetry], DispatchReturn | None]) -> None:
+        """Call `handler(protocol, telemetry)` before the protocol's `handle_telemetry`."""
+        self._handle_telemetry.register(handler)
+
+    def unregister_handle_telemetry(self, handler: Callable[[Any, Telemetry], DispatchReturn | None]) -> None:
+        """Undo `register_handle_telemetry`; ValueError if it is not registered."""
+        self._handle_telemetry.unregister(handler)
+
+    def register_handle_packet(self, handler: Callable[[Any, str], DispatchReturn | None]) -> None:
+        """Call `handler(protocol, message)` before the protocol's `handle_packet`."""
+        self._handle_packet.register(handler)
+
+    def unregister_handle_packet(self, handler: Callable[[Any, str], DispatchReturn | None]) -> None:
+        """Undo `register_handle_packet`; ValueError if it is not registered."""
+        self._handle_packet.unregister(handler)
+
+    def register_finish(self, handler: Callable[[Any], DispatchReturn | None]) -> None:
+        """Call `handler(protocol)` before the protocol's `finish`."""
+        self._finish.register(handler)
+
+    def unregister_finish(self, handler: Callable[[Any], DispatchReturn | None]) -> None:
+        """Undo `register_finish`; ValueError if it is not registered."""
+        self._finish.unregister(handler)
+
+
+def create_dispatcher(protocol: IProtocol) -> ProtocolWrapper:
+    """Return the dispatcher of a protocol, the same one each time; the first call makes it."""
+    wrapper: ProtocolWrapper | None = vars(protocol).get(_ATTRIBUTE)
+    if wrapper is None:
+        wrapper = ProtocolWrapper(protocol)
+        setattr(protocol, _ATTRIBUTE, wrapper)
+    return wrapper

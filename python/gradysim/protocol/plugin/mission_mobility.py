@@ -1,0 +1,232 @@
+"""Flies a protocol's node along a list of waypoints, once or in a loop."""
+
+import logging
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
+from gradysim.protocol.position import Position, squared_distance
+
+_logger = logging.getLogger(__name__)
+
+
+class LoopMission(Enum):
+    """What follows the last waypoint of a mission."""
+
+    NO = 1
+    """The mission ends there."""
+    RESTART = 2
+    """The first waypoint is next."""
+    REVERSE = 3
+    """The waypoints are flown backwards, and forwards again from the first one."""
+
+
+@dataclass
+class MissionMobilityConfiguration:
+    """How a mission is flown.
+
+    Attributes:
+        speed: m/s, >= 0.
+        loop_mission: What follows the last waypoint.
+        tolerance: A waypoint counts as reached at this distance or less; m, >= 0.
+    """
+
+    speed: float = 5
+    loop_mission: LoopMission = LoopMission.NO
+    tolerance: float = 0.5
+
+
+class MissionMobilityPluginException(Exception):  # noqa: N818 (the published name)
+    """A mission that cannot be flown, or an order that makes no sense for the mission under way."""
+
+
+class MissionMobilityPlugin:
+    """Sends the mobility commands of a mission, driven by the telemetry of its node.
+
+    Create it in `initialize` or later. It is idle until a mission is started, and again when a mission
+    without a loop has reached its last waypoint.
+    """
+
+    def __init__(
+        self, protocol: IProtocol, configuration: MissionMobilityConfiguration | None = None
+    ) -> None:
+        """Attach to `protocol`; without a configuration its defaults hold."""
+        self._protocol = protocol
+        self._configuration = configuration or MissionMobilityConfiguration()
+        _check_configuration(self._configuration)
+        self._dispatcher = create_dispatcher(protocol)
+        self._mission: tuple[Position, ...] = ()
+        self._waypoint = 0
+        self._reversed = False
+
+    @property
+    def current_waypoint(self) -> int | None:
+        """Index of the waypoint that the node is flying to; None when idle."""
+        return self._waypoint if self._mission else None
+
+    @property
+    def is_reversed(self) -> bool:
+        """Whether the waypoints are being flown from the last to the first."""
+        return self._reversed
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no mission is under way."""
+        return not self._mission
+
+    def start_mission(self, mission: Sequence[Position]) -> None:
+        """Fly to the first waypoint and on from there; a mission under way is dropped.
+
+        Args:
+            mission: At least one waypoint (x, y, z), metres.
+
+        Raises:
+            MissionMobilityPluginException: There is no waypoint, or one is not three finite numbers.
+        """
+        waypoints = tuple(_check_waypoint(index, waypoint) for index, waypoint in enumerate(mission))
+        if not waypoints:
+            raise MissionMobilityPluginException("a mission needs at least one waypoint, got none")
+        if self.is_idle:
+            self._dispatcher.register_handle_telemetry(self._handle_telemetry)
+        self._mission = waypoints
+        self._reversed = False
+        self._go_to(0)
+        self._protocol.provider.send_mobility_command(SetSpeedMobilityCommand(self._configuration.speed))
+
+    def start_mission_with_waypoint_file(self, mission_file_path: str) -> None:
+        """Like `start_mission`, with the waypoints of a text file: one `x,y,z` in metres per line.
+
+        Empty lines are skipped. A relative path starts at the working directory.
+
+        Raises:
+            MissionMobilityPluginException: The file cannot be read, or a line is not three finite numbers.
+        """
+        try:
+            text = Path(mission_file_path).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise MissionMobilityPluginException(
+                f"cannot read the mission file {mission_file_path}: {error}"
+            ) from error
+        mission = []
+        for number, line in enumerate(text.splitlines(), start=1):
+            if not line.strip():
+                continue
+            try:
+                x, y, z = map(float, line.split(","))
+            except ValueError:
+                raise MissionMobilityPluginException(
+                    f"{mission_file_path}:{number}: expected a waypoint x,y,z in metres, got {line.strip()!r}"
+                ) from None
+            mission.append((x, y, z))
+        self.start_mission(mission)
+
+    def stop_mission(self) -> None:
+        """Become idle. No command is sent: the vehicle still flies to its last target. No-op when idle."""
+        if self.is_idle:
+            return
+        self._dispatcher.unregister_handle_telemetry(self._handle_telemetry)
+        self._mission = ()
+        self._waypoint = 0
+        self._reversed = False
+
+    def set_current_waypoint(self, waypoint: int) -> None:
+        """Fly to the waypoint with that index now, and on from there in the same direction.
+
+        Raises:
+            MissionMobilityPluginException: No mission is under way, or it has no such waypoint.
+        """
+        self._require_mission("set the current waypoint")
+        if isinstance(waypoint, bool) or not isinstance(waypoint, int):
+            raise MissionMobilityPluginException(f"a waypoint's index is an integer, got {waypoint!r}")
+        if not 0 <= waypoint < len(self._mission):
+            raise MissionMobilityPluginException(
+                f"there is no waypoint {waypoint}: the mission has waypoints 0 to {len(self._mission) - 1}"
+            )
+        self._go_to(waypoint)
+
+    def set_reversed(self, reversed: bool) -> None:
+        """Turn round: fly to the next waypoint of the new direction. No-op if it is not new.
+
+        At the end of the mission that the new direction points to, the waypoint stays the same.
+
+        Raises:
+            MissionMobilityPluginException: No mission is under way, or it does not loop with REVERSE.
+        """
+        self._require_mission("turn round")
+        if self._configuration.loop_mission is not LoopMission.REVERSE:
+            raise MissionMobilityPluginException(
+                "only a mission with loop_mission REVERSE can turn round, this one has "
+                f"{self._configuration.loop_mission.name}"
+            )
+        if reversed == self._reversed:
+            return
+        self._reversed = bool(reversed)
+        step = -1 if self._reversed else 1
+        self._go_to(min(max(self._waypoint + step, 0), len(self._mission) - 1))
+
+    def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> DispatchReturn:
+        # A handler before this one may have stopped the mission.
+        if self._mission:
+            target = self._mission[self._waypoint]
+            if squared_distance(telemetry.current_position, target) <= self._configuration.tolerance**2:
+                self._advance()
+        return DispatchReturn.CONTINUE
+
+    def _advance(self) -> None:
+        last = len(self._mission) - 1
+        following = self._waypoint + (-1 if self._reversed else 1)
+        if not 0 <= following <= last:
+            match self._configuration.loop_mission:
+                case LoopMission.NO:
+                    _logger.info("Mission: finished")
+                    self.stop_mission()
+                    return
+                case LoopMission.RESTART:
+                    following = 0
+                case LoopMission.REVERSE:
+                    self._reversed = not self._reversed
+                    following = max(last - 1, 0) if self._reversed else min(1, last)
+        # The loop of a single waypoint stays there, without a command for each telemetry.
+        if following != self._waypoint:
+            self._go_to(following)
+
+    def _go_to(self, waypoint: int) -> None:
+        self._waypoint = waypoint
+        _logger.info("Mission: Going to waypoint %s", waypoint)
+        self._protocol.provider.send_mobility_command(GotoCoordsMobilityCommand(*self._mission[waypoint]))
+
+    def _require_mission(self, purpose: str) -> None:
+        if self.is_idle:
+            raise MissionMobilityPluginException(f"cannot {purpose}: no mission is under way")
+
+
+def _check_configuration(configuration: MissionMobilityConfiguration) -> None:
+    for name in ("speed", "tolerance"):
+        value = getattr(configuration, name)
+        if not (math.isfinite(value) and value >= 0):
+            raise MissionMobilityPluginException(
+                f"{name} of a mission must be finite and >= 0, got {value!r}"
+            )
+    if not isinstance(configuration.loop_mission, LoopMission):
+        raise MissionMobilityPluginException(
+            f"loop_mission must be one of LoopMission, got {configuration.loop_mission!r}"
+        )
+
+
+def _check_waypoint(index: int, waypoint: Position) -> Position:
+    try:
+        x, y, z = map(float, waypoint)
+    except (TypeError, ValueError):
+        x = math.nan
+        y = z = x
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
+        raise MissionMobilityPluginException(
+            f"waypoint {index} must be three finite numbers (x, y, z) in metres, got {waypoint!r}"
+        )
+    return (x, y, z)
