@@ -7,12 +7,14 @@
 
 namespace netsim {
 
-Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint)
+Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
+               Hearing hearing)
     : simulator_(simulator),
       fates_(fates),
       fingerprint_(fingerprint),
       path_loss_(make_path_loss(config)),
-      background_noise_w_(config.background_noise_w) {}
+      background_noise_w_(config.background_noise_w),
+      hearing_(hearing) {}
 
 NodeId Medium::attach(const Receiver& receiver) {
     receivers_.push_back(receiver);
@@ -46,8 +48,7 @@ void Medium::transmit(Transmission transmission) {
         if (arrival.power_w < receiver.sensitivity_w) {
             ++count.too_weak;
         }
-        const bool told = is_told_alone(receiver, arrival.power_w);
-        if (told) {
+        if (is_told_alone(receiver, arrival.power_w)) {
             tell(receiver, arrival);
         }
         if (others_on_air && background_noise_w_ + arrival.power_w < receiver.energy_detection_w) {

@@ -45,9 +45,14 @@ struct Interference {
     std::vector<NodeId> interferers;  // each once, in the order of their transmissions
 };
 
+// Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold the other
+// one against.
+enum class Hearing { what_matters, everything };
+
 class Medium {
 public:
-    Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint);
+    Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
+           Hearing hearing = Hearing::what_matters);
 
     // Node ids are given in the order of attaching: 0, 1, …
     NodeId attach(const Receiver& receiver);
@@ -73,7 +78,8 @@ private:
     void begin(MediumListener* listener, const Arrival& arrival);
     void tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival);
     bool is_told_alone(const Receiver& receiver, double power_w) const {
-        return power_w >= receiver.sensitivity_w || background_noise_w_ + power_w >= receiver.energy_detection_w;
+        return hearing_ == Hearing::everything || power_w >= receiver.sensitivity_w ||
+               background_noise_w_ + power_w >= receiver.energy_detection_w;
     }
     void forget_the_past();
 
@@ -82,6 +88,7 @@ private:
     Fingerprint& fingerprint_;
     PathLoss path_loss_;
     double background_noise_w_;
+    Hearing hearing_;
     std::vector<Receiver> receivers_;
     std::deque<OnAir> on_air_;  // by start; pointers to its elements stay valid until they are forgotten
     std::uint64_t next_id_ = 0;

@@ -1,5 +1,8 @@
 #include "netsim/node/network.hpp"
 
+#include <string>
+
+#include "netsim/error.hpp"
 #include "netsim/mac/dcf.hpp"
 
 namespace netsim {
@@ -13,13 +16,17 @@ const MediumConfig& validated(const MediumConfig& config) {
 
 }  // namespace
 
-Network::Network(const MediumConfig& medium, std::uint64_t seed)
+Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing)
     : seed_(seed),
       perfect_channel_(validated(medium).type_name == "UnitDiskRadioMedium"),
-      medium_(simulator_, medium, frame_fates_, fingerprint_) {}
+      medium_(simulator_, medium, frame_fates_, fingerprint_, hearing) {}
 
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
+    if (perfect_channel_ && !(config.radio.communication_range_m > 0)) {
+        throw ConfigError("radio.communication_range_m = " + std::to_string(config.radio.communication_range_m) +
+                          " m: UnitDiskRadioMedium needs the range of each radio, greater than 0 m");
+    }
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();

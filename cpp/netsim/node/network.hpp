@@ -24,7 +24,7 @@ namespace netsim {
 class Network {
 public:
     // Throws ConfigError for values out of range.
-    Network(const MediumConfig& medium, std::uint64_t seed);
+    Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing = Hearing::what_matters);
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;
 
