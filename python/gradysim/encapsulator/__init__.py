@@ -1,0 +1,1 @@
+"""The glue between one protocol and one environment."""

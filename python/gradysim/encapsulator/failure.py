@@ -1,0 +1,19 @@
+"""Says where in a run the exception of a protocol happened."""
+
+
+def add_protocol_note(
+    exception: BaseException, *, node_id: int, label: str, time_s: float, callback: str
+) -> None:
+    """Note node, simulated time and callback on the exception of a protocol; its traceback stays as it is.
+
+    Interruptions (KeyboardInterrupt, SystemExit) are nobody's failure and are left alone.
+
+    Args:
+        exception: What the protocol raised.
+        node_id: Id of the protocol's node.
+        label: The node's name for people: "ProtocolClass id".
+        time_s: Simulated time in seconds.
+        callback: Name of the protocol's method that was running.
+    """
+    if isinstance(exception, Exception):
+        exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

@@ -1,0 +1,172 @@
+"""Runs a protocol for a host outside, that wants to be told what the protocol did.
+
+The host sets time and id, calls a callback and gets the list of consequences to carry out, in order.
+"""
+
+from collections.abc import Callable
+from copy import copy
+from enum import Enum
+from functools import partial
+from random import Random
+from typing import Any
+
+from gradysim.encapsulator.failure import add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator
+from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.tracked_variables import TrackedVariables
+from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.messages.communication import CommunicationCommand
+from gradysim.protocol.messages.mobility import MobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+
+
+class ConsequenceType(int, Enum):
+    """What the protocol wants; the payload depends on it."""
+
+    COMMUNICATION = 0
+    """Payload: CommunicationCommand."""
+    MOBILITY = 1
+    """Payload: MobilityCommand."""
+    TIMER = 2
+    """Payload: (name, absolute time in seconds)."""
+    TRACK_VARIABLE = 3
+    """Payload: (name, value); the value of a removed variable is None."""
+    CANCEL_TIMER = 4
+    """Payload: name of the timers to forget."""
+
+
+Payload = CommunicationCommand | MobilityCommand | tuple[str, float] | tuple[str, Any] | str
+Consequence = tuple[ConsequenceType, Payload]
+
+
+class InteropProvider(IProvider):
+    """Collects what the protocol does.
+
+    Attributes:
+        consequences: What was collected since the host last took it.
+        timestamp: Simulated time in seconds, set by the host.
+        id: Id of the node, set by the host.
+        seed: Seed of the run, set by the host.
+    """
+
+    def __init__(self) -> None:
+        self.consequences: list[Consequence] = []
+        self.timestamp: float = 0
+        self.id = 0
+        self.seed = 0
+        self._random: Random | None = None
+        self._tracked_variables = TrackedVariables(self._track)
+
+    @property
+    def tracked_variables(self) -> dict[str, Any]:
+        """The tracked variables; each change is a consequence."""
+        return self._tracked_variables
+
+    @tracked_variables.setter
+    def tracked_variables(self, variables: dict[str, Any]) -> None:
+        # A protocol may replace the mapping; the changes are to be seen all the same.
+        values = dict(variables)
+        for name in [name for name in self._tracked_variables if name not in values]:
+            del self._tracked_variables[name]
+        self._tracked_variables.update(values)
+
+    def send_communication_command(self, command: CommunicationCommand) -> None:
+        """Collect the command as it is now."""
+        self.consequences.append((ConsequenceType.COMMUNICATION, copy(command)))
+
+    def send_mobility_command(self, command: MobilityCommand) -> None:
+        """Collect the command as it is now."""
+        self.consequences.append((ConsequenceType.MOBILITY, copy(command)))
+
+    def schedule_timer(self, timer: str, timestamp: float) -> None:
+        """Collect the timer; whether its time makes sense is for the host to say."""
+        self.consequences.append((ConsequenceType.TIMER, (timer, timestamp)))
+
+    def cancel_timer(self, timer: str) -> None:
+        """Collect the cancellation."""
+        self.consequences.append((ConsequenceType.CANCEL_TIMER, timer))
+
+    def current_time(self) -> float:
+        """Return the time that the host set, seconds."""
+        return self.timestamp
+
+    def get_id(self) -> int:
+        """Return the id that the host set."""
+        return self.id
+
+    @property
+    def random(self) -> Random:
+        """The node's stream in the run; made on first use, of the seed and the id that hold then."""
+        if self._random is None:
+            self._random = random_stream(self.seed, self.id, "protocol")
+        return self._random
+
+    def _track(self, name: str, value: Any) -> None:
+        self.consequences.append((ConsequenceType.TRACK_VARIABLE, (name, value)))
+
+
+class InteropEncapsulator(IEncapsulator[IProtocol]):
+    """The protocol as the host sees it: each callback returns its consequences, in order.
+
+    An exception of the protocol passes through, with a note of node, time and callback; the consequences
+    of that callback are dropped.
+    """
+
+    provider: InteropProvider
+
+    def __init__(self) -> None:
+        self.provider = InteropProvider()
+
+    def encapsulate(self, protocol: type[IProtocol]) -> None:
+        """Make an instance of the protocol."""
+        self.protocol = protocol.instantiate(self.provider)
+
+    def set_timestamp(self, timestamp: float) -> None:
+        """Set the simulated time in seconds, before each callback."""
+        self.provider.timestamp = timestamp
+
+    def set_id(self, id: int) -> None:
+        """Set the id of the node, before `initialize`."""
+        self.provider.id = id
+
+    def set_seed(self, seed: int) -> None:
+        """Set the seed of the run, before `initialize`; without it 0 holds."""
+        self.provider.seed = seed
+
+    def initialize(self) -> list[Consequence]:
+        """Run the protocol's `initialize`."""
+        return self._run("initialize", self.protocol.initialize)
+
+    def handle_timer(self, timer: str) -> list[Consequence]:
+        """Run the protocol's `handle_timer`."""
+        return self._run("handle_timer", partial(self.protocol.handle_timer, timer))
+
+    def handle_packet(self, message: str) -> list[Consequence]:
+        """Run the protocol's `handle_packet`."""
+        return self._run("handle_packet", partial(self.protocol.handle_packet, message))
+
+    def handle_telemetry(self, telemetry: Telemetry) -> list[Consequence]:
+        """Run the protocol's `handle_telemetry`."""
+        return self._run("handle_telemetry", partial(self.protocol.handle_telemetry, telemetry))
+
+    def finish(self) -> list[Consequence]:
+        """Run the protocol's `finish`."""
+        return self._run("finish", self.protocol.finish)
+
+    def _run(self, name: str, callback: Callable[[], None]) -> list[Consequence]:
+        provider = self.provider
+        try:
+            callback()
+        except BaseException as exception:
+            provider.consequences = []
+            add_protocol_note(
+                exception,
+                node_id=provider.id,
+                label=f"{type(self.protocol).__name__} {provider.id}",
+                time_s=provider.timestamp,
+                callback=name,
+            )
+            raise
+        consequences = provider.consequences
+        provider.consequences = []
+        return consequences

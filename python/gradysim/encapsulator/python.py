@@ -1,0 +1,173 @@
+"""Runs a protocol inside a simulation in Python: its commands go straight to the simulation's handlers."""
+
+import logging
+from collections.abc import Mapping
+from random import Random
+from typing import Any, Protocol, cast
+
+from gradysim.encapsulator.failure import add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator
+from gradysim.encapsulator.random_stream import random_stream
+from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.messages.communication import CommunicationCommand
+from gradysim.protocol.messages.mobility import MobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+
+_logger = logging.getLogger(__name__)
+
+
+class _Node(Protocol):
+    """What is needed of a node. The attribute `seed`, the run's, is taken as 0 where there is none."""
+
+    id: int
+
+
+class _CommunicationHandler(Protocol):
+    def handle_command(self, command: CommunicationCommand, sender: Any) -> None: ...
+
+
+class _MobilityHandler(Protocol):
+    def handle_command(self, command: MobilityCommand, node: Any) -> None: ...
+
+
+class _TimerHandler(Protocol):
+    def set_timer(self, message: str, timestamp: float, node: Any) -> None: ...
+
+    def cancel_timer(self, message: str, node: Any) -> None: ...
+
+    def get_current_time(self) -> float: ...
+
+
+class PythonProvider(IProvider):
+    """Passes what a protocol does to the handlers labelled "communication", "mobility" and "timer".
+
+    A command for which there is no handler is dropped with a warning; without timers the time is always 0.
+
+    Attributes:
+        node: The protocol's node.
+        handlers: Every handler of the simulation by its label.
+    """
+
+    def __init__(self, node: _Node, **handlers: Any) -> None:
+        self.node = node
+        self.handlers: Mapping[str, Any] = handlers
+        self.tracked_variables: dict[str, Any] = {}
+        self._communication = cast("_CommunicationHandler | None", handlers.get("communication"))
+        self._mobility = cast("_MobilityHandler | None", handlers.get("mobility"))
+        self._timer = cast("_TimerHandler | None", handlers.get("timer"))
+        self._random: Random | None = None
+
+    def send_communication_command(self, command: CommunicationCommand) -> None:
+        """Send a message; the handler's CommunicationException tells of a command that makes no sense."""
+        if self._communication is None:
+            self._warn_without("communication", "a message was not sent")
+        else:
+            self._communication.handle_command(command, self.node)
+
+    def send_mobility_command(self, command: MobilityCommand) -> None:
+        """Order the vehicle; the handler's MobilityException tells of a command that makes no sense."""
+        if self._mobility is None:
+            self._warn_without("mobility", "a command was not carried out")
+        else:
+            self._mobility.handle_command(command, self.node)
+
+    def schedule_timer(self, timer: str, timestamp: float) -> None:
+        """Set a timer; the handler's TimerException tells of a time in the past."""
+        if self._timer is None:
+            self._warn_without("timer", f"the timer {timer!r} was not set")
+        else:
+            self._timer.set_timer(timer, timestamp, self.node)
+
+    def cancel_timer(self, timer: str) -> None:
+        """Forget every pending timer of that name."""
+        if self._timer is None:
+            self._warn_without("timer", f"the timer {timer!r} was not cancelled")
+        else:
+            self._timer.cancel_timer(timer, self.node)
+
+    def current_time(self) -> float:
+        """Return the simulated time in seconds."""
+        if self._timer is None:
+            self._warn_without("timer", "the time is unknown")
+            return 0
+        return self._timer.get_current_time()
+
+    def get_id(self) -> int:
+        """Return the id of the node."""
+        return self.node.id
+
+    @property
+    def random(self) -> Random:
+        """The node's stream in this run, the same in every run with the same seed."""
+        if self._random is None:
+            self._random = random_stream(getattr(self.node, "seed", 0), self.node.id, "protocol")
+        return self._random
+
+    def _warn_without(self, label: str, consequence: str) -> None:
+        _logger.warning("Node %s has no %s handler: %s", self.node.id, label, consequence)
+
+
+class PythonEncapsulator(IEncapsulator[IProtocol]):
+    """Calls the protocol directly. Its exceptions pass through, with a note of node, time and callback."""
+
+    def __init__(self, node: _Node, **handlers: Any) -> None:
+        self.node = node
+        self.provider = PythonProvider(node, **handlers)
+
+    def encapsulate(self, protocol: type[IProtocol]) -> None:
+        """Make an instance of the protocol."""
+        try:
+            self.protocol = protocol.instantiate(self.provider)
+        except BaseException as exception:
+            self._note(exception, "instantiate", protocol)
+            raise
+
+    def initialize(self) -> None:
+        """Run the protocol's `initialize`."""
+        try:
+            self.protocol.initialize()
+        except BaseException as exception:
+            self._note(exception, "initialize", type(self.protocol))
+            raise
+
+    def handle_timer(self, timer: str) -> None:
+        """Run the protocol's `handle_timer`."""
+        try:
+            self.protocol.handle_timer(timer)
+        except BaseException as exception:
+            self._note(exception, "handle_timer", type(self.protocol))
+            raise
+
+    def handle_packet(self, message: str) -> None:
+        """Run the protocol's `handle_packet`."""
+        try:
+            self.protocol.handle_packet(message)
+        except BaseException as exception:
+            self._note(exception, "handle_packet", type(self.protocol))
+            raise
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """Run the protocol's `handle_telemetry`."""
+        try:
+            self.protocol.handle_telemetry(telemetry)
+        except BaseException as exception:
+            self._note(exception, "handle_telemetry", type(self.protocol))
+            raise
+
+    def finish(self) -> None:
+        """Run the protocol's `finish`."""
+        try:
+            self.protocol.finish()
+        except BaseException as exception:
+            self._note(exception, "finish", type(self.protocol))
+            raise
+
+    def _note(self, exception: BaseException, callback: str, protocol: type[IProtocol]) -> None:
+        timer = self.provider.handlers.get("timer")
+        add_protocol_note(
+            exception,
+            node_id=self.node.id,
+            label=f"{protocol.__name__} {self.node.id}",
+            time_s=timer.get_current_time() if timer is not None else 0.0,
+            callback=callback,
+        )
