@@ -77,12 +77,16 @@ void Node::timer_due(std::size_t number) {
     fingerprint_.add(timer_word ^ static_cast<std::uint64_t>(id_));
     fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
     fingerprint_.add_text(timer);
-    protocol_->handle_timer(timer);
+    if (protocol_) {
+        protocol_->handle_timer(timer);
+    }
 }
 
 void Node::telemetry_due() {
-    simulator_.schedule_after(telemetry_interval_, [this] { telemetry_due(); });
-    protocol_->handle_telemetry(position());
+    if (protocol_) {
+        simulator_.schedule_after(telemetry_interval_, [this] { telemetry_due(); });
+        protocol_->handle_telemetry(position());
+    }
 }
 
 }  // namespace netsim
