@@ -1,0 +1,217 @@
+"""The command `gradysim`.
+
+    gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
+    gradysim runs FILE.ini [-c CONFIG]
+
+Exit codes: 0 all is well; 1 a protocol failed; 2 a mistake in the arguments or in the .ini file;
+130 Ctrl-C. What only one command needs is imported inside it, so that `gradysim --help` answers at once.
+"""
+
+import contextlib
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import App, CycloptsError, Parameter
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+    from gradysim.report.supervised_run import Run
+    from gradysim.results.run_result import RunResult
+
+OK, FAILED, MISTAKE, INTERRUPTED = 0, 1, 2, 130
+
+MAX_RUN = 999_999
+"""The highest run number that `--runs` takes, so that a slip of the finger does not fill the memory."""
+
+Mode = Literal["integrated", "prototype"]
+
+FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
+ConfigOption = Annotated[str, Parameter(alias="-c", help="Name of the configuration: a section of the file.")]
+SetOption = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--set",
+        negative="",
+        show_default=False,
+        help="KEY=VALUE: takes precedence over the file; may be repeated.",
+    ),
+]
+
+
+def installed_version() -> str:
+    """Return the version of the installed package."""
+    from importlib import metadata
+
+    try:
+        return metadata.version("gradysim")
+    except metadata.PackageNotFoundError:
+        return "unknown (gradysim is not installed)"
+
+
+app = App(
+    name="gradysim",
+    help="Simulator of flying networks: one Python protocol, from a prototype to a realistic 802.11 network.",
+    version=installed_version,
+    suppress_keyboard_interrupt=False,
+)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out a command line (that of this process by default) and return the exit code."""
+    try:
+        code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
+    except CycloptsError:  # cyclopts has said what is wrong
+        return MISTAKE
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    return code if isinstance(code, int) else OK
+
+
+@app.command
+def run(
+    file: FileArgument,
+    /,
+    *,
+    config: ConfigOption = "General",
+    runs: Annotated[
+        str | None,
+        Parameter(alias="-r", help="Run numbers such as 0..3,5; all runs of the configuration by default."),
+    ] = None,
+    mode: Annotated[
+        Mode, Parameter(help="The 802.11 network of the compiled engine, or the plain simulator in Python.")
+    ] = "integrated",
+    settings: SetOption = (),
+    result_dir: Annotated[
+        Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.json.")
+    ] = None,
+    as_json: Annotated[
+        bool,
+        Parameter(
+            name="--json", negative="", help="Print one JSON object per run, one per line, no more."
+        ),
+    ] = False,
+    quiet: Annotated[bool, Parameter(negative="", help="No progress bar.")] = False,
+) -> int:
+    """Run the runs of a configuration and say what came out."""
+    from gradysim.config.error import ConfigError
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.report.interrupt import StopOnInterrupt
+
+    try:
+        if result_dir is not None:
+            result_dir.mkdir(parents=True, exist_ok=True)
+        scenarios = load(file, config, None if runs is None else parse_runs(runs), settings)
+        with StopOnInterrupt() as interrupt:
+            for scenario in scenarios:
+                code = run_one(
+                    builder(mode), scenario, interrupt.should_stop, result_dir, as_json=as_json, quiet=quiet
+                )
+                if code != OK:
+                    return code
+    except (ConfigError, CompiledPartMissingError, OSError) as mistake:
+        return say_mistake(mistake)
+    return OK
+
+
+@app.command(name="runs")
+def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
+    """List the runs of a configuration."""
+    from gradysim.config.error import ConfigError
+
+    try:
+        for scenario in load(file, config, None, settings):
+            print(f"Run {scenario.run_number}: $repetition={scenario.run_number}")
+    except ConfigError as mistake:
+        return say_mistake(mistake)
+    return OK
+
+
+def say_mistake(mistake: Exception) -> int:
+    """Say what the user got wrong, without a traceback, and return the exit code."""
+    print(mistake, file=sys.stderr)
+    return MISTAKE
+
+
+def parse_runs(text: str) -> list[int]:
+    """Return the run numbers of a text such as `0..3,5`, in its order, each once. Raises ConfigError."""
+    from gradysim.config.error import ConfigError
+
+    numbers: dict[int, None] = {}
+    for part in text.split(","):
+        first, dots, last = (piece.strip() for piece in part.partition(".."))
+        if not first.isdecimal() or (dots and not last.isdecimal()):
+            raise ConfigError(
+                f"--runs {text}: {part.strip()!r} is not a run number; expected a list such as 0..3,5"
+            )
+        low, high = int(first), int(last or first)
+        if not low <= high <= MAX_RUN:
+            raise ConfigError(
+                f"--runs {text}: {part.strip()!r} is no range of run numbers from 0 to {MAX_RUN}"
+            )
+        numbers.update(dict.fromkeys(range(low, high + 1)))
+    return list(numbers)
+
+
+def load(file: Path, config: str, runs: list[int] | None, settings: Sequence[str]) -> "list[Scenario]":
+    """Return one scenario per run. Raises ConfigError."""
+    from gradysim.config.scenario import load_scenarios
+
+    return load_scenarios(file, config, runs, settings)
+
+
+def builder(mode: Mode) -> "Callable[[Scenario], Run]":
+    """Return what builds a run in `mode`; only that mode's simulator is imported."""
+    if mode == "prototype":
+        from gradysim.prototype.run import PrototypeRun
+
+        return PrototypeRun
+    from gradysim.integrated.run import IntegratedRun
+
+    return IntegratedRun
+
+
+def run_one(
+    build: "Callable[[Scenario], Run]",
+    scenario: "Scenario",
+    should_stop: Callable[[], bool],
+    result_dir: Path | None,
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> int:
+    """Carry out one run, show and write its result, and return the exit code."""
+    from rich.console import Console
+
+    from gradysim.report.failure import print_failure
+    from gradysim.report.supervised_run import carry_out
+    from gradysim.results.run_file import write_run_file
+
+    bar = Console(stderr=True) if sys.stderr.isatty() and not quiet and not as_json else None
+    # What protocols print must not get between the JSON objects.
+    with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
+        outcome = carry_out(build, scenario, should_stop, bar)
+    if outcome.failure is not None:
+        print_failure(outcome.failure, sys.stderr)
+    if outcome.result is not None:
+        show(outcome.result, as_json=as_json)
+        if result_dir is not None:
+            path = write_run_file(outcome.result, result_dir)
+            print(f"written to {path}", file=sys.stderr if as_json else sys.stdout)
+    if outcome.failure is not None:
+        return FAILED
+    return INTERRUPTED if outcome.interrupted else OK
+
+
+def show(result: "RunResult", *, as_json: bool) -> None:
+    """Print a result: a line of JSON, or the summary for people."""
+    if as_json:
+        print(json.dumps(result.to_json_object()), flush=True)
+        return
+    from rich.console import Console
+
+    from gradysim.report.summary import print_summary
+
+    print_summary(result, Console())

@@ -1,0 +1,163 @@
+"""Glue between one Python protocol and one node of the compiled engine.
+
+`gradysim.integrated` makes one encapsulator per node. The engine calls the five methods of the *protocol*
+by their names, so that plugins which re-bind them are honoured; it never comes through this file. In the
+other direction the calls of the provider are the engine's own bound methods, so that what a protocol asks
+for costs one call.
+"""
+
+from random import Random
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from gradysim.encapsulator.failure import add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator
+from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.tracked_history import TrackedHistory
+from gradysim.encapsulator.tracked_variables import TrackedVariables
+from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.messages.communication import CommunicationCommand
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    MobilityCommand,
+    MobilityCommandType,
+)
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position, geo_to_cartesian
+
+if TYPE_CHECKING:
+    from gradysim._netsim import Node
+
+T = TypeVar("T", bound=IProtocol)
+
+_SAME_IN_THE_ENGINE = (
+    "send_communication_command",
+    "schedule_timer",
+    "cancel_timer",
+    "current_time",
+    "get_id",
+)
+
+
+class NetsimProvider(IProvider):
+    """What a protocol may ask of its node, answered by the engine.
+
+    Errors are the engine's `SimulationError`: a timer in the past, a destination that does not exist, a
+    message over the MTU.
+
+    Attributes:
+        history: What the tracked variables were, with times.
+    """
+
+    def __init__(self, node: "Node", *, seed: int, reference_coordinates: Position) -> None:
+        """Serve the protocol of `node`.
+
+        Args:
+            node: the engine's node
+            seed: the seed of the run; the protocol's random numbers follow from it and the node's id
+            reference_coordinates: latitude in degrees, longitude in degrees and altitude in metres of the
+                origin of the scene
+        """
+        self._node = node
+        self._reference_coordinates = reference_coordinates
+        self._random = random_stream(seed, node.id, "protocol")
+        self.history = TrackedHistory(node.current_time)
+        self._tracked_variables = TrackedVariables(self.history.note)
+        # An attribute of the instance hides the method of the class: a call goes straight to the engine.
+        for name in _SAME_IN_THE_ENGINE:
+            setattr(self, name, getattr(node, name))
+
+    @property
+    def tracked_variables(self) -> dict[str, Any]:
+        """The tracked variables; each change goes into the history."""
+        return self._tracked_variables
+
+    @tracked_variables.setter
+    def tracked_variables(self, variables: dict[str, Any]) -> None:
+        # A protocol may replace the mapping; the changes are noted all the same.
+        values = dict(variables)
+        for name in [name for name in self._tracked_variables if name not in values]:
+            del self._tracked_variables[name]
+        self._tracked_variables.update(values)
+
+    @property
+    def random(self) -> Random:
+        """The protocol's own random numbers: the same for the same seed and node, in both modes."""
+        return self._random
+
+    def send_communication_command(self, command: CommunicationCommand) -> None:
+        """Hand a message to the node's network interface."""
+        self._node.send_communication_command(command)
+
+    def send_mobility_command(self, command: MobilityCommand) -> None:
+        """Steer the node. Geographic coordinates are taken relative to the origin of the scene."""
+        if command.command_type == MobilityCommandType.GOTO_GEO_COORDS:
+            latitude, longitude, altitude = command.param_1, command.param_2, command.param_3
+            if latitude is None or longitude is None or altitude is None:
+                raise ValueError(f"latitude, longitude and altitude are needed, this is {command}")
+            target = geo_to_cartesian(self._reference_coordinates, (latitude, longitude, altitude))
+            command = GotoCoordsMobilityCommand(*target)
+        self._node.send_mobility_command(command)
+
+    def schedule_timer(self, timer: str, timestamp: float) -> None:
+        """Have `handle_timer(timer)` called at `timestamp`, in seconds of simulated time."""
+        self._node.schedule_timer(timer, timestamp)
+
+    def cancel_timer(self, timer: str) -> None:
+        """Cancel every pending timer of this name."""
+        self._node.cancel_timer(timer)
+
+    def current_time(self) -> float:
+        """Return the simulated time in seconds."""
+        return self._node.current_time()
+
+    def get_id(self) -> int:
+        """Return the node's id, 0 to n-1."""
+        return self._node.get_id()
+
+
+class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
+    """Puts a protocol on a node of the engine and says where a failure in it happened."""
+
+    def __init__(self, node: "Node", *, seed: int, reference_coordinates: Position = (0.0, 0.0, 0.0)) -> None:
+        """Prepare `node`; the arguments are those of `NetsimProvider`."""
+        self._node = node
+        self.provider = NetsimProvider(node, seed=seed, reference_coordinates=reference_coordinates)
+
+    def encapsulate(self, protocol: type[T]) -> None:
+        """Make the protocol and hand it to the node."""
+        self._label = f"{protocol.__name__} {self._node.id}"
+        try:
+            self.protocol = protocol.instantiate(self.provider)
+        except BaseException as failure:
+            self._note(failure, "instantiate")
+            raise
+        self._node.set_protocol(self.protocol, self._note)
+
+    def initialize(self) -> None:
+        """Call the protocol's method of this name, as do the four below."""
+        self.protocol.initialize()
+
+    def handle_timer(self, timer: str) -> None:
+        """A timer is due."""
+        self.protocol.handle_timer(timer)
+
+    def handle_packet(self, message: str) -> None:
+        """A message has arrived."""
+        self.protocol.handle_packet(message)
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """The node's position is known anew."""
+        self.protocol.handle_telemetry(telemetry)
+
+    def finish(self) -> None:
+        """The run is over."""
+        self.protocol.finish()
+
+    def _note(self, failure: BaseException, callback: str) -> None:
+        add_protocol_note(
+            failure,
+            node_id=self._node.id,
+            label=self._label,
+            time_s=self._node.current_time(),
+            callback=callback,
+        )

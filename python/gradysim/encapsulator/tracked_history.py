@@ -1,0 +1,42 @@
+"""The history of a protocol's tracked variables: which value each one had, from when on."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+_COMPARABLE = frozenset({bool, int, float, str, type(None)})
+
+
+class TrackedValue(NamedTuple):
+    """One change: from `time_s` seconds of simulated time on, the variable `name` was `value`."""
+
+    time_s: float
+    name: str
+    value: Any
+
+
+class TrackedHistory:
+    """Notes changes with their times, in order.
+
+    A plain number, text or truth value that is assigned again is no change, so that a protocol which repeats
+    itself a hundred times a second does not fill the memory. Lists and other objects are noted as they are,
+    not copied: what is changed inside of one later shows in its earlier entries too.
+
+    Attributes:
+        values: The changes, in the order in which they happened.
+    """
+
+    def __init__(self, current_time: Callable[[], float]) -> None:
+        """Start empty; `current_time()` gives the simulated time in seconds."""
+        self.values: list[TrackedValue] = []
+        self._current_time = current_time
+        self._last: dict[str, Any] = {}
+
+    def note(self, name: str, value: Any) -> None:
+        """Note that the variable `name` now is `value`; None for one that was removed."""
+        kind = type(value)
+        if kind in _COMPARABLE and name in self._last:
+            last = self._last[name]
+            if type(last) is kind and last == value:
+                return
+        self._last[name] = value
+        self.values.append(TrackedValue(self._current_time(), name, value))

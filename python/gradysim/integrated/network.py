@@ -1,0 +1,75 @@
+"""A scenario as a network of the compiled engine.
+
+The settings of the scenario have the names of the fields of the engine's passive structs, so they are set
+one by one; what the engine's own check then finds wrong is reported where the .ini file says it.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from gradysim.config.error import ConfigError
+from gradysim.config.scenario import NodeSpec, Scenario, Setting
+from gradysim.integrated.compiled_part import load_netsim
+
+if TYPE_CHECKING:
+    from gradysim._netsim import MediumConfig, Network, Node, NodeConfig
+
+
+def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
+    """Return the network of `scenario` and its nodes in the order of their ids, without protocols.
+
+    Raises ConfigError, with the place in the .ini file, when a value is outside the engine's range.
+    """
+    network = load_netsim().Network(medium_config(scenario), scenario.seed)
+    return network, tuple(network.add_node(node_config(spec)) for spec in scenario.nodes)
+
+
+def medium_config(scenario: Scenario) -> "MediumConfig":
+    """Return the checked configuration of the medium."""
+    config = load_netsim().MediumConfig()
+    set_fields(config, scenario.medium)
+    with errors_at(scenario.medium):
+        config.validate()
+    return config
+
+
+def node_config(spec: NodeSpec) -> "NodeConfig":
+    """Return the checked configuration of one node."""
+    config = load_netsim().NodeConfig(spec.name)
+    set_fields(config.radio, spec.radio)
+    set_fields(config.mac, spec.mac)
+    set_fields(config.mobility, spec.mobility)
+    config.initial_position = spec.initial_position
+    with errors_at({**spec.radio, **spec.mac, **spec.mobility}):
+        config.validate()
+    return config
+
+
+def set_fields(config: object, settings: Mapping[str, Setting]) -> None:
+    """Set the fields of a struct of the engine."""
+    for field, setting in settings.items():
+        with errors_at({field: setting}):
+            setattr(config, field, setting.value)
+
+
+@contextmanager
+def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
+    """Turn an error of the engine's check into a ConfigError at the setting whose field its text names."""
+    try:
+        yield
+    except (ValueError, TypeError) as error:
+        setting = named_in(str(error), settings)
+        if setting is None:
+            raise
+        raise ConfigError.at(setting.source, str(error)) from error
+
+
+def named_in(text: str, settings: Mapping[str, Setting]) -> Setting | None:
+    """Return the setting whose field is named first in `text`; the only one there is, if none is named."""
+    if len(settings) == 1:
+        return next(iter(settings.values()))
+    found = {field: re.search(rf"\b{re.escape(field)}\b", text) for field in settings}
+    places = {match.start(): field for field, match in found.items() if match is not None}
+    return settings[places[min(places)]] if places else None

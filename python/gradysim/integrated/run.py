@@ -1,0 +1,111 @@
+"""One run in integrated mode.
+
+`run(scenario)` is all that most callers need. Who wants to keep what a failing run computed takes the
+object: `execute` may raise, `result` tells at any time how far the run came.
+"""
+
+import random
+from collections.abc import Callable
+from time import perf_counter, process_time
+
+from gradysim.config.protocol_class import parametrize
+from gradysim.config.scenario import Scenario
+from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.integrated.network import build_network
+from gradysim.protocol.interface import IProtocol
+from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.slices import run_in_slices
+
+
+class IntegratedRun:
+    """A scenario on the compiled engine: built by the constructor, run once by `execute`."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        """Build the network and the protocols.
+
+        Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
+        accept a value of the scenario, and what the constructor of a protocol raises.
+        """
+        self._started = (perf_counter(), process_time())
+        self._cost = (0.0, 0.0)
+        self._scenario = scenario
+        self._complete = False
+        random.seed(scenario.seed)
+        self._network, self._nodes = build_network(scenario)
+        self._encapsulators: list[NetsimEncapsulator[IProtocol]] = []
+        for spec, node in zip(scenario.nodes, self._nodes, strict=True):
+            encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(
+                node, seed=scenario.seed, reference_coordinates=scenario.reference_coordinates
+            )
+            encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
+            self._encapsulators.append(encapsulator)
+
+    def execute(
+        self,
+        progress: Callable[[float], None] | None = None,
+        should_stop: Callable[[], bool] | None = None,
+    ) -> None:
+        """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
+
+        `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
+        passed on, with a note of node, time and callback, and ends the run without `finish`.
+        """
+        network, limit_s = self._network, self._scenario.sim_time_limit_s
+        try:
+            try:
+                network.initialize()
+                self._complete = run_in_slices(
+                    lambda max_events: network.run_until(limit_s, max_events),
+                    lambda: network.now,
+                    progress,
+                    should_stop,
+                )
+            except KeyboardInterrupt:
+                self._complete = False
+            network.finish()
+        except BaseException:
+            self._complete = False
+            raise
+        finally:
+            self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
+
+    def result(self) -> RunResult:
+        """Return what has been computed up to now."""
+        scenario, network = self._scenario, self._network
+        return RunResult(
+            config=scenario.config,
+            run=scenario.run_number,
+            seed=scenario.seed,
+            mode="integrated",
+            sim_time_s=network.now,
+            wall_s=self._cost[0],
+            cpu_s=self._cost[1],
+            events=network.event_count,
+            interrupted=not self._complete,
+            fingerprint=network.fingerprint,
+            fates={"frames": network.frame_fates(), "messages": network.message_fates()},
+            nodes=tuple(
+                NodeResult(
+                    id=spec.id,
+                    name=spec.name,
+                    protocol=spec.protocol.__name__,
+                    position=node.position,
+                    tracked_variables=dict(encapsulator.provider.tracked_variables),
+                )
+                for spec, node, encapsulator in zip(
+                    scenario.nodes, self._nodes, self._encapsulators, strict=True
+                )
+            ),
+        )
+
+
+def run(
+    scenario: Scenario,
+    *,
+    progress: Callable[[float], None] | None = None,
+    should_stop: Callable[[], bool] | None = None,
+) -> RunResult:
+    """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
+    integrated_run = IntegratedRun(scenario)
+    integrated_run.execute(progress, should_stop)
+    return integrated_run.result()

@@ -1,0 +1,39 @@
+"""Ctrl-C as a wish to stop: the first press sets a flag, the second one raises KeyboardInterrupt.
+
+So a run stops between two of its slices, with its results whole; a protocol that never returns from a
+callback can still be left.
+"""
+
+import signal
+import threading
+from types import FrameType
+from typing import Self
+
+
+class StopOnInterrupt:
+    """While inside the `with` block, SIGINT sets the flag that `should_stop()` reads.
+
+    Outside the main thread, where Python allows no signal handlers, the flag is never set.
+    """
+
+    def __init__(self) -> None:
+        self._pressed = False
+
+    def should_stop(self) -> bool:
+        """Return whether Ctrl-C was pressed."""
+        return self._pressed
+
+    def __enter__(self) -> Self:
+        self._in_main_thread = threading.current_thread() is threading.main_thread()
+        if self._in_main_thread:
+            self._previous = signal.signal(signal.SIGINT, self._on_signal)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._in_main_thread:
+            signal.signal(signal.SIGINT, self._previous)
+
+    def _on_signal(self, _signal: int, _frame: FrameType | None) -> None:
+        if self._pressed:
+            raise KeyboardInterrupt
+        self._pressed = True

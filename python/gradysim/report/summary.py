@@ -1,0 +1,94 @@
+"""What came out of one run, for people: times, nodes and what they tracked, fates."""
+
+from collections.abc import Mapping
+
+from rich import box
+from rich.console import Console, Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from gradysim.results.plain_value import plain_value
+from gradysim.results.run_result import NodeResult, RunResult
+
+MAX_VALUE_LENGTH = 200
+"""Characters shown of one tracked variable; all of it is in the JSON."""
+
+
+def print_summary(result: RunResult, console: Console) -> None:
+    """Print the summary of `result`."""
+    console.print(summary(result))
+
+
+def summary(result: RunResult) -> RenderableType:
+    """Return the summary of `result` as something that rich can print."""
+    parts: list[RenderableType] = [heading(result), cost(result)]
+    if result.nodes:
+        parts.append(node_table(result.nodes))
+    parts.extend(fate_table(what, kinds) for what, kinds in result.fates.items() if has_counts(kinds))
+    return Group(*parts)
+
+
+def heading(result: RunResult) -> Text:
+    """Return which run this was, and whether it ended early."""
+    text = Text(f"{result.config} run {result.run}", style="bold")
+    text.append(f"  seed {result.seed}, {result.mode} mode", style="not bold")
+    if result.interrupted:
+        text.append(f"  interrupted at {result.sim_time_s:g} s of simulated time", style="bold red")
+    return text
+
+
+def cost(result: RunResult) -> Text:
+    """Return the times, the events and the fingerprint, one line each."""
+    speed = f" ({result.sim_time_s / result.wall_s:,.0f} x real time)" if result.wall_s > 0 else ""
+    lines = [
+        f"simulated time  {result.sim_time_s:,.9g} s",
+        f"wall time       {result.wall_s:.3f} s{speed}, {result.cpu_s:.3f} s of processor time",
+        f"events          {result.events:,}",
+    ]
+    if result.fingerprint is not None:
+        lines.append(f"fingerprint     {result.fingerprint}")
+    return Text("\n".join(lines) + "\n")
+
+
+def node_table(nodes: tuple[NodeResult, ...]) -> Table:
+    """Return a row per node: where it is and what it tracked."""
+    table = Table(title="Nodes", title_justify="left", box=box.SIMPLE_HEAD)
+    table.add_column("id", justify="right")
+    table.add_column("name")
+    table.add_column("protocol")
+    table.add_column("position in m", justify="right")
+    table.add_column("tracked variables", overflow="fold")
+    for node in nodes:
+        table.add_row(
+            Text(str(node.id)),
+            Text(node.name),
+            Text(node.protocol),
+            Text(", ".join(f"{coordinate:.1f}" for coordinate in node.position)),
+            Text("\n".join(f"{name} = {short(value)}" for name, value in node.tracked_variables.items())),
+        )
+    return table
+
+
+def short(value: object) -> str:
+    """Return `value` as text of at most `MAX_VALUE_LENGTH` characters."""
+    text = str(plain_value(value))
+    return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 1] + "…"
+
+
+def has_counts(kinds: Mapping[str, Mapping[str, int]]) -> bool:
+    """Return whether anything was counted at all."""
+    return any(any(fates.values()) for fates in kinds.values())
+
+
+def fate_table(what: str, kinds: Mapping[str, Mapping[str, int]]) -> Table:
+    """Return a row per fate and a column per kind: `kinds` is {kind: {fate: count}}."""
+    table = Table(title=f"Fates of {what}", title_justify="left", box=box.SIMPLE_HEAD)
+    table.add_column("fate")
+    for kind in kinds:
+        table.add_column(Text(kind), justify="right")
+    fates = list(dict.fromkeys(fate for counts in kinds.values() for fate in counts))
+    for fate in fates:
+        table.add_row(Text(fate), *(f"{counts.get(fate, 0):,}" for counts in kinds.values()))
+    table.add_section()
+    table.add_row("sum", *(f"{sum(counts.values()):,}" for counts in kinds.values()))
+    return table

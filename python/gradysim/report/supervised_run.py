@@ -1,0 +1,71 @@
+"""One run as the command line carries it out: nothing that was computed is lost, however the run ends."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from rich.console import Console
+
+from gradysim.config.error import ConfigError
+from gradysim.config.scenario import Scenario
+from gradysim.integrated.compiled_part import CompiledPartMissingError
+from gradysim.report.progress import RunProgress
+from gradysim.results.run_result import RunResult
+
+
+class Run(Protocol):
+    """A run of either mode, built and ready."""
+
+    def execute(
+        self,
+        progress: Callable[[float], None] | None = None,
+        should_stop: Callable[[], bool] | None = None,
+    ) -> None:
+        """Run to the end; raise what a protocol raises."""
+
+    def result(self) -> RunResult:
+        """Return what has been computed up to now."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended, and what it computed until then."""
+
+    result: RunResult | None
+    """None if the run could not even be built."""
+    failure: BaseException | None = None
+    """What a protocol raised, in a callback or when it was made."""
+    interrupted: bool = False
+    """Whether Ctrl-C ended it."""
+
+
+def carry_out(
+    build: Callable[[Scenario], Run],
+    scenario: Scenario,
+    should_stop: Callable[[], bool],
+    progress_console: Console | None = None,
+) -> Outcome:
+    """Build and execute the run of `scenario`, with a progress bar on `progress_console` if there is one.
+
+    `should_stop()` says that Ctrl-C was pressed. What is wrong with the scenario or the installation
+    (ConfigError, CompiledPartMissingError) is raised.
+    """
+    try:
+        run = build(scenario)
+    except (ConfigError, CompiledPartMissingError):
+        raise
+    except (Exception, SystemExit) as failure:
+        return Outcome(None, failure=failure)
+    try:
+        if progress_console is None:
+            run.execute(should_stop=should_stop)
+        else:
+            title = f"{scenario.config} run {scenario.run_number}"
+            with RunProgress(progress_console, title, scenario.sim_time_limit_s) as bar:
+                run.execute(bar.update, should_stop)
+    except KeyboardInterrupt:
+        return Outcome(run.result(), interrupted=True)
+    except (Exception, SystemExit) as failure:
+        return Outcome(run.result(), failure=failure)
+    result = run.result()
+    return Outcome(result, interrupted=result.interrupted)
