@@ -26,7 +26,10 @@ std::string with_unit(double value, std::string_view unit) {
 
 std::string text_of(double value) {
     std::array<char, 32> buffer{};
-    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    const bool is_whole = std::abs(value) < 1e15 && std::trunc(value) == value;
+    const auto [end, error] =
+        is_whole ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), static_cast<long long>(value))
+                 : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     NETSIM_ASSERT(error == std::errc{});
     return {buffer.data(), end};
 }

@@ -21,7 +21,8 @@ void check_default_or_between(std::string_view field, int value, std::string_vie
                               int maximum);
 void check_name(std::string_view field, std::string_view value, std::span<const std::string_view> names);
 
-// The shortest text that reads back as the same number: "0.02", "1e-14".
+// The shortest text that reads back as the same number, whole numbers with all their digits: "0.02", "1e-14",
+// "5500000".
 std::string text_of(double value);
 
 }  // namespace netsim

@@ -10,7 +10,7 @@ MediumConfig::MediumConfig(std::string medium_type_name) : type_name(std::move(m
     check_name("medium.typename", type_name, medium_type_names);
     if (type_name == ieee802154_scalar_medium) {
         path_loss = "BreakpointPathLoss";
-        background_noise_w = 2.179717791595641e-13;  // -96.616 dBm
+        background_noise_w = 2.1797164411399055e-13;  // -96.616 dBm
     }
 }
 

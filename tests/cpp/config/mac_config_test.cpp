@@ -1,0 +1,55 @@
+#include "netsim/config/mac_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include "config/error_text.hpp"
+
+namespace netsim {
+namespace {
+
+// Sets one field of a valid configuration and validates.
+template <typename Value>
+std::string text_with(Value MacConfig::* field, Value value) {
+    MacConfig config;
+    config.*field = value;
+    return error_text([&] { config.validate(); });
+}
+
+TEST(MacConfig, DefaultsAreValid) {
+    EXPECT_NO_THROW(MacConfig().validate());
+}
+
+TEST(MacConfig, ValidateNamesTheField) {
+    EXPECT_EQ(text_with<std::string>(&MacConfig::op_mode, "g"),
+              "mac.op_mode = \"g\": expected one of b, g(erp), g(mixed), a; did you mean b?");
+    EXPECT_EQ(text_with(&MacConfig::bitrate_bps, 0.0), "mac.bitrate_bps = 0 bps: expected more than 0 bps");
+    EXPECT_EQ(text_with(&MacConfig::multicast_bitrate_bps, -2.0),
+              "mac.multicast_bitrate_bps = -2 bps: expected more than 0 bps");
+    EXPECT_EQ(text_with(&MacConfig::short_retry_limit, 0),
+              "mac.short_retry_limit = 0: expected from 1 to 255");
+    EXPECT_EQ(text_with(&MacConfig::long_retry_limit, 256),
+              "mac.long_retry_limit = 256: expected from 1 to 255");
+    EXPECT_EQ(text_with(&MacConfig::cw_min, -2),
+              "mac.cw_min = -2: expected -1 (that of the operation mode) or from 0 to 32767");
+    EXPECT_EQ(text_with(&MacConfig::cw_max, 40000),
+              "mac.cw_max = 40000: expected -1 (that of the operation mode) or from 0 to 32767");
+    EXPECT_EQ(text_with(&MacConfig::queue_capacity, 0),
+              "mac.queue_capacity = 0 frames: expected from 1 frames to 1000000 frames");
+    EXPECT_EQ(text_with(&MacConfig::mtu_bytes, 3000), "mac.mtu_bytes = 3000 B: expected from 29 B to 2304 B");
+}
+
+TEST(MacConfig, WindowsMustNotCross) {
+    MacConfig config;
+    config.cw_min = 63;
+    config.cw_max = 31;
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "mac.cw_max = 31: expected -1 (that of the operation mode) or from 63 to 32767");
+}
+
+TEST(MacConfig, BitrateOfMinusOneStandsForTheDefault) {
+    EXPECT_EQ(text_with(&MacConfig::bitrate_bps, -1.0), "no error");
+    EXPECT_EQ(text_with(&MacConfig::multicast_bitrate_bps, -1.0), "no error");
+}
+
+}  // namespace
+}  // namespace netsim

@@ -1,0 +1,73 @@
+#include "netsim/config/medium_config.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "config/error_text.hpp"
+#include "netsim/units.hpp"
+
+namespace netsim {
+namespace {
+
+TEST(MediumConfig, DefaultIsTheScalar80211Medium) {
+    const MediumConfig config;
+    EXPECT_EQ(config.type_name, "Ieee80211ScalarRadioMedium");
+    EXPECT_EQ(config.path_loss, "FreeSpacePathLoss");
+    EXPECT_DOUBLE_EQ(config.background_noise_w, w_from_dbm(-110));
+}
+
+TEST(MediumConfig, The802154MediumHasABreakpointAndMoreNoise) {
+    const MediumConfig config("Ieee802154NarrowbandScalarRadioMedium");
+    EXPECT_EQ(config.path_loss, "BreakpointPathLoss");
+    EXPECT_DOUBLE_EQ(config.background_noise_w, w_from_dbm(-96.616));
+}
+
+TEST(MediumConfig, EveryTypeIsValidAsItComes) {
+    for (const std::string_view type_name : medium_type_names) {
+        EXPECT_NO_THROW(MediumConfig(std::string(type_name)).validate()) << type_name;
+    }
+}
+
+TEST(MediumConfig, UnknownTypeIsAnErrorAtOnce) {
+    EXPECT_EQ(
+        error_text([] { MediumConfig("UnitDisc"); }),
+        "medium.typename = \"UnitDisc\": expected one of Ieee80211ScalarRadioMedium, "
+        "Ieee802154NarrowbandScalarRadioMedium, UnitDiskRadioMedium; did you mean UnitDiskRadioMedium?");
+}
+
+// Sets one field of a valid configuration and validates.
+template <typename Value>
+std::string text_with(Value MediumConfig::* field, Value value) {
+    MediumConfig config;
+    config.*field = value;
+    return error_text([&] { config.validate(); });
+}
+
+TEST(MediumConfig, ValidateNamesTheField) {
+    EXPECT_EQ(text_with(&MediumConfig::alpha, -1.0), "medium.alpha = -1: expected more than 0");
+    EXPECT_EQ(text_with(&MediumConfig::breakpoint_distance_m, 0.0),
+              "medium.breakpoint_distance_m = 0 m: expected more than 0 m");
+    EXPECT_EQ(text_with(&MediumConfig::l01_db, std::numeric_limits<double>::infinity()),
+              "medium.l01_db = inf dB: expected a finite number");
+    EXPECT_EQ(text_with(&MediumConfig::l02_db, std::numeric_limits<double>::infinity()),
+              "medium.l02_db = inf dB: expected a finite number");
+    EXPECT_EQ(text_with(&MediumConfig::alpha1, 0.0), "medium.alpha1 = 0: expected more than 0");
+    EXPECT_EQ(text_with(&MediumConfig::alpha2, 0.0), "medium.alpha2 = 0: expected more than 0");
+    EXPECT_EQ(text_with(&MediumConfig::background_noise_w, -1e-14),
+              "medium.background_noise_w = -1e-14 W: expected at least 0 W");
+    EXPECT_EQ(
+        text_with<std::string>(&MediumConfig::path_loss, "TwoRay"),
+        "medium.path_loss = \"TwoRay\": expected one of FreeSpacePathLoss, BreakpointPathLoss; did you mean "
+        "FreeSpacePathLoss?");
+    EXPECT_EQ(text_with<std::string>(&MediumConfig::propagation, "Instant"),
+              "medium.propagation = \"Instant\": expected ConstantSpeedPropagation");
+    EXPECT_NE(text_with<std::string>(&MediumConfig::type_name, "Air"), "no error");
+}
+
+TEST(MediumConfig, NoNoiseIsAllowed) {
+    EXPECT_EQ(text_with(&MediumConfig::background_noise_w, 0.0), "no error");
+}
+
+}  // namespace
+}  // namespace netsim
