@@ -34,7 +34,7 @@ class Custody:
         self.held = 0
 
     def take(self, peer: int, given: int) -> int:
-        """Take what is new in a message of `peer` that has `given` so many in all. Returns how many are new."""
+        """Take what is new in a message of `peer` that has `given` so many in all; return how many."""
         new = max(0, given - self.taken_from(peer))
         self._taken[peer] = self.taken_from(peer) + new
         self.held += new

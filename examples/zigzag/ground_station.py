@@ -1,11 +1,8 @@
 """The ground station's part of ZigZag."""
 
-from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
-from zigzag.custody import Custody
-from zigzag.heartbeat import HeartbeatClock
-from zigzag.message import (
+from custody import Custody
+from heartbeat import HeartbeatClock
+from message import (
     GroundHeartbeat,
     PairConfirmation,
     PairRequest,
@@ -13,6 +10,10 @@ from zigzag.message import (
     decode,
     encode,
 )
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class ZigZagGroundStation(IProtocol):

@@ -1,4 +1,21 @@
-"""The UAV's part of ZigZag."""
+"""The UAV's part of ZigZag, in which UAVs relay the data of sensors to a ground station.
+
+After T. Lamenza et al., "Developing Algorithms for the Internet of Flying Things Through Environments With
+Varying Degrees of Realism". Each lesson that the authors drew is a parameter here: `heartbeat_jitter`,
+`interaction_timeout`, `launch_interval`. The scenarios are in `configs/zigzag.ini`.
+"""
+
+from custody import Custody
+from heartbeat import HeartbeatClock
+from message import (
+    GroundHeartbeat,
+    PairConfirmation,
+    PairRequest,
+    SensorData,
+    UavHeartbeat,
+    decode,
+    encode,
+)
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
@@ -7,17 +24,6 @@ from gradysim.protocol.plugin.mission_mobility import (
     LoopMission,
     MissionMobilityConfiguration,
     MissionMobilityPlugin,
-)
-from zigzag.custody import Custody
-from zigzag.heartbeat import HeartbeatClock
-from zigzag.message import (
-    GroundHeartbeat,
-    PairConfirmation,
-    PairRequest,
-    SensorData,
-    UavHeartbeat,
-    decode,
-    encode,
 )
 
 
@@ -52,9 +58,9 @@ class ZigZagMobile(IProtocol):
     """Longest random delay of a heartbeat in seconds; 0: all nodes send at the same instants."""
     interaction_timeout: float = 5.0
     """Seconds after an exchange in which other UAVs and the ground station are ignored (sensors are not), so
-    that the two get out of each other's reach; 0: they turn around again and again and never part."""
+    that the two get out of each other's reach; 0: they turn around at each heartbeat that they hear."""
     launch_interval: float = 30.0
-    """Seconds between the launches of two UAVs: number i starts at i * launch_interval. 0: all at once."""
+    """Seconds between the launches of two UAVs: number i starts at i * launch_interval; 0: all at once."""
     sensor_count: int = 5
     """Number of sensors, which stand on the x axis."""
     sensor_spacing: float = 300.0
