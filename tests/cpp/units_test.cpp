@@ -36,7 +36,8 @@ TEST(Units, NoPowerIsMinusInfinityInDbm) {
 }
 
 TEST(Units, DbmRoundTrip) {
-    for (double power_dbm = -150; power_dbm <= 50; power_dbm += 0.7) {
+    for (int step = 0; step <= 300; ++step) {
+        const double power_dbm = -150 + 0.7 * step;
         EXPECT_NEAR(dbm_from_w(w_from_dbm(power_dbm)), power_dbm, 1e-12);
     }
 }

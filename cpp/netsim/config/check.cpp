@@ -35,20 +35,20 @@ std::string text_of(double value) {
 }
 
 void check_at_least(std::string_view field, double value, double minimum, std::string_view unit) {
-    if (!(std::isfinite(value) && value >= minimum)) {
+    if (!std::isfinite(value) || value < minimum) {
         refuse(field, with_unit(value, unit), "at least " + with_unit(minimum, unit));
     }
 }
 
 void check_greater(std::string_view field, double value, double bound, std::string_view unit) {
-    if (!(std::isfinite(value) && value > bound)) {
+    if (!std::isfinite(value) || value <= bound) {
         refuse(field, with_unit(value, unit), "more than " + with_unit(bound, unit));
     }
 }
 
 void check_between(std::string_view field, double value, double minimum, double maximum,
                    std::string_view unit) {
-    if (!(value >= minimum && value <= maximum)) {
+    if (!std::isfinite(value) || value < minimum || value > maximum) {
         refuse(field, with_unit(value, unit),
                "from " + with_unit(minimum, unit) + " to " + with_unit(maximum, unit));
     }

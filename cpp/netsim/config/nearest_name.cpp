@@ -33,7 +33,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
 
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> names) {
     NETSIM_ASSERT(!names.empty());
-    return *std::min_element(names.begin(), names.end(), [name](std::string_view a, std::string_view b) {
+    return *std::ranges::min_element(names, [name](std::string_view a, std::string_view b) {
         return edit_distance(name, a) < edit_distance(name, b);
     });
 }

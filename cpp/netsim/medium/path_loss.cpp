@@ -49,15 +49,16 @@ PathLoss make_path_loss(const MediumConfig& config) {
     PathLoss path_loss;
     if (config.path_loss == "FreeSpacePathLoss") {
         constexpr double pi = std::numbers::pi;
-        path_loss.near_ = {1 / (16 * pi * pi), config.alpha};
+        path_loss.near_ = {.coefficient = 1 / (16 * pi * pi), .exponent = config.alpha};
         path_loss.far_ = path_loss.near_;
         path_loss.depends_on_carrier_ = true;
         return path_loss;
     }
     NETSIM_ASSERT(config.path_loss == "BreakpointPathLoss");
-    path_loss.near_ = {ratio_from_db(-config.l01_db), config.alpha1};
-    path_loss.far_ = {ratio_from_db(-config.l02_db) * std::pow(config.breakpoint_distance_m, config.alpha2),
-                      config.alpha2};
+    path_loss.near_ = {.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1};
+    path_loss.far_ = {
+        .coefficient = ratio_from_db(-config.l02_db) * std::pow(config.breakpoint_distance_m, config.alpha2),
+        .exponent = config.alpha2};
     path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
     return path_loss;
 }

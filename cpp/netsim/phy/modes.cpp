@@ -147,24 +147,23 @@ const Mode& ModeSet::mode_for_bitrate(double bitrate_bps, std::string_view field
 }
 
 const Mode& ModeSet::fastest_mandatory() const {
-    return *std::find_if(modes_.rbegin(), modes_.rend(), [](const Mode& mode) { return mode.mandatory; });
+    return *std::ranges::find_if(modes_.rbegin(), modes_.rend(), &Mode::mandatory);
 }
 
 const Mode& ModeSet::slowest_mandatory() const {
-    return *std::find_if(modes_.begin(), modes_.end(), [](const Mode& mode) { return mode.mandatory; });
+    return *std::ranges::find_if(modes_, &Mode::mandatory);
 }
 
 const Mode& ModeSet::response_mode(const Mode& received) const {
-    const auto at_most_as_fast = std::find_if(modes_.rbegin(), modes_.rend(), [&](const Mode& mode) {
+    const auto answer = std::ranges::find_if(modes_.rbegin(), modes_.rend(), [&received](const Mode& mode) {
         return mode.mandatory && mode.bitrate_bps <= received.bitrate_bps;
     });
-    return at_most_as_fast == modes_.rend() ? slowest_mandatory() : *at_most_as_fast;
+    return answer == modes_.rend() ? slowest_mandatory() : *answer;
 }
 
 const ModeSet& mode_set(std::string_view op_mode) {
     check_name("mac.op_mode", op_mode, op_mode_names);
-    const auto found = std::find_if(mode_sets.begin(), mode_sets.end(),
-                                    [op_mode](const ModeSet& set) { return set.name() == op_mode; });
+    const auto found = std::ranges::find(mode_sets, op_mode, &ModeSet::name);
     NETSIM_ASSERT(found != mode_sets.end());
     return *found;
 }

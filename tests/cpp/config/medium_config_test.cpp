@@ -1,6 +1,8 @@
 #include "netsim/config/medium_config.hpp"
 
 #include <limits>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -40,7 +42,7 @@ TEST(MediumConfig, UnknownTypeIsAnErrorAtOnce) {
 template <typename Value>
 std::string text_with(Value MediumConfig::* field, Value value) {
     MediumConfig config;
-    config.*field = value;
+    config.*field = std::move(value);
     return error_text([&] { config.validate(); });
 }
 

@@ -1,5 +1,8 @@
 #include "netsim/config/mobility_config.hpp"
 
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "config/error_text.hpp"
@@ -11,7 +14,7 @@ namespace {
 template <typename Value>
 std::string text_with(Value MobilityConfig::* field, Value value) {
     MobilityConfig config;
-    config.*field = value;
+    config.*field = std::move(value);
     return error_text([&] { config.validate(); });
 }
 

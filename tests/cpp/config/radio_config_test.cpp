@@ -1,5 +1,8 @@
 #include "netsim/config/radio_config.hpp"
 
+#include <string>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "config/error_text.hpp"
@@ -23,7 +26,7 @@ TEST(RadioConfig, DefaultsInTheDecibelsThatPeopleKnow) {
 template <typename Value>
 std::string text_with(Value RadioConfig::* field, Value value) {
     RadioConfig config;
-    config.*field = value;
+    config.*field = std::move(value);
     return error_text([&] { config.validate(); });
 }
 

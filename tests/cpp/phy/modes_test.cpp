@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,18 +26,24 @@ struct Expected {
     std::array<int, 4> duration_us;  // of psdu_bytes
 };
 
-const std::vector<Expected> expected_dsss{
+constexpr std::array<Expected, 4> expected_dsss{{
     {1, {304, 992, 1504, 12192}},
     {2, {248, 592, 848, 6192}},
     {5.5, {213, 338, 431, 2374}},
     {11, {203, 265, 312, 1283}},
-};
-const std::vector<Expected> expected_ofdm{
-    {6, {44, 160, 244, 2024}}, {9, {36, 112, 172, 1356}}, {12, {32, 92, 132, 1024}}, {18, {28, 68, 96, 688}},
-    {24, {28, 56, 76, 524}},   {36, {24, 44, 60, 356}},   {48, {24, 40, 48, 272}},   {54, {24, 36, 48, 244}},
-};
+}};
+constexpr std::array<Expected, 8> expected_ofdm{{
+    {6, {44, 160, 244, 2024}},
+    {9, {36, 112, 172, 1356}},
+    {12, {32, 92, 132, 1024}},
+    {18, {28, 68, 96, 688}},
+    {24, {28, 56, 76, 524}},
+    {36, {24, 44, 60, 356}},
+    {48, {24, 40, 48, 272}},
+    {54, {24, 36, 48, 244}},
+}};
 
-void expect_durations(const ModeSet& set, const std::vector<Expected>& expected, int signal_extension_us) {
+void expect_durations(const ModeSet& set, std::span<const Expected> expected, int signal_extension_us) {
     for (const Expected& mode : expected) {
         for (std::size_t i = 0; i < psdu_bytes.size(); ++i) {
             const SimTime duration = ModeSet::duration(set.mode_for_bitrate(mode.mbps * 1e6), psdu_bytes[i]);
