@@ -28,7 +28,8 @@ class ConfigError(ValueError):
     @classmethod
     def at(cls, source: Source, text: str) -> Self:
         """An error found elsewhere (the engine's check of a range, say) in the value at `source`."""
-        return cls(f"{source.key}: {text}" if source.line and source.key else text, source)
+        is_told = source.is_command_line or not source.key
+        return cls(text if is_told else f"{source.key} = {source.value}: {text}", source)
 
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message

@@ -1,7 +1,7 @@
 """Every key and option that an .ini file may hold: where its value goes, and what it has to be.
 
-The names are INET's and OMNeT++'s. Ranges of radio and MAC values are the engine's business, only what no unit
-and no model could mean is refused here. To add a key, add a line.
+The names are INET's and OMNeT++'s. Ranges of radio and MAC values are the engine's business, only what no
+unit and no model could mean is refused here. To add a key, add a line.
 """
 
 from dataclasses import dataclass

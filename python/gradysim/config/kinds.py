@@ -1,6 +1,6 @@
 """What a value has to be: a quantity of some dimension, an integer, one of some names, and so on.
 
-A kind turns the value that was written into the plain number or text that a struct holds: SI units, powers in watts.
+A kind turns the value that was written into what a struct holds: SI units, powers in watts.
 """
 
 import math
@@ -63,8 +63,8 @@ def number(at_least: float | None = None, above: float | None = None, at_most: f
     return Kind("a plain number" + _range_text(at_least, above, at_most, ""), convert)
 
 
-def integer(at_least: int = -MAX_INTEGER, at_most: int = MAX_INTEGER) -> Kind:
-    """A whole number, written without a point."""
+def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> Kind:
+    """A whole number, written without a point; what the engine takes as an int, if nothing else is said."""
 
     def convert(value: Value) -> int:
         result = _plain(_quantity_of(value)).number
@@ -99,9 +99,10 @@ def power_ratio() -> Kind:
 
 
 def channel_of_2_4_ghz() -> Kind:
-    """A channel number of the 2.4 GHz band, counted from 0 as INET does, converted to its centre in hertz.
+    """A channel of the 2.4 GHz band, counted from 0 as INET does, converted to its centre in hertz.
 
-    The centres are those of IEEE 802.11-2020, 15.4.4.3: 2.412 GHz and every 5 MHz from there, the 14th at 2.484 GHz.
+    The centres are those of IEEE 802.11-2020, 15.4.4.3: 2.412 GHz and every 5 MHz from there, the 14th at
+    2.484 GHz.
     """
     index = integer(0, 13)
 
@@ -142,7 +143,7 @@ def choice(*names: str) -> Kind:
 
 
 def si_number() -> Kind:
-    """A number, or a quantity that is converted to its SI unit; sizes have none, decibels stay as they are."""
+    """A number, or a quantity, converted to its SI unit; sizes have none, decibels stay as they are."""
 
     def convert(value: Value) -> float:
         given = _quantity_of(value)
@@ -198,7 +199,7 @@ def _check_range(
 ) -> None:
     if special is not None and result == special:
         return
-    if not math.isfinite(result):
+    if isinstance(result, float) and not math.isfinite(result):
         raise BadValue(f"`{value}` is not finite")
     if (
         (at_least is not None and result < at_least)
@@ -211,9 +212,13 @@ def _check_range(
 def _range_text(at_least: float | None, above: float | None, at_most: float | None, unit: str) -> str:
     parts = []
     if at_least is not None:
-        parts.append(f"at least {at_least:.10g}{unit}")
+        parts.append(f"at least {_text_of_bound(at_least)}{unit}")
     if above is not None:
-        parts.append(f"greater than {above:.10g}{unit}")
-    if at_most is not None and at_most < MAX_INTEGER:
-        parts.append(f"at most {at_most:.10g}{unit}")
+        parts.append(f"greater than {_text_of_bound(above)}{unit}")
+    if at_most is not None and at_most != MAX_INTEGER:
+        parts.append(f"at most {_text_of_bound(at_most)}{unit}")
     return f", {' and '.join(parts)}" if parts else ""
+
+
+def _text_of_bound(bound: float) -> str:
+    return str(bound) if isinstance(bound, int) else f"{bound:.12g}"

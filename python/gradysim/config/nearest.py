@@ -3,14 +3,21 @@
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+_LEAST_PART = 4
+
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate most like `name`, or None if none is like it. The case of letters counts little."""
+    """The candidate most like `name`, or else the only one that holds it; None if none is like it.
+
+    The case of letters does not count.
+    """
     by_folded: dict[str, str] = {}
     for candidate in candidates:
         by_folded.setdefault(candidate.casefold(), candidate)
     matches = get_close_matches(name.casefold(), by_folded, n=1, cutoff=0.6)
-    return by_folded[matches[0]] if matches else None
+    if not matches and len(name) >= _LEAST_PART:
+        matches = [candidate for candidate in by_folded if name.casefold() in candidate]
+    return by_folded[matches[0]] if len(matches) == 1 else None
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:

@@ -16,7 +16,7 @@ _NUMBER_RANGE = re.compile(r"(?:\[(\d*)\.\.(\d*)\])|(?:\{(\d*)\.\.(\d*)\})", re.
 
 @dataclass(frozen=True)
 class Token:
-    """One element of a pattern: how it is written, its regular expression, its character if it is just one."""
+    """One element of a pattern: its text, its regular expression, and its character if it is just one."""
 
     text: str
     regex: str
@@ -51,7 +51,7 @@ class Pattern:
 
     def literal_prefix(self) -> str:
         """The text that everything that matches begins with."""
-        characters = []
+        characters: list[str] = []
         for token in self.tokens:
             if token.literal is None:
                 return "".join(characters) + ("[" if token.text.startswith("[") else "")

@@ -194,4 +194,4 @@ def _entry(line: str, source: Source, section: str) -> Entry:
         raise ConfigError(f"`{line}` is no entry; expected `key = value`", source)
     if not text:
         raise ConfigError(f"`{key}` has no value; expected `{key} = value`", source)
-    return Entry(key, text, Source(source.file, source.line, key), section)
+    return Entry(key, text, Source(source.file, source.line, key, text.replace("\n", " ")), section)

@@ -12,7 +12,7 @@ class Source:
         file: The .ini file, as the user named it. For the command line: the file that it overrides.
         line: The line, counted from 1. 0 is the command line if there is a key, and the whole file if not.
         key: The key as it was written, or "" where no key is concerned.
-        value: The value as it was written; kept for the command line only.
+        value: The value as it was written.
     """
 
     file: Path

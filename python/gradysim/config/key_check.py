@@ -1,0 +1,144 @@
+"""Finds the keys that match nothing: a misspelt group, parameter or option has to be an error, not a default.
+
+Two checks, since the parameters of protocols are known only when their classes are loaded, and a misspelt
+group is better reported than the missing class that follows from it.
+"""
+
+from collections.abc import Iterator, Mapping
+
+from gradysim.config.error import ConfigError
+from gradysim.config.groups import Group
+from gradysim.config.key_suggestion import unknown_name_text, unknown_parameter_text
+from gradysim.config.keys import (
+    GROUP_SIZE,
+    NETWORK_KEYS,
+    NETWORK_MODULES,
+    NODE_KEYS,
+    OPTIONS,
+    SECTION_OPTIONS,
+)
+from gradysim.config.lookup import Found, Lookup, is_ignored
+from gradysim.config.nearest import did_you_mean
+from gradysim.config.pattern import Pattern
+from gradysim.config.protocol_parameters import parameters_of
+from gradysim.config.reader import Entry
+from gradysim.protocol.interface import IProtocol
+
+_NETWORK_RESTS = [tuple(key.path.split(".", 1)) for key in NETWORK_KEYS]
+
+
+def check_option(entry: Entry) -> None:
+    """Raise ConfigError if there is no such option, or if it cannot be given there."""
+    key = entry.key
+    if key in SECTION_OPTIONS and entry.source.is_command_line:
+        raise ConfigError(f"`{key}` belongs to a section; expected it in the file", entry.source)
+    if key in OPTIONS or key in SECTION_OPTIONS or is_ignored(entry):
+        return
+    hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, "network", "result-dir", "experiment-label"])
+    raise ConfigError(
+        f"there is no option `{key}`; expected one, or a parameter such as `*.uavs[*].mobility.speed`{hint}",
+        entry.source,
+    )
+
+
+def check_names(lookup: Lookup, groups: list[Group]) -> None:
+    """Raise ConfigError for the first key that names no node, no group and no other part of the network."""
+    names = {*NETWORK_MODULES, *(group.size_key for group in groups), *(group.name for group in groups)}
+    for group in groups:
+        names.update(group.node_names() or [f"{group.name}[0]"])
+    known: dict[Pattern, bool] = {}
+    for found in _in_order_of_text(lookup):
+        name = found.name_pattern()
+        if name is None:
+            continue
+        if name not in known:
+            known[name] = any(map(name.matches, names)) if name.literal is None else name.literal in names
+        matches = known[name] or _is_beyond_overridden_size(found, groups)
+        if not (matches and found.parts and found.parts[0].matches(lookup.network)):
+            raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
+
+
+def check_parameters(lookup: Lookup, groups: list[Group], classes: Mapping[str, type[IProtocol]]) -> None:
+    """Raise ConfigError for the first key that names no parameter; `classes` are those of the nodes."""
+    check = _ParameterCheck(lookup.network, groups, classes)
+    for found in _in_order_of_text(lookup):
+        if not check.matches(found):
+            raise ConfigError(check.error_text(found), found.entry.source)
+
+
+class _ParameterCheck:
+    def __init__(self, network: str, groups: list[Group], classes: Mapping[str, type[IProtocol]]) -> None:
+        self._network = network
+        self._groups = groups
+        self._classes = classes
+        self._rests = {cls: _rests_of(cls) for cls in {*classes.values()}}
+        self._classes_of: dict[Pattern, set[type[IProtocol]]] = {}
+        self._known: dict[tuple[type[IProtocol], Pattern], bool] = {}
+
+    def matches(self, found: Found) -> bool:
+        name, rest = found.name_pattern(), found.rest_pattern()
+        if name is None:
+            return any(found.pattern.matches(path) for path in self._all_paths())
+        if rest is None:
+            return any(name.matches(group.size_key) for group in self._groups)
+        if any(name.matches(module) and rest.matches(below) for module, below in _NETWORK_RESTS):
+            return True
+        if rest.matches(GROUP_SIZE.path) and any(name.matches(group.name) for group in self._groups):
+            return True
+        classes = self._classes_named(name)
+        if not classes:  # the group is empty, or smaller than this key was written for
+            is_single_part = any(name.matches(other) for other in NETWORK_MODULES | self._indexed())
+            return not is_single_part and (
+                rest.literal_prefix().startswith("protocol.")
+                or any(rest.matches(key.path) for key in NODE_KEYS)
+            )
+        return any(self._is_known(cls, rest) for cls in classes)
+
+    def error_text(self, found: Found) -> str:
+        name = found.name_pattern()
+        classes = sorted(self._classes_named(name), key=lambda cls: cls.__name__) if name else []
+        return unknown_parameter_text(found, self._groups, classes or list(self._rests))
+
+    def _indexed(self) -> set[str]:
+        return {group.name for group in self._groups if group.size is not None}
+
+    def _classes_named(self, name: Pattern) -> set[type[IProtocol]]:
+        if name.literal is not None:
+            return {self._classes[name.literal]} if name.literal in self._classes else set()
+        if name not in self._classes_of:
+            self._classes_of[name] = {cls for node, cls in self._classes.items() if name.matches(node)}
+        return self._classes_of[name]
+
+    def _is_known(self, cls: type[IProtocol], rest: Pattern) -> bool:
+        if (cls, rest) not in self._known:
+            self._known[cls, rest] = any(map(rest.matches, self._rests[cls]))
+        return self._known[cls, rest]
+
+    def _all_paths(self) -> Iterator[str]:
+        yield from (f"{self._network}.{key.path}" for key in NETWORK_KEYS)
+        for group in self._groups:
+            yield f"{self._network}.{group.size_key}"
+            yield f"{self._network}.{group.name}.{GROUP_SIZE.path}"
+            if group.size == 0:
+                yield from (f"{self._network}.{group.name}[0].{key.path}" for key in NODE_KEYS)
+        for node, cls in self._classes.items():
+            yield from (f"{self._network}.{node}.{rest}" for rest in self._rests[cls])
+
+
+def _rests_of(cls: type[IProtocol]) -> list[str]:
+    return [key.path for key in NODE_KEYS] + [f"protocol.{name}" for name in parameters_of(cls)]
+
+
+def _in_order_of_text(lookup: Lookup) -> list[Found]:
+    """The entries so that the first mistake of a file is the first that is reported."""
+    return sorted(lookup.found, key=lambda found: (found.entry.source.line, found.order))
+
+
+def _is_beyond_overridden_size(found: Found, groups: list[Group]) -> bool:
+    """Whether a key names an index that the group had until a more specific section made it smaller."""
+    name = found.name_pattern()
+    prefix = name.literal_prefix().partition("[") if name else ("", "", "")
+    return any(
+        group.name == prefix[0] and prefix[1] and group.size_found and group.size_found.rank < found.rank
+        for group in groups
+    )

@@ -1,0 +1,98 @@
+"""What to say about a key that matches nothing: what was expected there, and the nearest valid key."""
+
+from collections.abc import Sequence
+
+from gradysim.config.groups import Group
+from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
+from gradysim.config.lookup import Found
+from gradysim.config.nearest import did_you_mean, nearest
+from gradysim.config.pattern import Pattern
+from gradysim.config.protocol_parameters import parameters_of
+from gradysim.protocol.interface import IProtocol
+
+_PROTOCOL = "protocol."
+
+
+def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> str:
+    """The message for a key that names no node and no part of the network."""
+    key = found.entry.key
+    if not found.parts or not found.parts[0].matches(network):
+        problem = f"`{key}` does not begin with `*.` or `**.`, nor with the network's name `{network}.`"
+        hint = did_you_mean(key, _written_keys(key, groups, ()))
+        return f"{problem}; expected a key such as `*.uavs[*].mobility.speed`{hint}"
+    base, bracket, _ = found.parts[1].text.partition("[")
+    match = nearest(base, [*(group.name for group in groups), *NETWORK_MODULES])
+    group = next((group for group in groups if group.name == match), None)
+    if match is not None:
+        nearest_parts = [found.parts[0].text, group.written if group else match]
+        nearest_parts += [part.text for part in found.parts[2:]]
+        hint = f"; did you mean `{'.'.join(nearest_parts)}`?"
+    else:
+        hint = "" if bracket else did_you_mean(key, _written_keys(key, groups, ()))
+    if group is not None and group.name == base:
+        has = f"nodes {base}[0] to {base}[{group.size - 1}]" if group.size else "one node, without index"
+        return f"`{key}` matches no node; expected `{base}` as it is, with {has}{hint}"
+    if bracket and not hint:
+        size = f"`*.num{base[:1].upper()}{base[1:]} = ...`"
+        return f"`{key}` matches no node: nothing says how many `{base}` there are; expected {size}"
+    names = ", ".join(f"`{group.written}`" for group in groups)
+    return f"`{key}` matches no node; expected one of {names or 'the nodes, and there are none'}{hint}"
+
+
+def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:
+    """The message for a key that names no parameter. `classes` are those of the nodes it names."""
+    key = found.entry.key
+    rest = found.rest_pattern()
+    names_node = found.parts is not None and found.parts[1].text.partition("[")[0] not in NETWORK_MODULES
+    if rest is not None and names_node and rest.text.startswith(_PROTOCOL) and classes:
+        return _unknown_protocol_parameter_text(key, rest, classes)
+    return f"`{key}` matches no parameter; expected the name of one{_hint(found, groups, classes)}"
+
+
+def _hint(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:
+    key = found.entry.key
+    if (
+        found.parts
+        and len(found.parts) == 3
+        and any(found.parts[1].matches(name) for name in _node_names(groups))
+    ):
+        prefix = f"{found.parts[0].text}.{found.parts[1].text}."
+        return did_you_mean(key, [prefix + rest for rest in _written_rests(classes)])
+    return did_you_mean(key, _written_keys(key, groups, classes))
+
+
+def _unknown_protocol_parameter_text(key: str, rest: Pattern, classes: Sequence[type[IProtocol]]) -> str:
+    name = rest.text.removeprefix(_PROTOCOL)
+    parameters = sorted({"class", *(parameter for cls in classes for parameter in parameters_of(cls))})
+    match = nearest(name, parameters)
+    hint = f"; did you mean `{key.removesuffix(name)}{match}`?" if match else ""
+    whose = " or ".join(cls.__name__ for cls in classes)
+    attribute = next((value for cls in classes if (value := getattr(cls, name, None)) is not None), None)
+    why = (
+        ""
+        if attribute is None
+        else f", it is of type {type(attribute).__name__} and not a plain public value"
+    )
+    return f"`{name}` is no parameter of {whose}{why}; expected one of {', '.join(parameters)}{hint}"
+
+
+def _node_names(groups: Sequence[Group]) -> list[str]:
+    return [name for group in groups for name in group.node_names()]
+
+
+def _written_rests(classes: Sequence[type[IProtocol]]) -> list[str]:
+    """All keys below a node, as people write them."""
+    parameters = [f"{_PROTOCOL}{name}" for cls in classes for name in parameters_of(cls)]
+    return [key.written for key in NODE_KEYS] + parameters
+
+
+def _written_keys(key: str, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> list[str]:
+    """All keys as people write them; only their ends if `key` begins with `**.`."""
+    keys = [f"*.{network_key.written}" for network_key in NETWORK_KEYS]
+    for group in groups:
+        keys.append(f"*.{group.size_key}")
+        keys += [f"*.{group.written}.{rest}" for rest in _written_rests(classes)]
+    if not key.startswith("**."):
+        return keys
+    parts = key.count(".")
+    return list(dict.fromkeys("**." + ".".join(written.split(".")[-parts:]) for written in keys))

@@ -1,0 +1,36 @@
+"""One node of a scenario, as both modes build it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from gradysim.config.setting import Setting
+from gradysim.protocol.interface import IProtocol
+
+
+@dataclass(frozen=True)
+class NodeSpec:
+    """One node.
+
+    Attributes:
+        id: 0 to n-1, in the order of the groups.
+        name: "uavs[0]", or "groundStation" for a single node.
+        group: The name without the index.
+        index: The index in the group; 0 for a single node.
+        protocol: The class as it was written; see parametrize for its parameters.
+        protocol_parameters: Values of class attributes, checked and converted.
+        initial_position: x, y, z in metres.
+        mobility: Fields of MobilityConfig that were set; the others keep their defaults.
+        radio: Fields of RadioConfig that were set.
+        mac: Fields of MacConfig that were set.
+    """
+
+    id: int
+    name: str
+    group: str
+    index: int
+    protocol: type[IProtocol]
+    protocol_parameters: Mapping[str, object]
+    initial_position: tuple[float, float, float]
+    mobility: Mapping[str, Setting]
+    radio: Mapping[str, Setting]
+    mac: Mapping[str, Setting]

@@ -1,0 +1,167 @@
+"""Builds the nodes of a scenario: for each node the entries in force, and what they say.
+
+Nodes with the same entries in force share the mappings made of them, so that a thousand of them cost little
+more than one.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from gradysim.config.error import BadValue, ConfigError
+from gradysim.config.groups import Group
+from gradysim.config.keys import NODE_KEYS, PROTOCOL_CLASS, Key
+from gradysim.config.kinds import Kind
+from gradysim.config.lookup import Candidates, Found, Lookup
+from gradysim.config.nearest import did_you_mean
+from gradysim.config.node_spec import NodeSpec
+from gradysim.config.protocol_loader import ProtocolLoader
+from gradysim.config.protocol_parameters import parameters_of
+from gradysim.config.setting import Setting, SettingReader
+from gradysim.protocol.interface import IProtocol
+
+_AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class _Shared:
+    """What nodes with the same entries in force have in common; line is start and step for each axis."""
+
+    protocol_parameters: Mapping[str, object]
+    line: tuple[tuple[float, float], ...]
+    mobility: Mapping[str, Setting]
+    radio: Mapping[str, Setting]
+    mac: Mapping[str, Setting]
+
+
+def load_classes(
+    lookup: Lookup, groups: list[Group], settings: SettingReader, loader: ProtocolLoader
+) -> dict[str, type[IProtocol]]:
+    """The protocol class of each node, by name. Raises ConfigError if a node has none or it does not load."""
+    candidates = lookup.candidates(PROTOCOL_CLASS.path)
+    classes: dict[str, type[IProtocol]] = {}
+    by_entry: dict[Found, type[IProtocol]] = {}
+    for group in groups:
+        for name in group.node_names():
+            found = candidates.first(name)
+            if found is None or found.is_default:
+                raise _no_class_error(group, groups, name)
+            if found not in by_entry:
+                by_entry[found] = _load_class(found, settings, loader)
+            classes[name] = by_entry[found]
+    return classes
+
+
+def build_nodes(
+    lookup: Lookup, groups: list[Group], classes: Mapping[str, type[IProtocol]], settings: SettingReader
+) -> tuple[NodeSpec, ...]:
+    """All nodes, in the order of their ids. Raises ConfigError for a value that is none."""
+    builder = _NodeBuilder(lookup, settings)
+    nodes: list[NodeSpec] = []
+    for group in groups:
+        for index, name in enumerate(group.node_names()):
+            shared = builder.shared(name, classes[name])
+            x, y, z = (start + index * step for start, step in shared.line)
+            nodes.append(
+                NodeSpec(
+                    id=len(nodes),
+                    name=name,
+                    group=group.name,
+                    index=index,
+                    protocol=classes[name],
+                    protocol_parameters=shared.protocol_parameters,
+                    initial_position=(x, y, z),
+                    mobility=shared.mobility,
+                    radio=shared.radio,
+                    mac=shared.mac,
+                )
+            )
+    return tuple(nodes)
+
+
+class _NodeBuilder:
+    def __init__(self, lookup: Lookup, settings: SettingReader) -> None:
+        self._lookup = lookup
+        self._settings = settings
+        self._keys = [
+            (key, candidates)
+            for key in NODE_KEYS
+            if key is not PROTOCOL_CLASS and (candidates := lookup.candidates(key.path))
+        ]
+        self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
+        self._shared: dict[object, _Shared] = {}
+
+    def shared(self, name: str, cls: type[IProtocol]) -> _Shared:
+        parameters = self._parameters.get(cls)
+        if parameters is None:
+            parameters = self._parameters[cls] = [
+                (parameter, kind, candidates)
+                for parameter, kind in parameters_of(cls).items()
+                if (candidates := self._lookup.candidates(f"protocol.{parameter}"))
+            ]
+        found = [candidates.first(name) for _, candidates in self._keys]
+        found_parameters = [candidates.first(name) for _, _, candidates in parameters]
+        in_force = (cls, *found, *found_parameters)
+        shared = self._shared.get(in_force)
+        if shared is None:
+            shared = self._shared[in_force] = self._make(
+                {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},
+                {
+                    parameter: self._settings.scalar(entry.entry, kind)
+                    for (parameter, kind, _), entry in zip(parameters, found_parameters, strict=True)
+                    if entry and not entry.is_default
+                },
+            )
+        return shared
+
+    def _make(self, found: dict[Key, Found], protocol_parameters: dict[str, object]) -> _Shared:
+        structs = {
+            struct: read_struct(struct, found, self._settings) for struct in ("mobility", "radio", "mac")
+        }
+        position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
+        values = {
+            field: float(setting.value)
+            for field, setting in read_struct("position", found, self._settings).items()
+        }
+        line = tuple(_axis_line(axis, position, values) for axis in _AXES)
+        return _Shared(protocol_parameters, line, **structs)
+
+
+def read_struct(struct: str, found: Mapping[Key, Found], settings: SettingReader) -> dict[str, Setting]:
+    """The fields of one struct that entries set. Of two keys for one field the first entry is in force."""
+    first: dict[str, tuple[Found, Key]] = {}
+    for key, entry in found.items():
+        if key.struct == struct and (key.field not in first or entry.order < first[key.field][0].order):
+            first[key.field] = (entry, key)
+    return {
+        field: settings.setting(entry.entry, key.kind)
+        for field, (entry, key) in first.items()
+        if not entry.is_default
+    }
+
+
+def _axis_line(axis: str, found: Mapping[str, Found], values: Mapping[str, float]) -> tuple[float, float]:
+    """Start and step along one axis in metres. Of `initial` and `line` the first entry is in force."""
+    initial = found.get(f"initial_{axis}")
+    line = [entry.order for field in ("start", "step") if (entry := found.get(f"line_{field}_{axis}"))]
+    if initial is not None and all(initial.order < order for order in line):
+        return values.get(f"initial_{axis}", 0.0), 0.0
+    return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
+
+
+def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> type[IProtocol]:
+    entry = found.entry
+    reference = str(settings.scalar(entry, PROTOCOL_CLASS.kind))
+    try:
+        return loader.load(reference, entry.source.file.parent)
+    except BadValue as error:
+        expected = 'a protocol as "file.py:Class" or "package.module:Class"'
+        text = f"{error.problem}; expected {expected}{error.suggestion}"
+        raise ConfigError.at(entry.source, text) from error
+
+
+def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:
+    others = [f"*.{other.size_key}" for other in groups if other is not group and other.size is not None]
+    hint = did_you_mean(f"*.{group.size_key}", others)
+    expected = f'`*.{group.written}.protocol.class = "file.py:Class"`'
+    source = group.size_found.entry.source if group.size_found else None
+    return ConfigError(f"nothing says which protocol {node} runs; expected {expected}{hint}", source)

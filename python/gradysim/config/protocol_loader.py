@@ -1,0 +1,96 @@
+"""Finds the class that `protocol.class` names, and checks that it is a protocol that can run."""
+
+import importlib
+import inspect
+import traceback
+from pathlib import Path
+from types import ModuleType
+
+from gradysim.config.error import BadValue
+from gradysim.config.nearest import did_you_mean
+from gradysim.config.protocol_module import ModuleLoader
+from gradysim.protocol.interface import IProtocol
+
+
+class ProtocolLoader:
+    """Loads each file and module once for a configuration."""
+
+    def __init__(self) -> None:
+        self._modules = ModuleLoader()
+
+    def load(self, reference: str, folder: Path) -> type[IProtocol]:
+        """The class of "file.py:Class" (the file relative to `folder`) or "package.module:Class".
+
+        Raises:
+            BadValue: There is no such file, module or class, it does not load, or it is no complete protocol.
+        """
+        place, colon, class_name = reference.rpartition(":")
+        if not (colon and place and class_name.isidentifier()):
+            raise BadValue(f"`{reference}` names no class")
+        if place.endswith(".py") or "/" in place or "\\" in place:
+            module = self._from_file(place, folder)
+        else:
+            module = _from_name(place)
+        return _protocol_in(module, class_name, place)
+
+    def _from_file(self, place: str, folder: Path) -> ModuleType:
+        file = folder / place
+        if not file.is_file():
+            siblings = [sibling.name for sibling in file.parent.glob("*.py")] if file.parent.is_dir() else []
+            prefix = place[: len(place) - len(Path(place).name)]
+            hint = did_you_mean(place, (prefix + sibling for sibling in sorted(siblings)))
+            raise BadValue(f"there is no file {file}", hint)
+        try:
+            return self._modules.load(file)
+        except (Exception, SystemExit) as error:
+            raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
+
+
+def _from_name(name: str) -> ModuleType:
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name is None or not f"{name}.".startswith(f"{error.name}."):
+            raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
+        raise BadValue(f"this Python finds no module `{error.name}`") from error
+    except (Exception, SystemExit) as error:
+        raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
+
+
+def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
+    cls = getattr(module, name, None)
+    if cls is None:
+        protocols = [other for other, value in vars(module).items() if _is_protocol(value)]
+        raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or _list(protocols))
+    if not _is_protocol(cls):
+        raise BadValue(f"`{name}` in {place} is no protocol, it does not derive from IProtocol")
+    protocol: type[IProtocol] = cls
+    if inspect.isabstract(protocol):
+        missing = ", ".join(f"{method}()" for method in sorted(protocol.__abstractmethods__))
+        raise BadValue(f"`{name}` in {place} is not complete, it lacks {missing}")
+    return protocol
+
+
+def _is_protocol(value: object) -> bool:
+    return isinstance(value, type) and issubclass(value, IProtocol) and value is not IProtocol
+
+
+def _list(protocols: list[str]) -> str:
+    return f"; there are {', '.join(protocols)}" if protocols else ""
+
+
+def _error_text(error: BaseException, folder: Path | None = None) -> str:
+    """What was raised, and the innermost line of the user's own files that led to it."""
+    text = "".join(traceback.format_exception_only(error)[-1:]).strip()
+    if isinstance(error, SyntaxError) and error.filename and error.lineno:
+        return f"{text} ({error.filename}:{error.lineno})" if "line " not in text else text
+    frames = [
+        frame for frame in traceback.extract_tb(error.__traceback__) if "importlib" not in frame.filename
+    ]
+    own = [
+        frame
+        for frame in frames
+        if folder is not None and Path(frame.filename).resolve().is_relative_to(folder.resolve())
+    ]
+    place = (own or frames)[-1:]
+    return f"{text} ({place[0].filename}:{place[0].lineno})" if place else text

@@ -1,0 +1,40 @@
+"""Which runs of a configuration are meant by `-r`: numbers and ranges such as "0,2,5..9"."""
+
+import re
+from collections.abc import Iterable
+
+from gradysim.config.error import ConfigError
+from gradysim.config.source import Source
+
+_RANGE = re.compile(r"\s*(\d{1,9})\s*(?:(?:\.\.|-)\s*(\d{1,9})\s*)?", re.ASCII)
+
+
+def select_runs(runs: str | Iterable[int] | None, count: int, config: str, source: Source) -> list[int]:
+    """The run numbers, in increasing order, each once; all of 0 to count-1 for None.
+
+    `source` is where `count` comes from.
+
+    Raises:
+        ConfigError: The text is no list of numbers, or there is no such run.
+    """
+    if runs is None:
+        return list(range(count))
+    ranges = [range(run, run + 1) for run in runs] if not isinstance(runs, str) else _ranges(runs)
+    for numbers in ranges:
+        if not numbers or numbers.start < 0 or numbers.stop > count:
+            run = numbers.start if not numbers or numbers.start < 0 else numbers.stop - 1
+            has = "run 0" if count == 1 else f"runs 0 to {count - 1}"
+            raise ConfigError(
+                f"configuration `{config}` has no run {run}; expected {has} (`repeat = {count}`)", source
+            )
+    return sorted({run for numbers in ranges for run in numbers})
+
+
+def _ranges(text: str) -> list[range]:
+    ranges = []
+    for part in text.split(","):
+        match = _RANGE.fullmatch(part)
+        if match is None or (match[2] and int(match[2]) < int(match[1])):
+            raise ConfigError(f"-r {text}: expected numbers of runs and ranges such as `0,2,5..9`")
+        ranges.append(range(int(match[1]), int(match[2] or match[1]) + 1))
+    return ranges

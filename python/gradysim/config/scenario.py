@@ -1,0 +1,201 @@
+"""What a configuration says, run by run: the plain data that both modes are built from."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from gradysim.config.error import ConfigError
+from gradysim.config.groups import find_groups
+from gradysim.config.key_check import check_names, check_option, check_parameters
+from gradysim.config.keys import NETWORK_KEYS, OPTIONS
+from gradysim.config.lookup import Lookup, is_ignored, is_option
+from gradysim.config.node_spec import NodeSpec
+from gradysim.config.nodes import build_nodes, load_classes, read_struct
+from gradysim.config.protocol_loader import ProtocolLoader
+from gradysim.config.reader import Entry, read_ini, read_overrides
+from gradysim.config.run_numbers import select_runs
+from gradysim.config.sections import config_names, search_order
+from gradysim.config.setting import Setting, SettingReader, read_scalar
+from gradysim.config.source import Source
+from gradysim.config.variables import depends_on_run, run_variables, substitute
+
+__all__ = ["CommunicationMediumSpec", "NodeSpec", "Scenario", "Setting", "Source", "load_scenarios"]
+
+
+@dataclass(frozen=True)
+class CommunicationMediumSpec:
+    """Prototype mode's medium.
+
+    Attributes:
+        transmission_range_m: Distance up to which a message arrives.
+        delay_s: Time from sending to arrival.
+        failure_rate: Part of the messages that is lost, 0 to 1.
+    """
+
+    transmission_range_m: float = 60.0
+    delay_s: float = 0.0
+    failure_rate: float = 0.0
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One run of one configuration.
+
+    Attributes:
+        file: The .ini file.
+        config: Name of the configuration.
+        run_number: 0 to repeat-1.
+        seed: Of all random streams of the run.
+        description: What the configuration says of itself, or "".
+        sim_time_limit_s: Simulated time at which the run ends.
+        nodes: In the order of their ids.
+        medium: Fields of MediumConfig that were set; the others keep their defaults.
+        communication_medium: Prototype mode's medium.
+        reference_coordinates: Latitude in degrees, longitude in degrees and altitude in metres of the origin.
+    """
+
+    file: Path
+    config: str
+    run_number: int
+    seed: int
+    description: str
+    sim_time_limit_s: float
+    nodes: tuple[NodeSpec, ...]
+    medium: Mapping[str, Setting]
+    communication_medium: CommunicationMediumSpec
+    reference_coordinates: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class _Network:
+    """The part of a scenario that is the same for all runs, unless a value says `${runnumber}`."""
+
+    nodes: tuple[NodeSpec, ...]
+    medium: Mapping[str, Setting]
+    communication_medium: CommunicationMediumSpec
+    reference_coordinates: tuple[float, float, float]
+
+
+def load_scenarios(
+    file: str | Path,
+    config: str = "General",
+    runs: str | Iterable[int] | None = None,
+    overrides: Iterable[str] = (),
+) -> list[Scenario]:
+    """Read a configuration and check all of it.
+
+    Args:
+        file: The .ini file.
+        config: Name of the configuration in it.
+        runs: Numbers of the runs that are wanted, or a text such as "0,2,5..9"; None for all.
+        overrides: "KEY=VALUE" texts that come before all of the file; of several that match, the first.
+
+    Returns:
+        One scenario per run, by run number.
+
+    Raises:
+        ConfigError: Anything is wrong; nothing has been run.
+    """
+    file = Path(file)
+    ini = read_ini(file)
+    sections = search_order(ini, config)
+    ranked = [(0, entry) for entry in read_overrides(file, overrides)]
+    for rank, section in enumerate(sections, start=1):
+        ranked += [(rank, entry) for entry in section.entries]
+    for _, entry in ranked:
+        if is_option(entry):
+            check_option(entry)
+
+    section_source = sections[0].source
+    options = _options(_substituted(ranked, config, 0))
+    repeat = options.get("repeat")
+    count = int(read_scalar(repeat, OPTIONS["repeat"])) if repeat else 1
+    numbers = select_runs(runs, count, config, repeat.source if repeat else section_source)
+
+    loader = ProtocolLoader()
+    shared: _Network | None = None
+    varies = any(
+        depends_on_run(entry) for _, entry in ranked if not is_option(entry) and not is_ignored(entry)
+    )
+    scenarios = []
+    for number in numbers:
+        entries = _substituted(ranked, config, number)
+        options = _options(entries)
+        sim_time_limit = options.get("sim-time-limit")
+        if shared is None or varies:
+            shared = _network(
+                entries, loader, ini_is_split=config_names(ini) != [config], source=section_source
+            )
+        if sim_time_limit is None:
+            raise ConfigError(
+                f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`",
+                section_source,
+            )
+        seed = options.get("seed-set")
+        description = options.get("description")
+        scenarios.append(
+            Scenario(
+                file=file,
+                config=config,
+                run_number=number,
+                seed=int(read_scalar(seed, OPTIONS["seed-set"])) if seed else number,
+                description=_description(description) if description else "",
+                sim_time_limit_s=float(read_scalar(sim_time_limit, OPTIONS["sim-time-limit"])),
+                nodes=shared.nodes,
+                medium=shared.medium,
+                communication_medium=shared.communication_medium,
+                reference_coordinates=shared.reference_coordinates,
+            )
+        )
+    return scenarios
+
+
+def _substituted(ranked: list[tuple[int, Entry]], config: str, run_number: int) -> list[tuple[int, Entry]]:
+    variables = run_variables(config, run_number)
+    return [(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked]
+
+
+def _options(ranked: list[tuple[int, Entry]]) -> dict[str, Entry]:
+    """The entry in force for each option that is given and not left at its default."""
+    options: dict[str, Entry] = {}
+    for _, entry in ranked:
+        if entry.key in OPTIONS:
+            options.setdefault(entry.key, entry)
+    return {key: entry for key, entry in options.items() if entry.text != "default"}
+
+
+def _description(entry: Entry) -> str:
+    """The text; as in OMNeT++ it needs no quotes."""
+    return str(read_scalar(entry, OPTIONS["description"])) if entry.text.startswith('"') else entry.text
+
+
+def _network(
+    ranked: list[tuple[int, Entry]], loader: ProtocolLoader, ini_is_split: bool, source: Source
+) -> _Network:
+    lookup = Lookup(ranked)
+    settings = SettingReader()
+    groups = find_groups(lookup, settings)
+    check_names(lookup, groups)
+    classes = load_classes(lookup, groups, settings, loader)
+    check_parameters(lookup, groups, classes)
+    if not classes:
+        hint = " in the configuration that is run (`-c NAME`)" if ini_is_split else ""
+        raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{hint}", source)
+
+    found = {
+        key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None
+    }
+    communication = read_struct("communication_medium", found, settings)
+    reference = read_struct("reference", found, settings)
+    latitude, longitude, altitude = (
+        float(reference[field].value) if field in reference else 0.0
+        for field in ("latitude_deg", "longitude_deg", "altitude_m")
+    )
+    return _Network(
+        nodes=build_nodes(lookup, groups, classes, settings),
+        medium=read_struct("medium", found, settings),
+        communication_medium=CommunicationMediumSpec(
+            **{field: float(setting.value) for field, setting in communication.items()}
+        ),
+        reference_coordinates=(latitude, longitude, altitude),
+    )

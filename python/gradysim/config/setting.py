@@ -1,0 +1,53 @@
+"""Reads the value of an entry as what its key wants it to be."""
+
+from dataclasses import dataclass
+
+from gradysim.config.error import BadValue, ConfigError
+from gradysim.config.expression import Value, parse_value
+from gradysim.config.kinds import Kind, Scalar
+from gradysim.config.reader import Entry
+from gradysim.config.source import Source
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A value with the place where it was written, for errors that come up later."""
+
+    value: Scalar
+    source: Source
+
+
+class SettingReader:
+    """Reads values; each entry once for each kind, however many nodes it is in force for."""
+
+    def __init__(self) -> None:
+        self._settings: dict[tuple[int, int], tuple[Entry, Kind, Setting]] = {}
+
+    def setting(self, entry: Entry, kind: Kind) -> Setting:
+        """The value of an entry. Raises ConfigError with its place if it is not of that kind."""
+        key = (id(entry), id(kind))
+        known = self._settings.get(key)
+        if known is None:
+            # Entry and kind are kept beside the value, so that their ids are not given to others.
+            known = self._settings[key] = (entry, kind, Setting(read_scalar(entry, kind), entry.source))
+        return known[2]
+
+    def scalar(self, entry: Entry, kind: Kind) -> Scalar:
+        """Only the value."""
+        return self.setting(entry, kind).value
+
+
+def read_scalar(entry: Entry, kind: Kind) -> Scalar:
+    """The value of an entry. Raises ConfigError with its place if it is not of that kind."""
+    try:
+        return kind.convert(_value_of(entry, kind))
+    except BadValue as error:
+        text = f"{error.problem}; expected {kind.expected}{error.suggestion}"
+        raise ConfigError.at(entry.source, text) from error
+
+
+def _value_of(entry: Entry, kind: Kind) -> Value:
+    """The value; where a text is meant, the command line needs no quotes, which a shell takes away."""
+    if kind.is_text and entry.source.is_command_line and not entry.text.startswith('"'):
+        return entry.text
+    return parse_value(entry.text)
