@@ -32,7 +32,6 @@ class FakeProvider(IProvider):
         self.moves.append(command)
 
     def schedule_timer(self, timer: str, timestamp: float) -> None:
-        assert timestamp >= self.now
         self.timers.append((timer, timestamp))
 
     def cancel_timer(self, timer: str) -> None:
@@ -50,9 +49,8 @@ class Bench:
 
     def __init__(self, protocol_class: type[IProtocol], node_id: int, parameters: dict[str, object]) -> None:
         self.provider = FakeProvider(node_id)
-        self.protocol = type(protocol_class.__name__, (protocol_class,), parameters).instantiate(
-            self.provider
-        )
+        configured: Any = type(protocol_class.__name__, (protocol_class,), parameters)
+        self.protocol: IProtocol = configured.instantiate(self.provider)
         self.protocol.initialize()
 
     @property
