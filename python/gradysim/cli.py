@@ -23,9 +23,6 @@ if TYPE_CHECKING:
 
 OK, FAILED, MISTAKE, INTERRUPTED = 0, 1, 2, 130
 
-MAX_RUN = 999_999
-"""The highest run number that `--runs` takes, so that a slip of the finger does not fill the memory."""
-
 Mode = Literal["integrated", "prototype"]
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
@@ -103,7 +100,7 @@ def run(
     try:
         if result_dir is not None:
             result_dir.mkdir(parents=True, exist_ok=True)
-        scenarios = load(file, config, None if runs is None else parse_runs(runs), settings)
+        scenarios = load(file, config, runs, settings)
         with StopOnInterrupt() as interrupt:
             for scenario in scenarios:
                 code = run_one(
@@ -135,27 +132,7 @@ def say_mistake(mistake: Exception) -> int:
     return MISTAKE
 
 
-def parse_runs(text: str) -> list[int]:
-    """Return the run numbers of a text such as `0..3,5`, in its order, each once. Raises ConfigError."""
-    from gradysim.config.error import ConfigError
-
-    numbers: dict[int, None] = {}
-    for part in text.split(","):
-        first, dots, last = (piece.strip() for piece in part.partition(".."))
-        if not first.isdecimal() or (dots and not last.isdecimal()):
-            raise ConfigError(
-                f"--runs {text}: {part.strip()!r} is not a run number; expected a list such as 0..3,5"
-            )
-        low, high = int(first), int(last or first)
-        if not low <= high <= MAX_RUN:
-            raise ConfigError(
-                f"--runs {text}: {part.strip()!r} is no range of run numbers from 0 to {MAX_RUN}"
-            )
-        numbers.update(dict.fromkeys(range(low, high + 1)))
-    return list(numbers)
-
-
-def load(file: Path, config: str, runs: list[int] | None, settings: Sequence[str]) -> "list[Scenario]":
+def load(file: Path, config: str, runs: str | None, settings: Sequence[str]) -> "list[Scenario]":
     """Return one scenario per run. Raises ConfigError."""
     from gradysim.config.scenario import load_scenarios
 

@@ -28,7 +28,7 @@ def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
 
 def medium_config(scenario: Scenario) -> "MediumConfig":
     """Return the checked configuration of the medium."""
-    config = load_netsim().MediumConfig()
+    config: MediumConfig = load_netsim().MediumConfig()
     set_fields(config, scenario.medium)
     with errors_at(scenario.medium):
         config.validate()
@@ -37,7 +37,7 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
 
 def node_config(spec: NodeSpec) -> "NodeConfig":
     """Return the checked configuration of one node."""
-    config = load_netsim().NodeConfig(spec.name)
+    config: NodeConfig = load_netsim().NodeConfig(spec.name)
     set_fields(config.radio, spec.radio)
     set_fields(config.mac, spec.mac)
     set_fields(config.mobility, spec.mobility)
@@ -50,8 +50,11 @@ def node_config(spec: NodeSpec) -> "NodeConfig":
 def set_fields(config: object, settings: Mapping[str, Setting]) -> None:
     """Set the fields of a struct of the engine."""
     for field, setting in settings.items():
-        with errors_at({field: setting}):
+        try:
             setattr(config, field, setting.value)
+        except (TypeError, OverflowError) as error:
+            text = f"{setting.value!r} does not fit the engine's field {field}"
+            raise ConfigError.at(setting.source, text) from error
 
 
 @contextmanager
@@ -59,7 +62,7 @@ def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
     """Turn an error of the engine's check into a ConfigError at the setting whose field its text names."""
     try:
         yield
-    except (ValueError, TypeError) as error:
+    except ValueError as error:  # the engine's ConfigError is one
         setting = named_in(str(error), settings)
         if setting is None:
             raise
@@ -67,9 +70,7 @@ def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
 
 
 def named_in(text: str, settings: Mapping[str, Setting]) -> Setting | None:
-    """Return the setting whose field is named first in `text`; the only one there is, if none is named."""
-    if len(settings) == 1:
-        return next(iter(settings.values()))
+    """Return the setting whose field is named first in `text`, or None."""
     found = {field: re.search(rf"\b{re.escape(field)}\b", text) for field in settings}
     places = {match.start(): field for field, match in found.items() if match is not None}
     return settings[places[min(places)]] if places else None

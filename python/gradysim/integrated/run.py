@@ -39,6 +39,8 @@ class IntegratedRun:
             )
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
+        # Another run may be built before this one is executed.
+        self._random_state = random.getstate()
 
     def execute(
         self,
@@ -51,6 +53,7 @@ class IntegratedRun:
         passed on, with a note of node, time and callback, and ends the run without `finish`.
         """
         network, limit_s = self._network, self._scenario.sim_time_limit_s
+        random.setstate(self._random_state)
         try:
             try:
                 network.initialize()
@@ -67,6 +70,7 @@ class IntegratedRun:
             self._complete = False
             raise
         finally:
+            network.release_protocols()
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
 
     def result(self) -> RunResult:

@@ -23,9 +23,16 @@ def summary(result: RunResult) -> RenderableType:
     """Return the summary of `result` as something that rich can print."""
     parts: list[RenderableType] = [heading(result), cost(result)]
     if result.nodes:
-        parts.append(node_table(result.nodes))
-    parts.extend(fate_table(what, kinds) for what, kinds in result.fates.items() if has_counts(kinds))
+        parts += [title("Nodes"), node_table(result.nodes)]
+    for what, kinds in result.fates.items():
+        if has_counts(kinds):
+            parts += [title(f"Fates of {what}"), fate_table(kinds)]
     return Group(*parts)
+
+
+def title(text: str) -> Text:
+    """Return the line above a table."""
+    return Text(f"\n{text}", style="bold")
 
 
 def heading(result: RunResult) -> Text:
@@ -47,16 +54,16 @@ def cost(result: RunResult) -> Text:
     ]
     if result.fingerprint is not None:
         lines.append(f"fingerprint     {result.fingerprint}")
-    return Text("\n".join(lines) + "\n")
+    return Text("\n".join(lines))
 
 
 def node_table(nodes: tuple[NodeResult, ...]) -> Table:
     """Return a row per node: where it is and what it tracked."""
-    table = Table(title="Nodes", title_justify="left", box=box.SIMPLE_HEAD)
-    table.add_column("id", justify="right")
-    table.add_column("name")
-    table.add_column("protocol")
-    table.add_column("position in m", justify="right")
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("id", justify="right", no_wrap=True)
+    table.add_column("name", overflow="fold")
+    table.add_column("protocol", overflow="fold")
+    table.add_column("position in m", justify="right", no_wrap=True)
     table.add_column("tracked variables", overflow="fold")
     for node in nodes:
         table.add_row(
@@ -80,15 +87,17 @@ def has_counts(kinds: Mapping[str, Mapping[str, int]]) -> bool:
     return any(any(fates.values()) for fates in kinds.values())
 
 
-def fate_table(what: str, kinds: Mapping[str, Mapping[str, int]]) -> Table:
-    """Return a row per fate and a column per kind: `kinds` is {kind: {fate: count}}."""
-    table = Table(title=f"Fates of {what}", title_justify="left", box=box.SIMPLE_HEAD)
-    table.add_column("fate")
+def fate_table(kinds: Mapping[str, Mapping[str, int]]) -> Table:
+    """Return a row per fate and a column per kind, of {kind: {fate: count}}."""
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("fate", no_wrap=True)
     for kind in kinds:
         table.add_column(Text(kind), justify="right")
     fates = list(dict.fromkeys(fate for counts in kinds.values() for fate in counts))
     for fate in fates:
-        table.add_row(Text(fate), *(f"{counts.get(fate, 0):,}" for counts in kinds.values()))
+        table.add_row(
+            Text(fate.replace("_", " ")), *(f"{counts.get(fate, 0):,}" for counts in kinds.values())
+        )
     table.add_section()
     table.add_row("sum", *(f"{sum(counts.values()):,}" for counts in kinds.values()))
     return table

@@ -1,0 +1,73 @@
+from pathlib import Path
+
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.config.scenario import Setting, Source
+from gradysim.integrated.network import build_network, medium_config, named_in, node_config, set_fields
+
+
+def setting(value, key="key"):
+    return Setting(value, Source(Path("a.ini"), 7, key))
+
+
+def test_a_node_per_spec_in_the_order_of_ids(make_scenario):
+    network, nodes = build_network(make_scenario())
+    assert [(node.id, node.name, node.position) for node in nodes] == [
+        (0, "uavs[0]", (0.0, 0.0, 0.0)),
+        (1, "uavs[1]", (10.0, 0.0, 0.0)),
+    ]
+    assert network.now == 0.0
+
+
+def test_settings_reach_their_structs(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        "*.uavs[*].wlan[*].radio.transmitter.power = 2mW",
+        '*.uavs[*].wlan[*].opMode = "b"',
+        "*.uavs[*].mobility.speed = 3mps",
+    )
+    config = node_config(scenario.nodes[1])
+    assert (config.radio.tx_power_w, config.mac.op_mode, config.mobility.speed_mps) == (0.002, "b", 3.0)
+
+
+def test_settings_of_the_medium(make_scenario):
+    scenario = make_scenario("class Tested(Quiet): pass", "*.radioMedium.pathLoss.alpha = 3")
+    assert medium_config(scenario).alpha == 3.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "*.uavs[*].wlan[*].radio.transmitter.power = -1mW",
+        "*.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 40000",
+        "*.radioMedium.pathLoss.alpha = -1",
+    ],
+)
+def test_what_the_engine_refuses_is_an_error_at_its_setting(make_scenario, text):
+    with pytest.raises(ConfigError) as error:
+        build_network(make_scenario("class Tested(Quiet): pass", "**.bitrate = 6Mbps", text))
+    assert error.value.key == text.partition(" = ")[0]
+
+
+def test_a_value_of_a_type_that_the_field_cannot_hold_is_an_error_at_its_setting():
+    class Strict:
+        @property
+        def field(self):
+            return 0
+
+        @field.setter
+        def field(self, value):
+            raise TypeError
+
+    with pytest.raises(ConfigError, match=r"a\.ini:7: .*'x' does not fit the engine's field"):
+        set_fields(Strict(), {"field": setting("x")})
+
+
+def test_the_field_that_is_named_first_is_the_wrong_one():
+    settings = {"cw_max": setting(3), "cw_min": setting(7)}
+    assert named_in("mac.cw_min = 7: expected at most mac.cw_max = 3", settings) is settings["cw_min"]
+
+
+def test_a_part_of_a_name_is_no_name():
+    assert named_in("radio.tx_power_w = 0", {"power_w": setting(0)}) is None
