@@ -42,7 +42,8 @@ lint: build $(STAMPS)/test $(STAMPS)/lint system-gtest  ## ruff, mypy --strict, 
 	mypy
 	lint-imports
 	clang-format --dry-run -Werror $(cpp_checked)
-	cmake -S cpp --preset lint --log-level=WARNING
+	cmake -S cpp --preset lint --log-level=WARNING \
+	  -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@$(MAKE) --no-print-directory --jobs=$$(nproc) -f cpp/clang-tidy.mk
 
 format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
