@@ -1,0 +1,44 @@
+import signal
+import threading
+
+import pytest
+
+from gradysim.report.interrupt import StopOnInterrupt
+
+
+def test_nothing_was_pressed():
+    with StopOnInterrupt() as interrupt:
+        assert not interrupt.should_stop()
+
+
+def test_the_first_press_is_a_wish():
+    with StopOnInterrupt() as interrupt:
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.should_stop()
+
+
+def test_the_second_press_is_an_order():
+    with StopOnInterrupt():
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_afterwards_all_is_as_before():
+    before = signal.getsignal(signal.SIGINT)
+    with StopOnInterrupt():
+        pass
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_in_another_thread_it_does_no_harm():
+    answers = []
+
+    def work():
+        with StopOnInterrupt() as interrupt:
+            answers.append(interrupt.should_stop())
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert answers == [False]

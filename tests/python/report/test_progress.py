@@ -1,0 +1,41 @@
+import math
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from gradysim.report.progress import RunProgress
+
+
+def shown(limit_s, *times):
+    text = StringIO()
+    console = Console(file=text, force_terminal=True, width=120, color_system=None)
+    with RunProgress(console, "ZigZag5 run [0]", limit_s) as bar:
+        for time in times:
+            bar.update(time)
+    return text.getvalue()
+
+
+def test_title_and_simulated_time():
+    text = shown(7200.0, 120.0)
+    assert "ZigZag5 run [0]" in text
+    assert "120 of 7,200 s" in text
+
+
+def test_remaining_time_is_unknown_at_first():
+    assert "-:--:--" in shown(10.0, 0.0)
+
+
+def test_speed_is_shown_once_it_is_known():
+    assert "x real time" in shown(10.0, 1.0, 2.0, 3.0)
+
+
+@pytest.mark.parametrize("limit_s", [math.inf])
+def test_a_run_without_a_limit(limit_s):
+    text = shown(limit_s, 5.0)
+    assert "5 s" in text
+    assert " of " not in text
+
+
+def test_the_bar_is_gone_at_the_end():
+    assert shown(10.0, 10.0).endswith("\x1b[2K")

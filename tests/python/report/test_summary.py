@@ -1,0 +1,84 @@
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from gradysim.report.summary import MAX_VALUE_LENGTH, print_summary, short
+from gradysim.results.run_result import NodeResult, RunResult
+
+
+def printed(**changes):
+    node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.25, -3.0), {"data": 5, "colour": "[red]"})
+    fields = {
+        "config": "ZigZag5",
+        "run": 2,
+        "seed": 7,
+        "mode": "integrated",
+        "sim_time_s": 7200.0,
+        "wall_s": 2.0,
+        "cpu_s": 1.9,
+        "events": 123456,
+        "interrupted": False,
+        "fingerprint": "0123456789abcdef",
+        "fates": {
+            "frames": {"broadcast": {"delivered": 1500, "below_sensitivity": 2}, "ack": {"delivered": 3}}
+        },
+        "nodes": (node,),
+    }
+    text = StringIO()
+    print_summary(RunResult(**{**fields, **changes}), Console(file=text, width=100))
+    return text.getvalue()
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "ZigZag5 run 2",
+        "seed 7, integrated mode",
+        "7,200 s",
+        "2.000 s (3,600 x real time)",
+        "1.900 s of processor time",
+        "123,456",
+        "0123456789abcdef",
+        "uavs[0]",
+        "Mobile",
+        "1.0, 2.2, -3.0",
+        "data = 5",
+        "colour = [red]",
+        "Fates of frames",
+    ],
+)
+def test_what_is_in_it(what):
+    assert what in printed()
+
+
+def test_fates_are_a_table_with_a_column_per_kind():
+    lines = [line.split() for line in printed().splitlines()]
+    assert ["fate", "broadcast", "ack"] in lines
+    assert ["delivered", "1,500", "3"] in lines
+    assert ["below", "sensitivity", "2", "0"] in lines
+    assert ["sum", "1,502", "3"] in lines
+
+
+def test_a_table_of_nothing_is_left_out():
+    assert "Fates" not in printed(fates={"frames": {"broadcast": {"delivered": 0}}})
+
+
+def test_prototype_mode_has_no_fingerprint():
+    assert "fingerprint" not in printed(fingerprint=None)
+
+
+def test_an_interrupted_run_is_marked():
+    assert "interrupted at 12.5 s of simulated time" in printed(interrupted=True, sim_time_s=12.5)
+
+
+def test_a_whole_run_is_not():
+    assert "interrupted" not in printed()
+
+
+def test_a_run_that_took_no_time_has_no_speed():
+    assert "real time" not in printed(wall_s=0.0)
+
+
+def test_a_long_value_is_cut():
+    assert short("x" * 1000) == "x" * (MAX_VALUE_LENGTH - 1) + "…"
