@@ -118,11 +118,6 @@ SimTime Mode::duration(int psdu_bytes) const {
     return preamble + header + data + signal_extension;
 }
 
-SimTime ModeSet::eifs() const {
-    constexpr int ack_bytes = 14;
-    return sifs() + difs() + slowest_mandatory().duration(ack_bytes);
-}
-
 const Mode& ModeSet::mode_for_bitrate(double bitrate_bps, std::string_view field) const {
     if (bitrate_bps == -1) {
         return fastest_mandatory();

@@ -1,15 +1,14 @@
-// The modes of IEEE 802.11 b, g and a: bitrates, modulations, durations of frames, and the intervals that go
-// with them.
+// The modes of IEEE 802.11 b, g and a: bitrates, modulations and durations of frames, and the slot, SIFS and
+// contention windows that go with them.
 //
 // A mode is one way to put a frame on the air; a mode set is what the stations of one operation mode can do.
 // Both are constant tables: references and pointers into them are valid for the whole program. Used by the
 // radio (durations), the error model (modulation) and the MAC (choice of bitrate, intervals).
 //
 // Durations (IEEE Std 802.11-2020), n the bytes of the PSDU = MPDU, headers and FCS included:
-//   OFDM      16 µs preamble + 4 µs SIGNAL + ⌈(16 + 8n + 6) / N_DBPS⌉ symbols of 4 µs, and in g 6 µs signal
-//   extension
-//             (clauses 17.4.3, 18.5.3)
-//   DSSS/CCK  144 µs long preamble + 48 µs header + ⌈8n / bitrate⌉ whole µs (clauses 15.2, 16.2.3.5)
+//   OFDM (clauses 17.4.3, 18.5.3): 16 µs preamble + 4 µs SIGNAL + ⌈(16 + 8n + 6) / N_DBPS⌉ symbols of 4 µs,
+//     and in g 6 µs of signal extension.
+//   DSSS, CCK (clauses 15.2, 16.2.3.5): 144 µs long preamble + 48 µs header + ⌈8n / bitrate⌉ whole µs.
 #pragma once
 
 #include <cstdint>
@@ -56,16 +55,9 @@ public:
     std::string_view name() const { return name_; }
     std::span<const Mode> modes() const { return modes_; }
 
-    static SimTime duration(const Mode& mode, int psdu_bytes) { return mode.duration(psdu_bytes); }
-
-    // The intervals are those of the slowest mode of the set.
+    // Those of the slowest mode of the set; what follows from them is in mac/timing.hpp.
     SimTime slot() const { return slot_; }
     SimTime sifs() const { return sifs_; }
-    // SIFS + 2 slots.
-    SimTime difs() const { return sifs_ + slot_ * 2; }
-    // After a broken frame, room for an ACK that this station may not hear: SIFS + DIFS + a frame of 14 B at
-    // the slowest mandatory mode.
-    SimTime eifs() const;
     // Contention windows in slots: a backoff is drawn from 0 … cw.
     int cw_min() const { return cw_min_; }
     int cw_max() const { return cw_max_; }
@@ -78,10 +70,6 @@ public:
     // Of the ACK or CTS that answers a frame in mode `received`: that mode if it is mandatory, else the next
     // slower mandatory one, or the slowest mandatory one if there is none slower.
     const Mode& response_mode(const Mode& received) const;
-    // How long a sender waits for a response to begin: SIFS + slot + the PHY's receive start delay.
-    SimTime response_timeout(const Mode& response) const {
-        return sifs_ + slot_ + response.phy_rx_start_delay;
-    }
 
 private:
     std::string_view name_;

@@ -46,7 +46,7 @@ constexpr std::array<Expected, 8> expected_ofdm{{
 void expect_durations(const ModeSet& set, std::span<const Expected> expected, int signal_extension_us) {
     for (const Expected& mode : expected) {
         for (std::size_t i = 0; i < psdu_bytes.size(); ++i) {
-            const SimTime duration = ModeSet::duration(set.mode_for_bitrate(mode.mbps * 1e6), psdu_bytes[i]);
+            const SimTime duration = set.mode_for_bitrate(mode.mbps * 1e6).duration(psdu_bytes[i]);
             EXPECT_EQ(duration.ps(), (mode.duration_us[i] + signal_extension_us) * 1'000'000LL)
                 << mode.mbps << " Mbps, " << psdu_bytes[i] << " B";
         }
@@ -135,28 +135,25 @@ TEST(ModeSet, ModesRiseInBitrate) {
 
 struct Intervals {
     std::string_view name;
-    int slot_us, sifs_us, difs_us, eifs_us, cw_min, cw_max;
+    int slot_us, sifs_us, cw_min, cw_max;
 };
 
 TEST(ModeSet, IntervalsAndWindows) {
-    // EIFS = SIFS + DIFS + ACK at 1 Mbps (304 µs) or at 6 Mbps (44 µs, in g 50 µs).
     for (const Intervals& expected :
-         {Intervals{"b", 20, 10, 50, 364, 31, 1023}, Intervals{"g(erp)", 9, 10, 28, 88, 15, 1023},
-          Intervals{"g(mixed)", 20, 10, 50, 364, 31, 1023}, Intervals{"a", 9, 16, 34, 94, 15, 1023}}) {
+         {Intervals{"b", 20, 10, 31, 1023}, Intervals{"g(erp)", 9, 10, 15, 1023},
+          Intervals{"g(mixed)", 20, 10, 31, 1023}, Intervals{"a", 9, 16, 15, 1023}}) {
         const ModeSet& set = mode_set(expected.name);
         EXPECT_EQ(set.slot(), SimTime::from_us(expected.slot_us)) << expected.name;
         EXPECT_EQ(set.sifs(), SimTime::from_us(expected.sifs_us)) << expected.name;
-        EXPECT_EQ(set.difs(), SimTime::from_us(expected.difs_us)) << expected.name;
-        EXPECT_EQ(set.eifs(), SimTime::from_us(expected.eifs_us)) << expected.name;
         EXPECT_EQ(set.cw_min(), expected.cw_min) << expected.name;
         EXPECT_EQ(set.cw_max(), expected.cw_max) << expected.name;
     }
 }
 
-TEST(ModeSet, ResponseTimeoutOfOfdmAndDsss) {
+TEST(Mode, ReceiveStartDelayOfOfdmAndDsss) {
     const ModeSet& mixed = mode_set("g(mixed)");
-    EXPECT_EQ(mixed.response_timeout(mixed.mode_for_bitrate(24e6)), SimTime::from_us(10 + 20 + 25));
-    EXPECT_EQ(mixed.response_timeout(mixed.mode_for_bitrate(11e6)), SimTime::from_us(10 + 20 + 192));
+    EXPECT_EQ(mixed.mode_for_bitrate(24e6).phy_rx_start_delay, SimTime::from_us(25));
+    EXPECT_EQ(mixed.mode_for_bitrate(11e6).phy_rx_start_delay, SimTime::from_us(192));
 }
 
 TEST(ModeSet, MinusOneIsTheFastestMandatoryMode) {
