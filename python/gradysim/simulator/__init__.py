@@ -1,0 +1,1 @@
+"""Prototype mode: an event simulator in pure Python, with an ideal network."""

@@ -1,0 +1,46 @@
+"""How a simulation in prototype mode runs."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass
+class SimulationConfiguration:
+    """When a simulation ends, how fast it goes and what it tells.
+
+    Attributes:
+        duration: Simulated seconds, >= 0; no event after it happens. None: until no event is left.
+        max_iterations: The simulation ends after so many events, >= 0. None: no limit.
+        real_time: True: as fast as the wall clock; a number > 0: so many times as fast; False or 0: at full
+            speed.
+        debug: Log from DEBUG on.
+        log_file: Append the log to this file too.
+        execution_logging: Log the course of the simulation; False: only warnings and errors are logged.
+        profile: Log at the end how often each kind of event happened and how long it took.
+        seed: All random numbers of the run follow from it; >= 0. None: one drawn from Python's global stream.
+    """
+
+    duration: float | None = None
+    max_iterations: int | None = None
+    real_time: bool | float = False
+    debug: bool = False
+    log_file: Path | None = None
+    execution_logging: bool = True
+    profile: bool = False
+    seed: int | None = None
+
+    def validate(self) -> None:
+        """Check all values; ValueError names the wrong one."""
+        if self.duration is not None and not self.duration >= 0:
+            raise ValueError(f"duration must be >= 0 s or None, got {self.duration!r}")
+        if self.max_iterations is not None and not _is_natural(self.max_iterations):
+            raise ValueError(f"max_iterations must be an integer >= 0 or None, got {self.max_iterations!r}")
+        if not 0 <= self.real_time < math.inf:
+            raise ValueError(f"real_time must be a bool or a finite factor >= 0, got {self.real_time!r}")
+        if self.seed is not None and not _is_natural(self.seed):
+            raise ValueError(f"seed must be an integer >= 0 or None, got {self.seed!r}")
+
+
+def _is_natural(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and value >= 0

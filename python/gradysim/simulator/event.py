@@ -1,0 +1,224 @@
+"""The clock of a simulation: pending events by their times; at equal times first come, first served.
+
+Events of one instant share a list and only the instants are in a heap: telemetry of all nodes and the copies
+of a broadcast come in such groups, and cost an append each, not a sift.
+"""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from typing import Any
+
+Callback = Callable[[], Any]
+
+ScheduledEvent = tuple[Callback, str]
+"""What the loop keeps of an event: its callback and its context."""
+
+# So many events that already ran may wait in the list of the current instant before they are dropped.
+_RAN_AT_MOST = 1 << 16
+
+
+class EventLoopException(Exception):  # noqa: N818 (the published name)
+    """An event that cannot be scheduled, or was asked of an empty loop."""
+
+
+@dataclass(slots=True)
+class Event:
+    """An event taken from the loop; ordered by its time.
+
+    Attributes:
+        timestamp: Simulated time in seconds.
+        callback: What happens then.
+        context: What it is about, for people; shown in the log.
+    """
+
+    timestamp: float
+    callback: Callback
+    context: str
+
+    def __lt__(self, other: "Event") -> bool:
+        return self.timestamp < other.timestamp
+
+
+class EventLoop:
+    """Pending events, and the time of the one taken last."""
+
+    def __init__(self) -> None:
+        self._current_time = 0.0
+        # One list of events per instant; `_instants` is a heap of its keys without the current instant.
+        self._events: dict[float, list[ScheduledEvent]] = {}
+        self._instants: list[float] = []
+        # The list of the current instant and how many of it were taken; None when it is used up.
+        self._current: list[ScheduledEvent] | None = None
+        self._taken = 0
+        self._length = 0
+
+    @property
+    def current_time(self) -> float:
+        """Simulated time in seconds: that of the last event taken, 0 before the first."""
+        return self._current_time
+
+    def __len__(self) -> int:
+        return self._length
+
+    def schedule_event(self, timestamp: float, callback: Callback, context: str = "") -> ScheduledEvent:
+        """Have `callback()` called at `timestamp`, after all events scheduled for that time so far.
+
+        Args:
+            timestamp: Absolute simulated time in seconds, finite, not before `current_time`.
+            callback: Takes no arguments.
+            context: What the event is about, for the log.
+
+        Returns:
+            The event, as `cancel_event` wants it.
+
+        Raises:
+            EventLoopException: The time is in the past or not finite, or the callback cannot be called.
+        """
+        if not callable(callback):
+            raise EventLoopException(f"an event's callback must be callable, got {callback!r}")
+        event = (callback, context)
+        events = self._events.get(timestamp)
+        if events is None:
+            events = self._open(timestamp)
+        events.append(event)
+        self._length += 1
+        return event
+
+    def schedule_events(self, timestamp: float, events: Iterable[ScheduledEvent]) -> None:
+        """Schedule several events for one time, in the order given; see `schedule_event`."""
+        pending = self._events.get(timestamp)
+        if pending is None:
+            pending = self._open(timestamp)
+        before = len(pending)
+        pending.extend(events)
+        self._length += len(pending) - before
+
+    def cancel_event(self, timestamp: float, event: ScheduledEvent) -> bool:
+        """Remove a pending event.
+
+        Args:
+            timestamp: The time that it was scheduled for.
+            event: What `schedule_event` returned.
+
+        Returns:
+            Whether it was still pending.
+        """
+        events = self._events.get(timestamp)
+        if events is not None:
+            for index in range(self._taken if events is self._current else 0, len(events)):
+                if events[index] is event:
+                    del events[index]
+                    self._length -= 1
+                    return True
+        return False
+
+    def take(self, until: float = math.inf) -> ScheduledEvent | None:
+        """Remove the next event, at `until` at the latest, and set the clock to its time.
+
+        Args:
+            until: Simulated time in seconds, not before `current_time`.
+
+        Returns:
+            The event; None if there is none up to and including `until`.
+        """
+        current = self._current
+        taken = self._taken
+        if current is None or taken >= len(current):
+            instant = self._next_instant()
+            if instant is None or instant > until:
+                return None
+            heappop(self._instants)
+            self._current_time = instant
+            self._current = current = self._events[instant]
+            taken = 0
+        elif taken == _RAN_AT_MOST:
+            del current[:taken]
+            taken = 0
+        self._taken = taken + 1
+        self._length -= 1
+        return current[taken]
+
+    def pop_event(self) -> Event:
+        """Remove the next event and set the clock to its time.
+
+        Raises:
+            EventLoopException: No event is pending.
+        """
+        event = self.take()
+        if event is None:
+            raise EventLoopException("there is no pending event to pop")
+        return Event(self._current_time, *event)
+
+    def peek_event(self) -> Event | None:
+        """Return the next event, which stays pending; None if there is none."""
+        instant = self.next_time()
+        if instant is None:
+            return None
+        events = self._events[instant]
+        return Event(instant, *events[self._taken if events is self._current else 0])
+
+    def next_time(self) -> float | None:
+        """Return the time of the next event in seconds; None if there is none."""
+        if self._current is not None and self._taken < len(self._current):
+            return self._current_time
+        return self._next_instant()
+
+    def advance_to(self, timestamp: float) -> None:
+        """Set the clock forward to a time at which no event is.
+
+        Raises:
+            EventLoopException: The time is in the past, or an event is pending before it.
+        """
+        following = self.next_time()
+        if not self._current_time <= timestamp < math.inf or (
+            following is not None and following < timestamp
+        ):
+            raise EventLoopException(
+                f"cannot set the clock to {timestamp!r} s: it is {self._current_time} s "
+                f"and the next event is at {following} s"
+            )
+        if timestamp > self._current_time:
+            self._close_current()
+            self._current_time = float(timestamp)
+
+    def clear(self) -> None:
+        """Forget every pending event; the clock stays."""
+        self._events.clear()
+        self._instants.clear()
+        self._current = None
+        self._length = 0
+
+    def _open(self, timestamp: float) -> list[ScheduledEvent]:
+        """Make the list of events of an instant that has none yet."""
+        try:
+            valid = self._current_time <= timestamp < math.inf
+        except TypeError:
+            valid = False
+        if not valid:
+            raise EventLoopException(
+                f"cannot schedule an event at {timestamp!r}: expected a finite number of seconds, "
+                f"at or after the current time, {self._current_time} s"
+            )
+        instant = float(timestamp)
+        events: list[ScheduledEvent] = []
+        self._events[instant] = events
+        heappush(self._instants, instant)
+        return events
+
+    def _close_current(self) -> None:
+        if self._current is not None:
+            del self._events[self._current_time]
+            self._current = None
+
+    def _next_instant(self) -> float | None:
+        """Find the next instant with events, given that the current one is used up."""
+        self._close_current()
+        instants = self._instants
+        while instants:
+            if self._events[instants[0]]:
+                return instants[0]
+            # All its events were cancelled.
+            del self._events[heappop(instants)]
+        return None

@@ -1,0 +1,181 @@
+"""The ideal network of prototype mode: who is in range gets the message, after a fixed delay."""
+
+import logging
+import math
+import random
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from gradysim.encapsulator.random_stream import random_stream
+from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
+from gradysim.protocol.position import Position, squared_distance
+from gradysim.simulator.event import EventLoop, ScheduledEvent
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.log import label_node
+from gradysim.simulator.node import Node
+
+_logger = logging.getLogger(__name__)
+
+
+class CommunicationException(Exception):  # noqa: N818 (the published name)
+    """A message that cannot be sent as asked, or a node that is not known here."""
+
+
+@dataclass
+class CommunicationMedium:
+    """What the network does to messages.
+
+    Attributes:
+        transmission_range: Receivers at this distance or less get the message; m, >= 0.
+        delay: From sending to reception; s, >= 0.
+        failure_rate: Probability that a receiver in range misses the message, each one by itself; 0 to 1.
+    """
+
+    transmission_range: float = 60
+    delay: float = 0
+    failure_rate: float = 0
+
+    def __post_init__(self) -> None:
+        if not self.transmission_range >= 0:
+            raise ValueError(f"transmission_range must be >= 0 m, got {self.transmission_range!r}")
+        if not 0 <= self.delay < math.inf:
+            raise ValueError(f"delay must be finite and >= 0 s, got {self.delay!r}")
+        if not 0 <= self.failure_rate <= 1:
+            raise ValueError(f"failure_rate must be from 0 to 1, got {self.failure_rate!r}")
+
+
+def can_transmit(
+    source_position: Position,
+    destination_position: Position,
+    medium: CommunicationMedium,
+    stream: random.Random | None = None,
+) -> bool:
+    """Whether a message gets from one point (m) to another now; drawn from `stream` if failures are possible.
+
+    Without a stream a failure is drawn from Python's global one.
+    """
+    reach = medium.transmission_range
+    if squared_distance(source_position, destination_position) > reach * reach:
+        return False
+    if medium.failure_rate <= 0:
+        return True
+    return (stream or random).random() >= medium.failure_rate
+
+
+class CommunicationDestination:
+    """A node as receiver of messages."""
+
+    def __init__(self, node: Node[Any]) -> None:
+        self.node = node
+        self.context = f"{label_node(node)} handle_packet"
+        # Losses are the receiver's draws: what others hear does not depend on it.
+        self.stream = random_stream(getattr(node, "seed", 0), node.id, "communication")
+
+    def receive_message(self, message: str, source: "CommunicationSource") -> None:
+        """Hand the message to the node's protocol."""
+        self.node.protocol_encapsulator.handle_packet(message)
+
+
+class CommunicationSource:
+    """A node as sender of messages."""
+
+    def __init__(self, node: Node[Any]) -> None:
+        self.node = node
+
+
+class CommunicationHandler(INodeHandler):
+    """Carries messages between nodes. Who is in range is decided at the instant of sending.
+
+    Attributes:
+        default_medium: Holds for commands that come without a medium of their own.
+    """
+
+    def __init__(self, communication_medium: CommunicationMedium | None = None) -> None:
+        """Without a medium the defaults of `CommunicationMedium` hold."""
+        self.default_medium = communication_medium or CommunicationMedium()
+        self._event_loop: EventLoop | None = None
+        self._sources: dict[int, CommunicationSource] = {}
+        self._destinations: dict[int, CommunicationDestination] = {}
+
+    @staticmethod
+    def get_label() -> str:
+        """Return "communication"."""
+        return "communication"
+
+    def inject(self, event_loop: EventLoop) -> None:
+        """Take the event loop of a new simulation."""
+        self._event_loop = event_loop
+        self._sources = {}
+        self._destinations = {}
+
+    def register_node(self, node: Node[Any]) -> None:
+        """Let the node send and receive.
+
+        Raises:
+            CommunicationException: There is no event loop yet.
+        """
+        if self._event_loop is None:
+            raise CommunicationException(f"cannot register node {node.id}: inject an event loop first")
+        self._sources[node.id] = CommunicationSource(node)
+        self._destinations[node.id] = CommunicationDestination(node)
+
+    def handle_command(
+        self,
+        command: CommunicationCommand,
+        sender: Node[Any],
+        medium: CommunicationMedium | None = None,
+    ) -> None:
+        """Send a message.
+
+        Args:
+            command: What to send to whom.
+            sender: A registered node.
+            medium: Instead of `default_medium`.
+
+        Raises:
+            CommunicationException: The sender is not registered, the message is no text, or the destination
+                is missing, unknown or the sender itself.
+        """
+        source = self._sources.get(sender.id)
+        if source is None or self._event_loop is None:
+            raise CommunicationException(f"node {sender.id} is not registered with the communication handler")
+        if not isinstance(command.message, str):
+            raise CommunicationException(
+                f"node {sender.id} can send text only, got a {type(command.message).__name__}: "
+                f"{command.message!r}"
+            )
+        destinations: Iterable[CommunicationDestination]
+        if command.command_type == CommunicationCommandType.BROADCAST:
+            destinations = self._destinations.values()
+        elif command.command_type == CommunicationCommandType.SEND:
+            destinations = (self._destination_of(command, sender),)
+        else:
+            raise CommunicationException(
+                f"node {sender.id} gave an unknown communication command: {command.command_type!r}"
+            )
+        _logger.debug("%s sends to %s: %s", sender.id, command.destination, command.message)
+        medium = medium or self.default_medium
+        position = sender.position
+        copies: list[ScheduledEvent] = [
+            (partial(destination.receive_message, command.message, source), destination.context)
+            for destination in destinations
+            if destination.node is not sender
+            and can_transmit(position, destination.node.position, medium, destination.stream)
+        ]
+        self._event_loop.schedule_events(self._event_loop.current_time + medium.delay, copies)
+
+    def _destination_of(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationDestination:
+        if command.destination is None:
+            raise CommunicationException(f"node {sender.id} sent a message to one node without a destination")
+        if command.destination == sender.id:
+            raise CommunicationException(f"node {sender.id} sent a message to itself")
+        destination = self._destinations.get(command.destination)
+        if destination is None:
+            known = sorted(self._destinations)
+            raise CommunicationException(
+                f"node {sender.id} sent a message to node {command.destination!r}, which does not exist: "
+                f"there are {len(known)} nodes, {known[0]} to {known[-1]}"
+            )
+        return destination

@@ -1,0 +1,20 @@
+"""Motion of the nodes. The names without a kind of vehicle, as `MobilityHandler`, are the massless ones."""
+
+from gradysim.simulator.handler.mobility.massless import (
+    MasslessMobilityConfiguration,
+    MasslessMobilityException,
+    MasslessMobilityHandler,
+)
+
+MobilityConfiguration = MasslessMobilityConfiguration
+MobilityException = MasslessMobilityException
+MobilityHandler = MasslessMobilityHandler
+
+__all__ = [
+    "MasslessMobilityConfiguration",
+    "MasslessMobilityException",
+    "MasslessMobilityHandler",
+    "MobilityConfiguration",
+    "MobilityException",
+    "MobilityHandler",
+]

@@ -1,0 +1,252 @@
+"""Vehicles without mass: they fly straight to their target at their speed, and stand still there."""
+
+import math
+from dataclasses import dataclass
+from typing import Any, TypeGuard
+
+from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
+from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
+from gradysim.simulator.node import Node
+
+
+class MasslessMobilityException(Exception):  # noqa: N818 (the published name)
+    """A command that a vehicle cannot carry out, or a node that is not known here."""
+
+
+@dataclass
+class MasslessMobilityConfiguration:
+    """How all nodes move, as far as `MasslessMobilityHandler.configure_node` does not say otherwise.
+
+    Attributes:
+        update_rate: Time between two updates of all positions; s, > 0.
+        default_speed: m/s, >= 0.
+        reference_coordinates: (latitude deg, longitude deg, altitude m) of the origin of the frame.
+    """
+
+    update_rate: float = 0.01
+    default_speed: float = 10
+    reference_coordinates: Position = (0, 0, 0)
+
+    def __post_init__(self) -> None:
+        if not 0 < self.update_rate < math.inf:
+            raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
+        if not 0 <= self.default_speed < math.inf:
+            raise ValueError(f"default_speed must be finite and >= 0 m/s, got {self.default_speed!r}")
+
+
+@dataclass
+class _NodeSettings:
+    speed_mps: float | None = None
+    telemetry_interval_s: float | None = None
+    stationary: bool = False
+
+
+class MasslessMobilityHandler(INodeHandler):
+    """Moves the nodes at each update, and then tells each one its position in an event of its own.
+
+    Attributes:
+        nodes: Registered nodes by id.
+        targets: Where nodes fly to, (x, y, z) in metres by id; it stays after arrival.
+        speeds: m/s by id.
+    """
+
+    def __init__(self, configuration: MasslessMobilityConfiguration | None = None) -> None:
+        """Without a configuration the defaults of `MasslessMobilityConfiguration` hold."""
+        self._configuration = configuration or MasslessMobilityConfiguration()
+        rate = self._configuration.update_rate
+        self._frequency = _whole_frequency(rate)
+        self._settings: dict[int, _NodeSettings] = {}
+        self._event_loop: EventLoop | None = None
+        self._start_s = 0.0
+        self._updates = 0
+        self.nodes: dict[int, Node[Any]] = {}
+        self.targets: dict[int, Position] = {}
+        self.speeds: dict[int, float] = {}
+        self._telemetry: dict[float, TelemetryGroup] = {}
+
+    @staticmethod
+    def get_label() -> str:
+        """Return "mobility"."""
+        return "mobility"
+
+    def configure_node(
+        self,
+        node_id: int,
+        *,
+        speed: float | None = None,
+        telemetry_interval: float | None = None,
+        stationary: bool = False,
+    ) -> None:
+        """Settle how one node moves, before it is registered; it holds in every simulation of this handler.
+
+        Args:
+            node_id: Its id.
+            speed: m/s, >= 0, instead of the configuration's default.
+            telemetry_interval: s: telemetry comes with the first update at or after each multiple. It is
+                at least the time between two updates, which is also the default, or 0 for no telemetry.
+            stationary: The node refuses every command.
+
+        Raises:
+            ValueError: A number is outside its range.
+            MasslessMobilityException: The node is registered already.
+        """
+        if node_id in self.nodes:
+            raise MasslessMobilityException(f"node {node_id} is registered already: configure it before")
+        if speed is not None and not 0 <= speed < math.inf:
+            raise ValueError(f"speed of node {node_id} must be finite and >= 0 m/s, got {speed!r}")
+        rate = self._configuration.update_rate
+        if telemetry_interval is not None and telemetry_interval != 0:
+            if not 0 < telemetry_interval < math.inf:
+                raise ValueError(
+                    f"telemetry_interval of node {node_id} must be finite and >= 0 s, "
+                    f"got {telemetry_interval!r}"
+                )
+            if _in_updates(telemetry_interval, rate) < 1:
+                raise ValueError(
+                    f"telemetry_interval of node {node_id} is {telemetry_interval!r} s: expected 0 or at "
+                    f"least the update_rate of the positions, {rate!r} s"
+                )
+        self._settings[node_id] = _NodeSettings(speed, telemetry_interval, stationary)
+
+    def inject(self, event_loop: EventLoop) -> None:
+        """Take the event loop of a new simulation; the first update comes one `update_rate` from now."""
+        if self._event_loop is not None:
+            self.nodes = {}
+            self.targets = {}
+            self.speeds = {}
+            self._telemetry = {}
+        self._event_loop = event_loop
+        self._start_s = event_loop.current_time
+        self._updates = 0
+        self._schedule_update(event_loop)
+
+    def register_node(self, node: Node[Any]) -> None:
+        """Let the node move."""
+        settings = self._settings.get(node.id, _NodeSettings())
+        configuration = self._configuration
+        self.nodes[node.id] = node
+        self.speeds[node.id] = (
+            configuration.default_speed if settings.speed_mps is None else settings.speed_mps
+        )
+        interval_s = settings.telemetry_interval_s
+        if interval_s is None:
+            interval_s = configuration.update_rate
+        if interval_s != 0:
+            interval = _in_updates(interval_s, configuration.update_rate)
+            self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node)
+
+    def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
+        """Carry out an order to a vehicle; it shows from the next update on.
+
+        Args:
+            command: GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.
+            node: A registered node.
+
+        Raises:
+            MasslessMobilityException: The node is not registered or stationary, the command is unknown, or
+                its parameters are not finite numbers in their range.
+        """
+        if node.id not in self.nodes:
+            raise MasslessMobilityException(f"node {node.id} is not registered with the mobility handler")
+        kind = command.command_type
+        if node.id in self._settings and self._settings[node.id].stationary:
+            raise MasslessMobilityException(f"node {node.id} is stationary, it cannot carry out {command!r}")
+        if kind == MobilityCommandType.GOTO_COORDS:
+            self.targets[node.id] = _point(command, node)
+        elif kind == MobilityCommandType.GOTO_GEO_COORDS:
+            target = _point(command, node)
+            if not -90 <= target[0] <= 90:
+                raise MasslessMobilityException(
+                    f"node {node.id} was sent to latitude {target[0]!r}: expected -90 to 90 degrees"
+                )
+            self.targets[node.id] = geo_to_cartesian(self._configuration.reference_coordinates, target)
+        elif kind == MobilityCommandType.SET_SPEED:
+            self.speeds[node.id] = _speed(command, node)
+        else:
+            raise MasslessMobilityException(f"node {node.id} was given an unknown mobility command: {kind!r}")
+
+    def _schedule_update(self, event_loop: EventLoop) -> None:
+        self._updates += 1
+        if self._frequency is None:
+            elapsed_s = self._updates * self._configuration.update_rate
+        else:
+            elapsed_s = self._updates / self._frequency
+        event_loop.schedule_event(self._start_s + elapsed_s, self._update, "Mobility")
+
+    def _update(self) -> None:
+        event_loop = self._event_loop
+        assert event_loop is not None
+        nodes = self.nodes
+        for node_id, target in self.targets.items():
+            node = nodes[node_id]
+            if node.position != target:
+                step = self.speeds[node_id] * self._configuration.update_rate
+                node.position = _moved(node.position, target, step)
+        now = event_loop.current_time
+        for group in self._telemetry.values():
+            if group.is_due(self._updates):
+                event_loop.schedule_events(now, group.deliveries)
+        self._schedule_update(event_loop)
+
+
+def _moved(position: Position, target: Position, step: float) -> Position:
+    """Where a step (m) leads from a position straight to the target, and not beyond."""
+    x, y, z = position
+    dx = target[0] - x
+    dy = target[1] - y
+    dz = target[2] - z
+    distance = math.sqrt(dx * dx + dy * dy + dz * dz)
+    if distance <= step:
+        return target
+    return (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
+
+
+def _whole_frequency(update_rate_s: float) -> float | None:
+    """Updates per second, if that is a whole number.
+
+    7 / 100 is the number written 0.07 and 7 * 0.01 is not: by division updates meet the timers of that time.
+    """
+    if update_rate_s < 1e-9:
+        return None
+    frequency = round(1 / update_rate_s)
+    return float(frequency) if frequency > 0 and 1 / frequency == update_rate_s else None
+
+
+def _in_updates(interval_s: float, update_rate_s: float) -> float:
+    """Length of an interval in updates, a whole number if it is one but for rounding."""
+    updates = interval_s / update_rate_s
+    whole = round(updates)
+    return float(whole) if math.isclose(updates, whole, rel_tol=1e-9) else updates
+
+
+def _point(command: MobilityCommand, node: Node[Any]) -> Position:
+    x, y, z = command.param_1, command.param_2, command.param_3
+    if _is_finite(x) and _is_finite(y) and _is_finite(z):
+        return (float(x), float(y), float(z))
+    raise MasslessMobilityException(
+        f"node {node.id} was sent to ({x!r}, {y!r}, {z!r}): expected three finite numbers"
+    )
+
+
+def _speed(command: MobilityCommand, node: Node[Any]) -> float:
+    if command.param_2 is not None or command.param_3 is not None:
+        raise MasslessMobilityException(
+            f"node {node.id} was given a velocity, ({command.param_1!r}, {command.param_2!r}, "
+            f"{command.param_3!r}): a massless vehicle takes a speed and a target"
+        )
+    speed = command.param_1
+    if _is_finite(speed) and speed >= 0:
+        return float(speed)
+    raise MasslessMobilityException(
+        f"node {node.id} was given the speed {speed!r}: expected a finite number of m/s, >= 0"
+    )
+
+
+def _is_finite(value: float | None) -> TypeGuard[float]:
+    try:
+        return value is not None and math.isfinite(value)
+    except TypeError:
+        return False

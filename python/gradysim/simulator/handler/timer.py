@@ -1,0 +1,101 @@
+"""Timers of the nodes."""
+
+from functools import partial
+from typing import Any
+
+from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.log import label_node
+from gradysim.simulator.node import Node
+
+# Pending timers of one node: name -> serial number -> (time, event).
+_Pending = dict[str, dict[int, tuple[float, ScheduledEvent]]]
+
+
+class TimerException(Exception):  # noqa: N818 (the published name)
+    """A timer that cannot be set, or a node that is not known here."""
+
+
+class TimerHandler(INodeHandler):
+    """Calls `handle_timer` of a node when a timer is due; at equal times in the order of setting."""
+
+    def __init__(self) -> None:
+        self._event_loop: EventLoop | None = None
+        self._pending: dict[int, _Pending] = {}
+        self._contexts: dict[int, str] = {}
+        self._serial = 0
+
+    @staticmethod
+    def get_label() -> str:
+        """Return "timer"."""
+        return "timer"
+
+    def inject(self, event_loop: EventLoop) -> None:
+        """Take the event loop of a new simulation."""
+        if self._event_loop is not None:
+            self._pending = {}
+            self._contexts = {}
+        self._event_loop = event_loop
+
+    def register_node(self, node: Node[Any]) -> None:
+        """Let the node have timers."""
+        self._pending[node.id] = {}
+        self._contexts[node.id] = f"{label_node(node)} handle_timer"
+
+    def get_current_time(self) -> float:
+        """Return the simulated time in seconds; 0 as long as there is no simulation."""
+        return 0.0 if self._event_loop is None else self._event_loop.current_time
+
+    def set_timer(self, message: str, timestamp: float, node: Node[Any]) -> None:
+        """Have `handle_timer(message)` of the node called at a time.
+
+        Args:
+            message: Name of the timer; several of one name may be pending.
+            timestamp: Absolute simulated time in seconds, finite, not in the past.
+            node: A registered node.
+
+        Raises:
+            TimerException: The node is not registered, the name is no text, or the time is not possible.
+        """
+        pending = self._timers_of(node)
+        if not isinstance(message, str):
+            raise TimerException(f"the name of a timer must be a str, got {message!r}")
+        if self._event_loop is None:
+            raise TimerException("timers can be set only in a simulation: inject an event loop first")
+        self._serial = serial = self._serial + 1
+        try:
+            event = self._event_loop.schedule_event(
+                timestamp, partial(self.fire_timer, message, node, serial), self._contexts[node.id]
+            )
+        except EventLoopException:
+            raise TimerException(
+                f"cannot set timer {message!r} of node {node.id} for {timestamp!r}: expected an absolute "
+                f"time in seconds, not before now, {self._event_loop.current_time} s"
+            ) from None
+        pending.setdefault(message, {})[serial] = (timestamp, event)
+
+    def cancel_timer(self, message: str, node: Node[Any]) -> None:
+        """Remove every pending timer of that name; no-op if there is none.
+
+        Raises:
+            TimerException: The node is not registered.
+        """
+        timers = self._timers_of(node).pop(message, None)
+        if timers is not None and self._event_loop is not None:
+            for timestamp, event in timers.values():
+                self._event_loop.cancel_event(timestamp, event)
+
+    def fire_timer(self, message: str, node: Node[Any], identifier: int) -> None:
+        """Call the node: the timer with that serial number is due, and no longer pending."""
+        pending = self._pending[node.id]
+        timers = pending[message]
+        del timers[identifier]
+        if not timers:
+            del pending[message]
+        node.protocol_encapsulator.handle_timer(message)
+
+    def _timers_of(self, node: Node[Any]) -> _Pending:
+        try:
+            return self._pending[node.id]
+        except KeyError:
+            raise TimerException(f"node {node.id} is not registered with the timer handler") from None

@@ -1,0 +1,119 @@
+"""Log lines that say when in the simulation, and to whom, something happened."""
+
+import logging
+from collections.abc import Callable, Sequence
+from datetime import timedelta
+from pathlib import Path
+from typing import Any
+
+from gradysim.simulator.node import Node
+
+
+class SimulationFormatter(logging.Formatter):
+    """Puts level, iteration, simulated time and context in front of each message.
+
+    The text is made when a line is logged; an event that logs nothing costs two assignments.
+
+    Attributes:
+        iteration: Number of the event under way; None when there is none, and nothing is put in front.
+        context: What the event is about.
+        clock: Returns the simulated time in seconds.
+    """
+
+    def __init__(self, clock: Callable[[], float] = lambda: 0.0) -> None:
+        super().__init__("%(message)s")
+        self.iteration: int | None = None
+        self.context = ""
+        self.clock = clock
+        self._handlers: list[logging.Handler] = []
+        self._levels: tuple[int, int] | None = None
+
+    @property
+    def prefix(self) -> str:
+        """What is put in front of a message now."""
+        if self.iteration is None:
+            return ""
+        time = timedelta(seconds=self.clock())
+        return f"[it={self.iteration} time={time} | {self.context}] "
+
+    def scope_event(self, iteration: int, context: str) -> None:
+        """Say which event is under way."""
+        self.iteration = iteration
+        self.context = context
+
+    def clear_iteration(self) -> None:
+        """Say that no event is under way."""
+        self.iteration = None
+        self.context = ""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """Format a line of the log."""
+        return f"{record.levelname:<8} {self.prefix}{super().format(record)}"
+
+    def install(self, level: int, log_file: Path | None) -> None:
+        """Write what is logged from `level` on to standard error, and to the file if there is one."""
+        root = logging.getLogger()
+        self._handlers = [logging.StreamHandler()]
+        if log_file is not None:
+            self._handlers.append(logging.FileHandler(log_file, encoding="utf-8"))
+        for handler in self._handlers:
+            handler.setFormatter(self)
+            handler.setLevel(level)
+            root.addHandler(handler)
+        if level < root.level:
+            self._levels = (root.level, level)
+            root.setLevel(level)
+
+    def remove(self) -> None:
+        """Undo `install`; no-op if that has happened already."""
+        root = logging.getLogger()
+        for handler in self._handlers:
+            root.removeHandler(handler)
+            handler.close()
+        self._handlers = []
+        if self._levels is not None:
+            before, installed = self._levels
+            if root.level == installed:
+                root.setLevel(before)
+            self._levels = None
+
+
+def setup_simulation_formatter(
+    debug: bool,
+    log_file: Path | None,
+    *,
+    quiet: bool = False,
+    clock: Callable[[], float] = lambda: 0.0,
+) -> SimulationFormatter:
+    """Start logging for one simulation, on Python's root logger.
+
+    Args:
+        debug: Log from DEBUG on instead of INFO.
+        log_file: Append the lines to this file too.
+        quiet: Log from WARNING on only, whatever `debug` is.
+        clock: Returns the simulated time in seconds.
+
+    Returns:
+        The formatter; its `remove` ends it.
+    """
+    level = logging.WARNING if quiet else logging.DEBUG if debug else logging.INFO
+    formatter = SimulationFormatter(clock)
+    formatter.install(level, log_file)
+    return formatter
+
+
+def label_node(node: Node[Any]) -> str:
+    """Return a node's name for people: "ProtocolClass id"; "Node id" if it has no protocol."""
+    protocol = getattr(getattr(node, "protocol_encapsulator", None), "protocol", None)
+    return f"{'Node' if protocol is None else type(protocol).__name__} {node.id}"
+
+
+def format_table(headers: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Lay out a table as text, each column as wide as its longest cell."""
+    lines = [headers, *rows]
+    widths = [max(len(str(line[column])) for line in lines) for column in range(len(headers))]
+    texts = [
+        "  ".join(str(cell).ljust(width) for cell, width in zip(line, widths, strict=True)) for line in lines
+    ]
+    rule = "  ".join("-" * width for width in widths)
+    return "\n".join(text.rstrip() for text in (texts[0], rule, *texts[1:]))

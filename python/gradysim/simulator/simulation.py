@@ -1,0 +1,359 @@
+"""Prototype mode: puts nodes and handlers together and runs their events."""
+
+import logging
+import math
+import random
+import time
+import weakref
+from collections.abc import Mapping
+from datetime import timedelta
+from types import TracebackType
+from typing import Any, Self
+
+from gradysim.encapsulator.python import PythonEncapsulator
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.position import Position
+from gradysim.simulator.configuration import SimulationConfiguration
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
+from gradysim.simulator.node import Node
+from gradysim.simulator.pacing import RealTimePacer
+from gradysim.simulator.position_scheme import PositionScheme
+from gradysim.simulator.profile import EventProfile
+
+__all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
+
+_logger = logging.getLogger(__name__)
+
+_FORCE_FAST_EXECUTION = False
+
+# Events run between two looks at whether the simulation is over.
+_CHUNK = 1 << 20
+
+
+class _ForceFastExecution:
+    """Simulations that start in this context do not wait for the wall clock, whatever `real_time` says."""
+
+    def __enter__(self) -> Self:
+        global _FORCE_FAST_EXECUTION
+        self._before = _FORCE_FAST_EXECUTION
+        _FORCE_FAST_EXECUTION = True
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        exception: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        global _FORCE_FAST_EXECUTION
+        _FORCE_FAST_EXECUTION = self._before
+
+
+class Simulator:
+    """One simulation, made by `SimulationBuilder.build`.
+
+    `start_simulation` runs it to its end. `step_simulation` and `run_events` run a part of it; who stops
+    before the end calls `finalize`. An exception of a protocol or a handler ends the simulation and passes
+    through.
+
+    Attributes:
+        seed: What all random numbers of the run follow from.
+    """
+
+    seed: int
+
+    def __init__(self, handlers: Mapping[str, INodeHandler], configuration: SimulationConfiguration) -> None:
+        """Make a simulation without nodes.
+
+        Args:
+            handlers: By their labels.
+            configuration: ValueError if one of its values is outside its range.
+        """
+        configuration.validate()
+        self._configuration = configuration
+        # Who seeded Python's stream gets the same run again without saying so here.
+        self.seed = random.getrandbits(32) if configuration.seed is None else configuration.seed
+        self._event_loop = EventLoop()
+        self._handlers = dict(handlers)
+        self._nodes: dict[int, Node[Any]] = {}
+        self._iteration = 0
+        self._initialized = False
+        self._finalized = False
+        self._start_wall_s = 0.0
+        self._formatter = SimulationFormatter()
+        self._log_guard: weakref.finalize[[], Simulator] | None = None
+        # Those to be finalized, and finished.
+        self._live_handlers: list[INodeHandler] = []
+        self._live_nodes: list[Node[Any]] = []
+        self._pacer: RealTimePacer | None = None
+        self._profile = EventProfile() if configuration.profile else None
+        self._step_hooks = [
+            handler.after_simulation_step for handler in handlers.values() if _has_hook(handler)
+        ]
+        self._until_s = math.inf if configuration.duration is None else configuration.duration
+        for handler in self._handlers.values():
+            handler.inject(self._event_loop)
+
+    @property
+    def current_time(self) -> float:
+        """Simulated time in seconds."""
+        return self._event_loop.current_time
+
+    @property
+    def iteration(self) -> int:
+        """Number of events that ran so far."""
+        return self._iteration
+
+    @property
+    def nodes(self) -> tuple[Node[Any], ...]:
+        """All nodes, in the order of their making."""
+        return tuple(self._nodes.values())
+
+    def create_node(self, position: Position, protocol: type[IProtocol], identifier: int) -> Node[Any]:
+        """Make a node with a protocol and register it with every handler.
+
+        Args:
+            position: (x, y, z) in metres, finite.
+            protocol: Its class.
+            identifier: Id of the node, not given to another one.
+        """
+        if identifier in self._nodes:
+            raise ValueError(f"there is a node with the id {identifier!r} already")
+        node: Node[Any] = Node()
+        node.id = identifier
+        node.position = _checked_position(position)
+        node.seed = self.seed
+        node.protocol_encapsulator = PythonEncapsulator(node, **self._handlers)
+        node.protocol_encapsulator.encapsulate(_checked_protocol(protocol))
+        self._nodes[identifier] = node
+        for handler in self._handlers.values():
+            handler.register_node(node)
+        return node
+
+    def get_node(self, identifier: int) -> Node[Any]:
+        """Return the node with that id; KeyError if there is none."""
+        try:
+            return self._nodes[identifier]
+        except KeyError:
+            raise KeyError(f"there is no node {identifier!r}, only {sorted(self._nodes)}") from None
+
+    def scope_event(self, iteration: int, timestamp: float, context: str) -> None:
+        """Say in the log lines from now on that event `iteration`, at `timestamp` (s), is under way."""
+        self._formatter.clock = lambda: timestamp
+        self._formatter.scope_event(iteration, context)
+
+    def step_simulation(self) -> bool:
+        """Run one event, the first time after initialising everything; False when it was the last one."""
+        return self.run_events(1)
+
+    def run_events(self, count: int) -> bool:
+        """Run at most `count` events, the first time after initialising everything.
+
+        Returns:
+            Whether the simulation goes on. When it does not, it has been finalized.
+        """
+        if self._finalized:
+            return False
+        try:
+            if not self._initialized:
+                self._initialize()
+            self._execute(count)
+            done = self.is_simulation_done()
+        except KeyboardInterrupt:
+            raise  # Nobody's failure: the caller may go on, or finalize.
+        except BaseException:
+            self._finalized = True  # Without `finish`: nobody knows the state of things.
+            self._release()
+            raise
+        if done:
+            self.finalize()
+        return not done
+
+    def start_simulation(self) -> None:
+        """Run the simulation to its end.
+
+        When it is interrupted (KeyboardInterrupt) `finish` of the protocols is called before that passes on.
+        """
+        try:
+            while self.run_events(_CHUNK):
+                pass
+        except KeyboardInterrupt:
+            self.finalize()
+            raise
+
+    def is_simulation_done(self) -> bool:
+        """Whether nothing is left to run: no event, none within `duration`, or `max_iterations` have run."""
+        if self._finalized:
+            return True
+        if not self._initialized:
+            return False
+        limit = self._configuration.max_iterations
+        if limit is not None and self._iteration >= limit:
+            return True
+        next_time = self._event_loop.next_time()
+        return next_time is None or next_time > self._until_s
+
+    def finalize(self) -> None:
+        """End the simulation here: `finish` of the protocols, then `finalize` of the handlers, once each.
+
+        No-op if that has happened, or the simulation ended with an exception. If `duration` ended it, the
+        time is `duration` then.
+        """
+        if self._finalized:
+            return
+        next_time = self._event_loop.next_time()
+        if self._initialized and next_time is not None and next_time > self._until_s:
+            self._event_loop.advance_to(self._until_s)
+        self._finalized = True
+        if not self._initialized:
+            return
+        try:
+            for node in self._live_nodes:
+                self._formatter.scope_event(self._iteration, f"{label_node(node)} Finalization")
+                node.protocol_encapsulator.finish()
+            self._formatter.clear_iteration()
+            while self._live_handlers:
+                self._live_handlers.pop(0).finalize()
+            self._log_end()
+        finally:
+            self._release()
+
+    def _initialize(self) -> None:
+        self._initialized = True
+        loop = self._event_loop
+        configuration = self._configuration
+        self._formatter = setup_simulation_formatter(
+            configuration.debug,
+            configuration.log_file,
+            quiet=not configuration.execution_logging,
+            clock=lambda: loop.current_time,
+        )
+        # Who drops a simulation half-way leaves no log handlers either.
+        self._log_guard = weakref.finalize(self, self._formatter.remove)
+        random.seed(self.seed)
+        self._start_wall_s = time.monotonic()
+        for handler in self._handlers.values():
+            self._live_handlers.append(handler)
+            handler.initialize()
+        for node in self._nodes.values():
+            self._formatter.scope_event(0, f"{label_node(node)} Initialization")
+            node.protocol_encapsulator.initialize()
+            self._live_nodes.append(node)
+        self._formatter.clear_iteration()
+        _logger.info("[--------- Simulation started ---------]")
+        if configuration.real_time and not _FORCE_FAST_EXECUTION:
+            self._pacer = RealTimePacer(float(configuration.real_time))
+
+    def _execute(self, count: int) -> None:
+        limit = self._configuration.max_iterations
+        first = self._iteration
+        last = first + count if limit is None else min(first + count, limit)
+        loop = self._event_loop
+        take = loop.take
+        until_s = self._until_s
+        formatter = self._formatter
+        hooks = self._step_hooks
+        pacer = self._pacer
+        profile = self._profile
+        for iteration in range(first, last):
+            if pacer is not None:
+                next_time = loop.next_time()
+                if next_time is not None and next_time <= until_s:
+                    pacer.wait_until(next_time)
+            event = take(until_s)
+            if event is None:
+                break
+            formatter.iteration = iteration
+            formatter.context = event[1]
+            if profile is None:
+                event[0]()
+            else:
+                profile.run(event)
+            for hook in hooks:
+                hook(iteration, loop.current_time)
+            self._iteration = iteration + 1
+        formatter.iteration = None
+
+    def _log_end(self) -> None:
+        if self._profile is not None:
+            self._profile.report()
+        _logger.info("[--------- Simulation finished ---------]")
+        _logger.info(
+            "Real time elapsed: %s\tTotal iterations: %s\tSimulation time: %s",
+            timedelta(seconds=time.monotonic() - self._start_wall_s),
+            self._iteration,
+            timedelta(seconds=self.current_time),
+        )
+
+    def _release(self) -> None:
+        """Leave nothing behind. Handlers left to finalize mean a failure before, which must not be hidden."""
+        while self._live_handlers:
+            handler = self._live_handlers.pop(0)
+            try:
+                handler.finalize()
+            except Exception:
+                _logger.exception("The handler %s failed to finalize, too", handler.get_label())
+        self._formatter.clear_iteration()
+        if self._log_guard is not None:
+            self._log_guard()
+
+
+class SimulationBuilder:
+    """Collects handlers and nodes. `build` may be called again for another simulation of the same."""
+
+    def __init__(self, configuration: SimulationConfiguration | None = None) -> None:
+        """Without a configuration the defaults of `SimulationConfiguration` hold."""
+        self._configuration = configuration or SimulationConfiguration()
+        self._handlers: dict[str, INodeHandler] = {}
+        self._nodes: list[tuple[type[IProtocol], Position]] = []
+
+    def add_handler(self, handler: INodeHandler) -> "SimulationBuilder":
+        """Add a handler, instead of the one with the same label if there is one; returns the builder."""
+        if isinstance(handler, type) or not callable(getattr(handler, "get_label", None)):
+            raise TypeError(f"expected a handler, an instance of a class like INodeHandler, got {handler!r}")
+        self._handlers[handler.get_label()] = handler
+        return self
+
+    def add_node(self, protocol: type[IProtocol], position: Position) -> int:
+        """Add a node.
+
+        Args:
+            protocol: Class of its protocol, not an instance.
+            position: Where it starts: (x, y, z) in metres.
+
+        Returns:
+            Its id: 0 for the first node, then 1, ...
+        """
+        self._nodes.append((_checked_protocol(protocol), _checked_position(position)))
+        return len(self._nodes) - 1
+
+    def build(self) -> Simulator:
+        """Make the simulation: inject the event loop into the handlers, then make the nodes in order."""
+        simulator = Simulator(self._handlers, self._configuration)
+        for identifier, (protocol, position) in enumerate(self._nodes):
+            simulator.create_node(position, protocol, identifier)
+        return simulator
+
+
+def _has_hook(handler: INodeHandler) -> bool:
+    """Whether a handler does something after each event; most do not, and are not called."""
+    function = getattr(handler.after_simulation_step, "__func__", None)
+    return function is not INodeHandler.after_simulation_step
+
+
+def _checked_protocol(protocol: type[IProtocol]) -> type[IProtocol]:
+    if not isinstance(protocol, type) or not hasattr(protocol, "instantiate"):
+        raise TypeError(f"expected a protocol's class, a subclass of IProtocol, got {protocol!r}")
+    return protocol
+
+
+def _checked_position(position: Position) -> Position:
+    try:
+        x, y, z = map(float, position)
+    except (TypeError, ValueError):
+        x = y = z = math.nan
+    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
+        raise ValueError(f"expected a position of three finite numbers (x, y, z) in metres, got {position!r}")
+    return (x, y, z)
