@@ -19,7 +19,7 @@ namespace proxy_protocol {
 void bind_config(py::module_& module) {
     py::class_<MediumConfig>(module, "MediumConfig")
         .def(py::init<std::string>(), py::arg("typename") = "Ieee80211ScalarRadioMedium")
-        .def_readwrite("typename", &MediumConfig::type_name)
+        .def_readonly("typename", &MediumConfig::type_name)  // sets the other defaults, so only at the start
         .def_readwrite("path_loss", &MediumConfig::path_loss)
         .def_readwrite("alpha", &MediumConfig::alpha)
         .def_readwrite("breakpoint_distance_m", &MediumConfig::breakpoint_distance_m)

@@ -10,7 +10,10 @@ class SimulationError(RuntimeError):
     """A command that cannot be carried out (a timer in the past, an unknown destination, a message over the MTU)."""
 
 class MediumConfig:
-    typename: str
+    """The type chooses the defaults of the other fields, so it is given at the start and stays."""
+
+    @property
+    def typename(self) -> str: ...
     path_loss: str
     alpha: float
     breakpoint_distance_m: float

@@ -27,10 +27,13 @@ def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
 
 
 def medium_config(scenario: Scenario) -> "MediumConfig":
-    """Return the checked configuration of the medium."""
-    config: MediumConfig = load_netsim().MediumConfig()
-    set_fields(config, scenario.medium)
+    """Return the checked configuration of the medium, whose type sets the defaults of its other fields."""
+    netsim = load_netsim()
+    settings = dict(scenario.medium)
+    chosen = settings.pop("typename", None)
     with errors_at(scenario.medium):
+        config: MediumConfig = netsim.MediumConfig() if chosen is None else netsim.MediumConfig(chosen.value)
+        set_fields(config, settings)
         config.validate()
     return config
 
