@@ -57,8 +57,8 @@ class ZigZagMobile(IProtocol):
     heartbeat_jitter: float = 0.1
     """Longest random delay of a heartbeat in seconds; 0: all nodes send at the same instants."""
     interaction_timeout: float = 5.0
-    """Seconds after an exchange in which other UAVs and the ground station are ignored (sensors are not), so
-    that the two get out of each other's reach; 0: they turn around at each heartbeat that they hear."""
+    """Seconds after the launch and after an exchange in which other UAVs and the ground station are ignored
+    (sensors are not), to get out of their reach. 0: two that meet turn around at each heartbeat they hear."""
     launch_interval: float = 30.0
     """Seconds between the launches of two UAVs: number i starts at i * launch_interval; 0: all at once."""
     sensor_count: int = 5
@@ -129,6 +129,7 @@ class ZigZagMobile(IProtocol):
             [(stop * self.sensor_spacing, 0.0, height) for stop in range(self.sensor_count + 1)]
         )
         self._launched = True
+        self._ignore_others()
 
     def _send_heartbeat(self) -> None:
         heartbeat = UavHeartbeat(
@@ -167,8 +168,11 @@ class ZigZagMobile(IProtocol):
     def _part(self, carrier: int) -> None:
         """End an exchange: the carrier flies towards the ground station, the other one away from it."""
         self._mission.set_reversed(carrier == self.provider.get_id())
-        self._ignore_until = self.provider.current_time() + self.interaction_timeout
+        self._ignore_others()
         self._interactions += 1
+
+    def _ignore_others(self) -> None:
+        self._ignore_until = self.provider.current_time() + self.interaction_timeout
 
     def _ignores_others(self) -> bool:
         return self.provider.current_time() < self._ignore_until

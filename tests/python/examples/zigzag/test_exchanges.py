@@ -77,7 +77,9 @@ def fleet(bench: Callable[..., Any]) -> Callable[..., Fleet]:
             uav.next_timer()
             for stop in (0, 1, 2, 3, 4, 5) if number in homeward else (0, 1):
                 uav.protocol.handle_telemetry(Telemetry((stop * 300.0, 0.0, 20.0 + number)))
-        return Fleet([*uavs, bench(ZigZagGroundStation, STATION)])
+        subject = Fleet([*uavs, bench(ZigZagGroundStation, STATION)])
+        subject.pass_time(5.0)  # they ignore each other after the launch
+        return subject
 
     return start
 

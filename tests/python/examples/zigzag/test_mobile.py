@@ -30,6 +30,8 @@ def flying(bench: Callable[..., Any]) -> Callable[..., Any]:
         for stop in stops:
             uav.protocol.handle_telemetry(Telemetry((stop * 300.0, 0.0, 20.0 + node_id)))
         uav.hear(*[SensorData(5)] * data)
+        uav.provider.now += 5.0
+        uav.provider.timers = [("heartbeat", uav.provider.now + 1.0)]
         uav.provider.moves.clear()
         return uav
 
@@ -83,15 +85,24 @@ class TestLaunch:
         assert uav.tracked == {"data": 0, "collected": 0, "interactions": 0}
         assert [name for name, _ in uav.provider.timers] == ["launch"]
 
+    def test_then_it_leaves_the_others_alone_first(self, bench: Callable[..., Any]) -> None:
+        uav = bench(ZigZagMobile, 0, interaction_timeout=5.0)
+        uav.next_timer()
+        assert uav.hear(GroundHeartbeat(STATION)) == []
+        uav.provider.now += 5.0
+        assert len(uav.hear(GroundHeartbeat(STATION))) == 1
+
 
 class TestHeartbeats:
     def test_they_go_out_every_interval_after_the_launch(self, bench: Callable[..., Any]) -> None:
-        uav = bench(ZigZagMobile, 1, launch_interval=30.5, heartbeat_interval=2.0, heartbeat_jitter=0.0)
+        timing = {"launch_interval": 30.5, "heartbeat_interval": 2.0, "heartbeat_jitter": 0.0}
+        uav = bench(ZigZagMobile, 1, **timing)
         assert uav.next_timer() == "launch"
         for time in (32.0, 34.0, 36.0):
             assert uav.next_timer() == "heartbeat"
             assert uav.provider.now == time
-            assert uav.drain() == [(UavHeartbeat(1, homeward=False, available=True), None)]
+            ((heartbeat, destination),) = uav.drain()
+            assert (heartbeat.sender, heartbeat.homeward, destination) == (1, False, None)
 
     def test_with_jitter_no_two_uavs_send_at_the_same_instant(self, bench: Callable[..., Any]) -> None:
         uavs = [bench(ZigZagMobile, node_id, launch_interval=0.0) for node_id in range(4)]
