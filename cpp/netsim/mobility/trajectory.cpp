@@ -26,12 +26,12 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
         add(Leg{now, now, target, target});
         return;
     }
-    const double travel_s = length_m / speed_mps;  // infinite at speed 0
-    constexpr double for_ever_s = 4e6;
-    if (!(travel_s < for_ever_s)) {
+    const double travel_s = length_m / speed_mps;                         // infinite at speed 0
+    constexpr SimTime end_of_time = SimTime::from_us(9'200'000'000'000);  // no run is longer
+    const double rest_s = (end_of_time - now).seconds();
+    if (!(travel_s < rest_s)) {
         // So slow that the run ends before the arrival: keep the direction, shorten the leg.
-        const SimTime arrival = now + SimTime::from_seconds(for_ever_s);
-        add(Leg{now, arrival, origin, origin + (target - origin) * (for_ever_s / travel_s)});
+        add(Leg{now, end_of_time, origin, origin + (target - origin) * (rest_s / travel_s)});
         return;
     }
     add(Leg{now, now + SimTime::from_seconds(travel_s), origin, target});
