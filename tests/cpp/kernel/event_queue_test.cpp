@@ -1,0 +1,204 @@
+#include "netsim/kernel/event_queue.hpp"
+
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <random>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace netsim {
+namespace {
+
+constexpr SimTime at(std::int64_t ps) {
+    return SimTime::from_ps(ps);
+}
+
+// A queue whose events write their names into a log.
+class LoggingQueue {
+public:
+    EventHandle push(SimTime time, Priority priority, int name) {
+        return queue.push(time, priority, [this, name] { log.push_back(name); });
+    }
+    std::vector<int> drain() {
+        while (!queue.empty()) {
+            Action action = queue.pop();
+            action();
+        }
+        return std::exchange(log, {});
+    }
+
+    EventQueue queue;
+    std::vector<int> log;
+};
+
+TEST(EventQueue, IsEmptyAtFirst) {
+    EventQueue queue;
+    EXPECT_TRUE(queue.empty());
+    EXPECT_EQ(queue.size(), 0U);
+}
+
+TEST(EventQueue, GoesByTime) {
+    LoggingQueue events;
+    events.push(at(30), Priority::normal, 3);
+    events.push(at(10), Priority::normal, 1);
+    events.push(at(20), Priority::normal, 2);
+    EXPECT_EQ(events.drain(), (std::vector{1, 2, 3}));
+}
+
+TEST(EventQueue, LastComesAfterNormalOfItsInstantOnly) {
+    LoggingQueue events;
+    events.push(at(10), Priority::last, 2);
+    events.push(at(10), Priority::normal, 1);
+    events.push(at(11), Priority::normal, 3);
+    EXPECT_EQ(events.drain(), (std::vector{1, 2, 3}));
+}
+
+TEST(EventQueue, EqualTimesGoInTheOrderOfScheduling) {
+    LoggingQueue events;
+    for (int name = 0; name < 100; ++name) {
+        events.push(at(10), Priority::normal, name);
+    }
+    const std::vector<int> order = events.drain();
+    for (int name = 0; name < 100; ++name) {
+        EXPECT_EQ(order[static_cast<std::size_t>(name)], name);
+    }
+}
+
+TEST(EventQueue, NextTimeIsThatOfTheEarliestLivingEvent) {
+    LoggingQueue events;
+    const EventHandle first = events.push(at(10), Priority::normal, 1);
+    events.push(at(20), Priority::normal, 2);
+    EXPECT_EQ(events.queue.next_time(), at(10));
+    events.queue.cancel(first);
+    EXPECT_EQ(events.queue.next_time(), at(20));
+}
+
+TEST(EventQueue, ACancelledEventDoesNotRun) {
+    LoggingQueue events;
+    events.push(at(10), Priority::normal, 1);
+    const EventHandle second = events.push(at(20), Priority::normal, 2);
+    events.push(at(30), Priority::normal, 3);
+    EXPECT_TRUE(events.queue.cancel(second));
+    EXPECT_EQ(events.queue.size(), 2U);
+    EXPECT_EQ(events.drain(), (std::vector{1, 3}));
+}
+
+TEST(EventQueue, CancellingTwiceIsHarmless) {
+    LoggingQueue events;
+    const EventHandle handle = events.push(at(10), Priority::normal, 1);
+    EXPECT_TRUE(events.queue.cancel(handle));
+    EXPECT_FALSE(events.queue.cancel(handle));
+    EXPECT_TRUE(events.queue.empty());
+}
+
+TEST(EventQueue, TheEmptyHandleNamesNoEvent) {
+    LoggingQueue events;
+    EXPECT_FALSE(events.queue.is_pending(EventHandle()));
+    EXPECT_FALSE(events.queue.cancel(EventHandle()));
+}
+
+TEST(EventQueue, AHandleDiesWithItsEvent) {
+    LoggingQueue events;
+    const EventHandle handle = events.push(at(10), Priority::normal, 1);
+    EXPECT_TRUE(events.queue.is_pending(handle));
+    events.drain();
+    EXPECT_FALSE(events.queue.is_pending(handle));
+    EXPECT_FALSE(events.queue.cancel(handle));
+}
+
+TEST(EventQueue, AnOldHandleDoesNotTouchTheEventThatTookItsPlace) {
+    LoggingQueue events;
+    const EventHandle old = events.push(at(10), Priority::normal, 1);
+    events.queue.cancel(old);
+    const EventHandle reused = events.push(at(10), Priority::normal, 2);
+    ASSERT_EQ(old.slot, reused.slot);
+    EXPECT_FALSE(events.queue.is_pending(old));
+    EXPECT_FALSE(events.queue.cancel(old));
+    EXPECT_TRUE(events.queue.is_pending(reused));
+    EXPECT_EQ(events.drain(), std::vector{2});
+}
+
+TEST(EventQueue, ManyCancellationsLeaveTheOrder) {
+    LoggingQueue events;
+    std::vector<EventHandle> handles;
+    for (int name = 0; name < 1000; ++name) {
+        handles.push_back(events.push(at(1000 - name), Priority::normal, name));
+    }
+    std::vector<int> expected;
+    for (int name = 999; name >= 0; --name) {
+        if (name % 10 == 0) {
+            expected.push_back(name);
+        } else {
+            events.queue.cancel(handles[static_cast<std::size_t>(name)]);
+        }
+    }
+    EXPECT_EQ(events.queue.size(), 100U);
+    EXPECT_EQ(events.drain(), expected);
+}
+
+TEST(EventQueue, CancellingEverythingLeavesAUsableQueue) {
+    LoggingQueue events;
+    std::vector<EventHandle> handles;
+    for (int name = 0; name < 1000; ++name) {
+        handles.push_back(events.push(at(name), Priority::normal, name));
+    }
+    for (const EventHandle handle : handles) {
+        events.queue.cancel(handle);
+    }
+    EXPECT_TRUE(events.queue.empty());
+    events.push(at(5), Priority::normal, 7);
+    EXPECT_EQ(events.drain(), std::vector{7});
+}
+
+// Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
+class EventQueueOracle : public testing::TestWithParam<unsigned> {};
+
+TEST_P(EventQueueOracle, AgreesWithASortedMap) {
+    using Key = std::tuple<SimTime, Priority, int>;  // the name is the order of scheduling
+    std::mt19937 random(GetParam());
+    const auto draw = [&random](int count) {
+        return static_cast<int>(random() % static_cast<unsigned>(count));
+    };
+    const int push_weight = 30 + draw(50);
+    const int cancel_weight = draw(40);
+    LoggingQueue events;
+    std::multimap<Key, EventHandle> oracle;
+    std::vector<EventHandle> spent;
+    std::int64_t now = 0;
+    for (int name = 0; name < 5000; ++name) {
+        const int choice = draw(130);
+        if (choice < push_weight) {
+            const SimTime time = at(now + draw(50));
+            const Priority priority = draw(4) == 0 ? Priority::last : Priority::normal;
+            oracle.emplace(Key{time, priority, name}, events.push(time, priority, name));
+        } else if (choice < push_weight + cancel_weight && !oracle.empty()) {
+            const auto victim = std::next(oracle.begin(), draw(static_cast<int>(oracle.size())));
+            ASSERT_TRUE(events.queue.cancel(victim->second));
+            spent.push_back(victim->second);
+            oracle.erase(victim);
+        } else if (!oracle.empty()) {
+            const auto [time, priority, expected] = oracle.begin()->first;
+            ASSERT_EQ(events.queue.next_time(), time);
+            now = time.ps();
+            Action action = events.queue.pop();
+            action();
+            ASSERT_EQ(events.log.back(), expected);
+            spent.push_back(oracle.begin()->second);
+            oracle.erase(oracle.begin());
+        }
+        ASSERT_EQ(events.queue.size(), oracle.size());
+        if (!spent.empty()) {
+            ASSERT_FALSE(events.queue.is_pending(
+                spent[static_cast<std::size_t>(draw(static_cast<int>(spent.size())))]));
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, EventQueueOracle, testing::Range(1U, 21U));
+
+}  // namespace
+}  // namespace netsim
