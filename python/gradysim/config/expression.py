@@ -14,7 +14,6 @@ import re
 from fractions import Fraction
 
 from gradysim.config.error import BadValue
-from gradysim.config.nearest import did_you_mean
 from gradysim.config.quantity import Number, Quantity
 from gradysim.config.units import unit_named
 
@@ -24,7 +23,7 @@ _TOKENS = re.compile(
     r"""\s*(?:
       (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
     | (?P<text>"(?:[^"\\]|\\.)*")
-    | (?P<word>[A-Za-z_%][A-Za-z_0-9%]*)
+    | (?P<word>[A-Za-z_%]+)
     | (?P<sign>[-+*/^()])
     | (?P<other>\S)
     )""",
@@ -116,10 +115,9 @@ class _Parser:
             return value
         if kind == "word":
             if self._accept("("):
-                raise BadValue(
-                    f"the function `{token}(...)` is not known; values are fixed numbers and texts"
-                )
-            raise BadValue(f"`{token}` is no value (a text stands in quotes)", did_you_mean(token, _WORDS))
+                raise BadValue(f"there is no function `{token}`; values are fixed numbers and texts")
+            hint = f"; did you mean `{token.lower()}`?" if token.lower() in _WORDS else ""
+            raise BadValue(f"`{token}` is no value (a text stands in quotes)", hint)
         raise BadValue(f"`{token}` is not understood there" if kind else "the value ends too early")
 
     def _quantities(self) -> Quantity:

@@ -46,14 +46,16 @@ def check_names(lookup: Lookup, groups: list[Group]) -> None:
     names = {*NETWORK_MODULES, *(group.size_key for group in groups), *(group.name for group in groups)}
     for group in groups:
         names.update(group.node_names() or [f"{group.name}[0]"])
-    known: dict[Pattern, bool] = {}
+    known: dict[str, bool] = {}
     for found in _in_order_of_text(lookup):
         name = found.name_pattern()
         if name is None:
             continue
-        if name not in known:
-            known[name] = any(map(name.matches, names)) if name.literal is None else name.literal in names
-        matches = known[name] or _is_beyond_overridden_size(found, groups)
+        if name.text not in known:
+            known[name.text] = (
+                any(map(name.matches, names)) if name.literal is None else name.literal in names
+            )
+        matches = known[name.text] or _is_beyond_overridden_size(found, groups)
         if not (matches and found.parts and found.parts[0].matches(lookup.network)):
             raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
 
@@ -71,9 +73,9 @@ class _ParameterCheck:
         self._network = network
         self._groups = groups
         self._classes = classes
-        self._rests = {cls: _rests_of(cls) for cls in {*classes.values()}}
-        self._classes_of: dict[Pattern, set[type[IProtocol]]] = {}
-        self._known: dict[tuple[type[IProtocol], Pattern], bool] = {}
+        self._rests = {cls: _rests_of(cls) for cls in dict.fromkeys(classes.values())}
+        self._classes_of: dict[str, set[type[IProtocol]]] = {}
+        self._known: dict[tuple[type[IProtocol], str], bool] = {}
 
     def matches(self, found: Found) -> bool:
         name, rest = found.name_pattern(), found.rest_pattern()
@@ -105,14 +107,14 @@ class _ParameterCheck:
     def _classes_named(self, name: Pattern) -> set[type[IProtocol]]:
         if name.literal is not None:
             return {self._classes[name.literal]} if name.literal in self._classes else set()
-        if name not in self._classes_of:
-            self._classes_of[name] = {cls for node, cls in self._classes.items() if name.matches(node)}
-        return self._classes_of[name]
+        if name.text not in self._classes_of:
+            self._classes_of[name.text] = {cls for node, cls in self._classes.items() if name.matches(node)}
+        return self._classes_of[name.text]
 
     def _is_known(self, cls: type[IProtocol], rest: Pattern) -> bool:
-        if (cls, rest) not in self._known:
-            self._known[cls, rest] = any(map(rest.matches, self._rests[cls]))
-        return self._known[cls, rest]
+        if (cls, rest.text) not in self._known:
+            self._known[cls, rest.text] = any(map(rest.matches, self._rests[cls]))
+        return self._known[cls, rest.text]
 
     def _all_paths(self) -> Iterator[str]:
         yield from (f"{self._network}.{key.path}" for key in NETWORK_KEYS)

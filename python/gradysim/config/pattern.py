@@ -7,7 +7,7 @@ left open), and a backslash takes the meaning from the character after it.
 
 import re
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 from gradysim.config.error import BadValue
 
@@ -24,9 +24,9 @@ class Token:
     spans_dots: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pattern:
-    """A compiled pattern, or a part of one. Compares by its tokens: equal parts share what they cost."""
+    """A compiled pattern, or a part of one."""
 
     tokens: tuple[Token, ...]
 
@@ -112,6 +112,7 @@ def _token(text: str, position: int) -> tuple[Token, int]:
     return _literal(character), position + 1
 
 
+@cache
 def _literal(character: str, escaped: bool = False) -> Token:
     return Token(f"\\{character}" if escaped else character, re.escape(character), literal=character)
 

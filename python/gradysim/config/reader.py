@@ -125,9 +125,7 @@ def _text_of(file: Path, asked_by: Source | None) -> str:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise ConfigError(
-            "this line is not UTF-8; expected a text file in UTF-8", Source(file, line)
-        ) from error
+        raise ConfigError("this line is not UTF-8; expected UTF-8", Source(file, line)) from error
 
 
 def _logical_lines(file: Path, text: str) -> Iterator[tuple[int, str]]:
@@ -146,7 +144,7 @@ def _logical_lines(file: Path, text: str) -> Iterator[tuple[int, str]]:
             current = (number, line.rstrip())
         elif current is None or current[1].startswith("["):
             raise ConfigError(
-                "an indented line continues the entry above it, and there is none; expected text in column 1",
+                "an indented line continues the entry above it, and there is none; expected column 1",
                 source,
             )
         else:

@@ -49,9 +49,7 @@ def _linearise(ini: IniFile, name: str, heirs: tuple[str, ...]) -> list[str]:
         return [name]
     bases = _bases(ini, extends)
     if cycle := [base for base in bases if base == name or base in heirs]:
-        raise ConfigError(
-            f"`{name}` extends itself by way of `{cycle[0]}`; expected no circle", extends.source
-        )
+        raise ConfigError(f"`{name}` extends itself through `{cycle[0]}`; expected no circle", extends.source)
     chains = [_linearise(ini, base, (*heirs, name)) for base in bases]
     merged = _merge([*chains, bases])
     if merged is None:
@@ -83,13 +81,9 @@ def _bases(ini: IniFile, extends: Entry) -> list[str]:
     for base in bases:
         if base not in ini.sections:
             hint = did_you_mean(base, ini.sections)
-            raise ConfigError(
-                f"extends `{base}`, and there is no such section; expected one{hint}", extends.source
-            )
+            raise ConfigError(f"extends `{base}`; expected the name of a section{hint}", extends.source)
     if len(set(bases)) < len(bases):
-        raise ConfigError(
-            f"`extends = {extends.text}` names a section twice; expected each once", extends.source
-        )
+        raise ConfigError(f"extends = {extends.text}: expected each section once", extends.source)
     return bases
 
 

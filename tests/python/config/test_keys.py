@@ -1,0 +1,43 @@
+import ast
+from pathlib import Path
+
+import gradysim
+from gradysim.config.keys import GROUP_SIZE, NETWORK_KEYS, NODE_KEYS, OPTIONS
+
+STRUCTS = {"medium": "MediumConfig", "radio": "RadioConfig", "mac": "MacConfig", "mobility": "MobilityConfig"}
+
+
+def fields_of_the_engine() -> set[str]:
+    """ "struct.field" of all configurations, from the stub of the compiled part."""
+    stub = Path(next(iter(gradysim.__path__))) / "_netsim.pyi"
+    classes = {node.name: node for node in ast.parse(stub.read_text()).body if isinstance(node, ast.ClassDef)}
+    return {
+        f"{struct}.{item.target.id if isinstance(item, ast.AnnAssign) else item.name}"
+        for struct, name in STRUCTS.items()
+        for item in classes[name].body
+        if (isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name))
+        or (isinstance(item, ast.FunctionDef) and item.decorator_list)
+    }
+
+
+def test_targets_are_fields_of_the_engine() -> None:
+    targets = {key.target for key in (*NODE_KEYS, *NETWORK_KEYS) if key.struct in STRUCTS}
+    assert targets - fields_of_the_engine() == set()
+
+
+def test_every_field_of_the_engine_can_be_set() -> None:
+    targets = {key.target for key in (*NODE_KEYS, *NETWORK_KEYS)}
+    assert fields_of_the_engine() - targets == set()
+
+
+def test_paths_are_unique() -> None:
+    paths = [key.path for key in (*NODE_KEYS, *NETWORK_KEYS, GROUP_SIZE)]
+    assert len(set(paths)) == len(paths)
+
+
+def test_the_interface_is_written_with_a_wildcard() -> None:
+    assert next(key.written for key in NODE_KEYS if key.field == "bitrate_bps") == "wlan[*].bitrate"
+
+
+def test_options_have_no_dot() -> None:
+    assert not any("." in option for option in OPTIONS)

@@ -1,0 +1,28 @@
+import pytest
+
+from gradysim.config.nearest import did_you_mean, nearest
+
+NAMES = ["sim-time-limit", "seed-set", "repeat", "heartbeat_jitter"]
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("sim-time-limt", "sim-time-limit"),
+        ("Repeat", "repeat"),
+        ("jitter", "heartbeat_jitter"),
+        ("zzz", None),
+        ("e", None),
+    ],
+)
+def test_finds_the_nearest(name: str, expected: str | None) -> None:
+    assert nearest(name, NAMES) == expected
+
+
+def test_a_part_of_several_names_is_near_to_none() -> None:
+    assert nearest("time", ["a-long-name-with-time-in-it", "another-long-name-with-time"]) is None
+
+
+def test_ends_a_message() -> None:
+    assert did_you_mean("seedset", NAMES) == "; did you mean `seed-set`?"
+    assert did_you_mean("zzz", NAMES) == ""
