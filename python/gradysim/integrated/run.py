@@ -39,8 +39,6 @@ class IntegratedRun:
             )
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
-        # Another run may be built before this one is executed.
-        self._random_state = random.getstate()
 
     def execute(
         self,
@@ -53,7 +51,7 @@ class IntegratedRun:
         passed on, with a note of node, time and callback, and ends the run without `finish`.
         """
         network, limit_s = self._network, self._scenario.sim_time_limit_s
-        random.setstate(self._random_state)
+        random.seed(self._scenario.seed)  # another run may have been built in between
         try:
             try:
                 network.initialize()

@@ -13,6 +13,12 @@ from gradysim.results.run_result import NodeResult, RunResult
 MAX_VALUE_LENGTH = 200
 """Characters shown of one tracked variable; all of it is in the JSON."""
 
+FATE_TITLES = {
+    "frames": "Fates of frames, a copy for each radio",
+    "copies": "Fates of messages, a copy for each receiver",
+    "messages": "Messages",
+}
+
 
 def print_summary(result: RunResult, console: Console) -> None:
     """Print the summary of `result`."""
@@ -26,7 +32,7 @@ def summary(result: RunResult) -> RenderableType:
         parts += [title("Nodes"), node_table(result.nodes)]
     for what, kinds in result.fates.items():
         if has_counts(kinds):
-            parts += [title(f"Fates of {what}"), fate_table(kinds)]
+            parts += [title(FATE_TITLES.get(what, what)), fate_table(kinds)]
     return Group(*parts)
 
 
@@ -59,7 +65,7 @@ def cost(result: RunResult) -> Text:
 
 def node_table(nodes: tuple[NodeResult, ...]) -> Table:
     """Return a row per node: where it is and what it tracked."""
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True)
     table.add_column("id", justify="right", no_wrap=True)
     table.add_column("name", overflow="fold")
     table.add_column("protocol", overflow="fold")

@@ -62,7 +62,7 @@ class RunResult:
     fingerprint: str | None
     """Hash of all that happened; None in prototype mode."""
     fates: Fates
-    """{what: {kind: {fate: count}}}; `what` is "frames" or "messages"."""
+    """{what: {kind: {fate: count}}}; `what` is "messages", and "frames" or, in prototype mode, "copies"."""
     nodes: tuple[NodeResult, ...]
     """In the order of their ids."""
 

@@ -45,7 +45,7 @@ def printed(**changes):
         "1.0, 2.2, -3.0",
         "data = 5",
         "colour = [red]",
-        "Fates of frames",
+        "Fates of frames, a copy for each radio",
     ],
 )
 def test_what_is_in_it(what):

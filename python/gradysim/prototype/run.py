@@ -1,0 +1,101 @@
+"""One run in prototype mode.
+
+`run(scenario)` is all that most callers need. Who wants to keep what a failing run computed takes the
+object: `execute` may raise, `result` tells at any time how far the run came.
+"""
+
+import random
+from collections.abc import Callable
+from time import perf_counter, process_time
+
+from gradysim.config.scenario import Scenario
+from gradysim.prototype.simulation import build_simulation
+from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.slices import run_in_slices
+
+
+class PrototypeRun:
+    """A scenario on the plain simulator: built by the constructor, run once by `execute`."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        """Build the simulation and the protocols.
+
+        Raises ConfigError when the simulator does not accept a value of the scenario, and what the
+        constructor of a protocol raises.
+        """
+        self._started = (perf_counter(), process_time())
+        self._cost = (0.0, 0.0)
+        self._scenario = scenario
+        self._complete = False
+        random.seed(scenario.seed)
+        self._simulator, self._communication = build_simulation(scenario)
+
+    def execute(
+        self,
+        progress: Callable[[float], None] | None = None,
+        should_stop: Callable[[], bool] | None = None,
+    ) -> None:
+        """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
+
+        `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
+        passed on, with a note of node, time and callback, and ends the run without `finish`.
+        """
+        simulator = self._simulator
+        try:
+            try:
+                self._complete = run_in_slices(
+                    lambda max_events: not simulator.run_events(max_events),
+                    lambda: simulator.current_time,
+                    progress,
+                    should_stop,
+                )
+            except KeyboardInterrupt:
+                self._complete = False
+            simulator.finalize()
+        except BaseException:
+            self._complete = False
+            raise
+        finally:
+            self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
+
+    def result(self) -> RunResult:
+        """Return what has been computed up to now."""
+        scenario, simulator = self._scenario, self._simulator
+        return RunResult(
+            config=scenario.config,
+            run=scenario.run_number,
+            seed=scenario.seed,
+            mode="prototype",
+            sim_time_s=simulator.current_time,
+            wall_s=self._cost[0],
+            cpu_s=self._cost[1],
+            events=simulator.iteration,
+            interrupted=not self._complete,
+            fingerprint=None,
+            fates={
+                "copies": self._communication.copy_fates(),
+                "messages": self._communication.message_fates(),
+            },
+            nodes=tuple(
+                NodeResult(
+                    id=spec.id,
+                    name=spec.name,
+                    protocol=spec.protocol.__name__,
+                    position=node.position,
+                    tracked_variables=dict(node.protocol_encapsulator.provider.tracked_variables),
+                )
+                for spec, node in zip(scenario.nodes, simulator.nodes, strict=True)
+            ),
+        )
+
+
+def run(
+    scenario: Scenario,
+    *,
+    progress: Callable[[float], None] | None = None,
+    should_stop: Callable[[], bool] | None = None,
+) -> RunResult:
+    """Run `scenario` on the plain simulator and return its result; see `PrototypeRun` for the details."""
+    prototype_run = PrototypeRun(scenario)
+    prototype_run.execute(progress, should_stop)
+    return prototype_run.result()

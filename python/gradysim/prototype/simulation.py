@@ -1,0 +1,63 @@
+"""A scenario as a simulation of the plain simulator in Python."""
+
+from gradysim.config.error import ConfigError
+from gradysim.config.protocol_class import parametrize
+from gradysim.config.scenario import NodeSpec, Scenario
+from gradysim.prototype.counted_communication import CountedCommunication
+from gradysim.simulator.handler.communication import CommunicationMedium
+from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
+
+
+def build_simulation(scenario: Scenario) -> tuple[Simulator, CountedCommunication]:
+    """Return the simulation of `scenario`, ready to run, and its network, which knows the fates.
+
+    Raises ConfigError when a value is outside the simulator's range, and what the constructor of a protocol
+    raises.
+    """
+    communication = CountedCommunication(communication_medium(scenario))
+    mobility = MasslessMobilityHandler(
+        MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
+    )
+    builder = SimulationBuilder(
+        SimulationConfiguration(
+            duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
+        )
+    )
+    builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
+    for spec in scenario.nodes:
+        configure_mobility(mobility, spec)
+        builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
+    return builder.build(), communication
+
+
+def communication_medium(scenario: Scenario) -> CommunicationMedium:
+    """Return the medium of the network. Raises ConfigError when a value is outside its range."""
+    spec = scenario.communication_medium
+    try:
+        return CommunicationMedium(
+            transmission_range=spec.transmission_range_m, delay=spec.delay_s, failure_rate=spec.failure_rate
+        )
+    except ValueError as error:
+        raise ConfigError(f"{scenario.file}: *.communicationMedium: {error}") from error
+
+
+def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
+    """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
+    settings = spec.mobility
+    typename = settings.get("typename")
+    stationary = typename is not None and typename.value == "StationaryMobility"
+    speed, interval = settings.get("speed_mps"), settings.get("telemetry_interval_s")
+    try:
+        mobility.configure_node(
+            spec.id,
+            speed=None if speed is None else float(speed.value),
+            telemetry_interval=None if interval is None else float(interval.value),
+            stationary=stationary,
+        )
+    except ValueError as error:
+        wrong = interval if interval is not None and "telemetry_interval" in str(error) else speed
+        if wrong is None:
+            raise
+        raise ConfigError.at(wrong.source, str(error)) from error

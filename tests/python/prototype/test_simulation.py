@@ -1,0 +1,85 @@
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.prototype.simulation import build_simulation, communication_medium
+
+
+def run_of(scenario):
+    simulator, _ = build_simulation(scenario)
+    simulator.start_simulation()
+    return [node.protocol_encapsulator.provider.tracked_variables for node in simulator.nodes]
+
+
+COUNTING = (
+    "class Tested(Quiet):\n"
+    "    count = 0\n"
+    "    def handle_telemetry(self, telemetry):\n"
+    "        self.count += 1\n"
+    '        self.provider.tracked_variables["count"] = self.count\n'
+)
+
+
+def test_nodes_in_the_order_of_ids_where_they_start(make_scenario):
+    simulator, _ = build_simulation(make_scenario())
+    assert [(node.id, node.position) for node in simulator.nodes] == [(0, (0, 0, 0)), (1, (10, 0, 0))]
+
+
+def test_the_seed_of_the_run(make_scenario):
+    simulator, _ = build_simulation(make_scenario("class Tested(Quiet): pass", "seed-set = 12"))
+    assert simulator.seed == 12
+
+
+def test_telemetry_interval_per_node(make_scenario):
+    scenario = make_scenario(COUNTING, "*.uavs[1].mobility.telemetryInterval = 1s")
+    assert run_of(scenario) == [{"count": 4}, {"count": 2}]
+
+
+def test_no_telemetry(make_scenario):
+    assert run_of(make_scenario(COUNTING, "*.uavs[1].mobility.telemetryInterval = 0s")) == [{"count": 4}, {}]
+
+
+def test_a_stationary_node_refuses_to_move(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet):\n"
+        "    def initialize(self):\n"
+        "        self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))",
+        '*.uavs[*].mobility.typename = "StationaryMobility"',
+    )
+    with pytest.raises(Exception, match="stationary"):
+        run_of(scenario)
+
+
+def test_parameters_are_in_force_when_the_protocol_is_made(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet):\n"
+        "    pace = 1\n"
+        "    def __init__(self): self.seen = self.pace\n"
+        '    def initialize(self): self.provider.tracked_variables["seen"] = self.seen',
+        "*.uavs[1].protocol.pace = 5",
+    )
+    assert run_of(scenario) == [{"seen": 1}, {"seen": 5}]
+
+
+def test_geographic_coordinates_are_relative_to_the_scenes_origin(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet):\n"
+        "    def initialize(self):\n"
+        "        self.provider.send_mobility_command(GotoGeoCoordsMobilityCommand(10, 20, 5))",
+        "*.coordinateSystem.sceneLatitude = 10deg",
+        "*.coordinateSystem.sceneLongitude = 20deg",
+    )
+    simulator, _ = build_simulation(scenario)
+    simulator.start_simulation()
+    assert simulator.nodes[1].position == pytest.approx((0, 0, 5))
+
+
+def test_a_telemetry_interval_below_the_simulators_step_is_an_error_at_its_setting(make_scenario):
+    setting = "*.uavs[*].mobility.telemetryInterval"
+    with pytest.raises(ConfigError, match="telemetry_interval") as error:
+        build_simulation(make_scenario("class Tested(Quiet): pass", f"{setting} = 1ms"))
+    assert error.value.key == setting
+
+
+def test_the_medium(make_scenario):
+    scenario = make_scenario("class Tested(Quiet): pass", "*.communicationMedium.transmissionRange = 30m")
+    assert communication_medium(scenario).transmission_range == 30
