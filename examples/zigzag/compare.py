@@ -1,11 +1,11 @@
 """Fly ZigZag in both modes and compare what the ground station collected: `make demo`.
 
-`python examples/zigzag/compare.py` takes ZigZag5, with and without jitter; other configurations of
-configs/zigzag.ini are given by name: `python examples/zigzag/compare.py ZigZag15 ZigZag25`.
+`python examples/zigzag/compare.py` takes the three sizes, and the smallest one without jitter. Other
+configurations of configs/zigzag.ini are given by name: `python examples/zigzag/compare.py ZigZag5`.
 """
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from rich import box
@@ -18,13 +18,19 @@ from gradysim.config import Scenario, load_scenarios
 from gradysim.results.run_result import Fates, RunResult
 
 SCENARIOS = Path(__file__).parents[2] / "configs" / "zigzag.ini"
-CONFIGS = ("ZigZag5", "ZigZag5Synchronised")
+CONFIGS = ("ZigZag5", "ZigZag15", "ZigZag25", "ZigZag5Synchronised")
 MODES: dict[str, Callable[[Scenario], RunResult]] = {
     "prototype": gradysim.prototype.run.run,
     "integrated": gradysim.integrated.run.run,
 }
-# The fates of copies of frames that came within reach of their receiver, as the ledger names them.
-FATES = ("delivered", "noise", "interference", "receiver_transmitting", "receiver_locked")
+# The fates of copies of frames that came within reach of a receiver: the ledger's name, and what it means.
+FATES = {
+    "delivered": "frames delivered",
+    "noise": "lost to noise",
+    "interference": "lost to interference",
+    "receiver_transmitting": "lost, receiver was transmitting",
+    "receiver_locked": "lost, receiver was receiving another one",
+}
 
 
 def collected(result: RunResult) -> int:
@@ -36,37 +42,44 @@ def collected(result: RunResult) -> int:
 
 
 def frames_with(fate: str, fates: Fates) -> str:
-    """Return how many copies of frames had this fate, of all kinds together; a dash where it is not known."""
-    counts = [kind[fate] for kind in fates.get("frames", {}).values() if fate in kind]
+    """Return how many copies of frames had this fate, at those they were for; a dash if a mode has no such fate.
+
+    Acknowledgements are left out. Prototype mode has no frames: there it is copies of messages.
+    """
+    ledger = fates.get("frames") or fates["copies"]
+    counts = [ledger[kind][fate] for kind in ("broadcast", "unicast") if fate in ledger[kind]]
     return f"{sum(counts):,}" if counts else "-"
 
 
-def compare(configs: tuple[str, ...], console: Console) -> None:
-    """Run the first run of each configuration in both modes and print a row for each."""
-    table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("configuration")
-    table.add_column("mode")
-    table.add_column("readings at the\nground station", justify="right", style="bold")
-    for fate in FATES:
-        table.add_column(("frames: " if fate == FATES[0] else "") + fate.replace("_", "\n"), justify="right")
-    table.add_column("wall time", justify="right")
+def comparison(scenario: Scenario, results: dict[str, RunResult]) -> Table:
+    """Return a column for each mode."""
+    table = Table(
+        title=f"[bold]{scenario.config}[/]: {scenario.description}", title_justify="left", box=box.SIMPLE_HEAD
+    )
+    table.add_column(f"{scenario.sim_time_limit_s / 3600:g} simulated hours")
+    for mode in results:
+        table.add_column(mode, justify="right")
+    ran = results.values()
+    table.add_row(
+        "readings at the ground station", *(f"{collected(result):,}" for result in ran), style="bold"
+    )
+    for fate, text in FATES.items():
+        table.add_row(text, *(frames_with(fate, result.fates) for result in ran))
+    table.add_row("wall time", *(f"{result.wall_s:.1f} s" for result in ran))
+    return table
+
+
+def main(configs: Sequence[str]) -> None:
+    """Run the first run of each configuration in both modes and print a table for each."""
+    console = Console()
     for config in configs:
         scenario = load_scenarios(SCENARIOS, config)[0]
+        results = {}
         for mode, run in MODES.items():
-            with console.status(
-                f"{config}, {mode} mode: {scenario.sim_time_limit_s / 3600:g} simulated hours"
-            ):
-                result = run(scenario)
-            table.add_row(
-                config,
-                mode,
-                f"{collected(result):,}",
-                *(frames_with(fate, result.fates) for fate in FATES),
-                f"{result.wall_s:.1f} s",
-            )
-        table.add_section()
-    console.print(table)
+            with console.status(f"{config}, {mode} mode"):
+                results[mode] = run(scenario)
+        console.print(comparison(scenario, results))
 
 
 if __name__ == "__main__":
-    compare(tuple(sys.argv[1:]) or CONFIGS, Console())
+    main(sys.argv[1:] or CONFIGS)
