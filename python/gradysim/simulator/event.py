@@ -5,7 +5,7 @@ of a broadcast come in such groups, and cost an append each, not a sift.
 """
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from typing import Any
@@ -52,7 +52,6 @@ class EventLoop:
         # The list of the current instant and how many of it were taken; None when it is used up.
         self._current: list[ScheduledEvent] | None = None
         self._taken = 0
-        self._length = 0
 
     @property
     def current_time(self) -> float:
@@ -60,7 +59,9 @@ class EventLoop:
         return self._current_time
 
     def __len__(self) -> int:
-        return self._length
+        # Counted when asked for, which is rare, and not with each event.
+        taken = 0 if self._current is None else self._taken
+        return sum(map(len, self._events.values())) - taken
 
     def schedule_event(self, timestamp: float, callback: Callback, context: str = "") -> ScheduledEvent:
         """Have `callback()` called at `timestamp`, after all events scheduled for that time so far.
@@ -83,7 +84,6 @@ class EventLoop:
         if events is None:
             events = self._open(timestamp)
         events.append(event)
-        self._length += 1
         return event
 
     def schedule_events(self, timestamp: float, events: Iterable[ScheduledEvent]) -> None:
@@ -91,9 +91,7 @@ class EventLoop:
         pending = self._events.get(timestamp)
         if pending is None:
             pending = self._open(timestamp)
-        before = len(pending)
         pending.extend(events)
-        self._length += len(pending) - before
 
     def cancel_event(self, timestamp: float, event: ScheduledEvent) -> bool:
         """Remove a pending event.
@@ -110,35 +108,33 @@ class EventLoop:
             for index in range(self._taken if events is self._current else 0, len(events)):
                 if events[index] is event:
                     del events[index]
-                    self._length -= 1
                     return True
         return False
 
-    def take(self, until: float = math.inf) -> ScheduledEvent | None:
-        """Remove the next event, at `until` at the latest, and set the clock to its time.
+    def take_events(self, until: float = math.inf) -> Iterator[ScheduledEvent]:
+        """Remove the events one by one as they are asked for, and set the clock to the time of each.
+
+        What is scheduled and cancelled meanwhile counts.
 
         Args:
-            until: Simulated time in seconds, not before `current_time`.
-
-        Returns:
-            The event; None if there is none up to and including `until`.
+            until: Stop before the first event after it; simulated time in seconds, not before `current_time`.
         """
-        current = self._current
-        taken = self._taken
-        if current is None or taken >= len(current):
-            instant = self._next_instant()
-            if instant is None or instant > until:
-                return None
-            heappop(self._instants)
-            self._current_time = instant
-            self._current = current = self._events[instant]
-            taken = 0
-        elif taken == _RAN_AT_MOST:
-            del current[:taken]
-            taken = 0
-        self._taken = taken + 1
-        self._length -= 1
-        return current[taken]
+        while True:
+            current = self._current
+            taken = self._taken
+            if current is None or taken >= len(current):
+                instant = self._next_instant()
+                if instant is None or instant > until:
+                    return
+                heappop(self._instants)
+                self._current_time = instant
+                self._current = current = self._events[instant]
+                taken = 0
+            elif taken == _RAN_AT_MOST:
+                del current[:taken]
+                taken = 0
+            self._taken = taken + 1
+            yield current[taken]
 
     def pop_event(self) -> Event:
         """Remove the next event and set the clock to its time.
@@ -146,7 +142,7 @@ class EventLoop:
         Raises:
             EventLoopException: No event is pending.
         """
-        event = self.take()
+        event = next(self.take_events(), None)
         if event is None:
             raise EventLoopException("there is no pending event to pop")
         return Event(self._current_time, *event)
@@ -188,7 +184,6 @@ class EventLoop:
         self._events.clear()
         self._instants.clear()
         self._current = None
-        self._length = 0
 
     def _open(self, timestamp: float) -> list[ScheduledEvent]:
         """Make the list of events of an instant that has none yet."""

@@ -5,7 +5,7 @@ import math
 import random
 import time
 import weakref
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from datetime import timedelta
 from types import TracebackType
 from typing import Any, Self
@@ -251,20 +251,14 @@ class Simulator:
         first = self._iteration
         last = first + count if limit is None else min(first + count, limit)
         loop = self._event_loop
-        take = loop.take
-        until_s = self._until_s
         formatter = self._formatter
         hooks = self._step_hooks
-        pacer = self._pacer
         profile = self._profile
-        for iteration in range(first, last):
-            if pacer is not None:
-                next_time = loop.next_time()
-                if next_time is not None and next_time <= until_s:
-                    pacer.wait_until(next_time)
-            event = take(until_s)
-            if event is None:
-                break
+        iterations: Iterable[int] = range(first, last)
+        if self._pacer is not None:
+            iterations = self._paced(iterations, self._pacer)
+        # The number comes before its event: when the numbers end no event is taken, and pacing comes first.
+        for iteration, event in zip(iterations, loop.take_events(self._until_s), strict=False):
             formatter.iteration = iteration
             formatter.context = event[1]
             if profile is None:
@@ -275,6 +269,13 @@ class Simulator:
                 hook(iteration, loop.current_time)
             self._iteration = iteration + 1
         formatter.iteration = None
+
+    def _paced(self, iterations: Iterable[int], pacer: RealTimePacer) -> Iterator[int]:
+        for iteration in iterations:
+            next_time = self._event_loop.next_time()
+            if next_time is not None and next_time <= self._until_s:
+                pacer.wait_until(next_time)
+            yield iteration
 
     def _log_end(self) -> None:
         if self._profile is not None:

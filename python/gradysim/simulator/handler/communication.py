@@ -73,16 +73,9 @@ class CommunicationDestination:
         # Losses are the receiver's draws: what others hear does not depend on it.
         self.stream = random_stream(getattr(node, "seed", 0), node.id, "communication")
 
-    def receive_message(self, message: str, source: "CommunicationSource") -> None:
+    def receive_message(self, message: str) -> None:
         """Hand the message to the node's protocol."""
         self.node.protocol_encapsulator.handle_packet(message)
-
-
-class CommunicationSource:
-    """A node as sender of messages."""
-
-    def __init__(self, node: Node[Any]) -> None:
-        self.node = node
 
 
 class CommunicationHandler(INodeHandler):
@@ -96,7 +89,6 @@ class CommunicationHandler(INodeHandler):
         """Without a medium the defaults of `CommunicationMedium` hold."""
         self.default_medium = communication_medium or CommunicationMedium()
         self._event_loop: EventLoop | None = None
-        self._sources: dict[int, CommunicationSource] = {}
         self._destinations: dict[int, CommunicationDestination] = {}
 
     @staticmethod
@@ -107,7 +99,6 @@ class CommunicationHandler(INodeHandler):
     def inject(self, event_loop: EventLoop) -> None:
         """Take the event loop of a new simulation."""
         self._event_loop = event_loop
-        self._sources = {}
         self._destinations = {}
 
     def register_node(self, node: Node[Any]) -> None:
@@ -118,7 +109,6 @@ class CommunicationHandler(INodeHandler):
         """
         if self._event_loop is None:
             raise CommunicationException(f"cannot register node {node.id}: inject an event loop first")
-        self._sources[node.id] = CommunicationSource(node)
         self._destinations[node.id] = CommunicationDestination(node)
 
     def handle_command(
@@ -138,8 +128,8 @@ class CommunicationHandler(INodeHandler):
             CommunicationException: The sender is not registered, the message is no text, or the destination
                 is missing, unknown or the sender itself.
         """
-        source = self._sources.get(sender.id)
-        if source is None or self._event_loop is None:
+        event_loop = self._event_loop
+        if event_loop is None or sender.id not in self._destinations:
             raise CommunicationException(f"node {sender.id} is not registered with the communication handler")
         if not isinstance(command.message, str):
             raise CommunicationException(
@@ -157,14 +147,9 @@ class CommunicationHandler(INodeHandler):
             )
         _logger.debug("%s sends to %s: %s", sender.id, command.destination, command.message)
         medium = medium or self.default_medium
-        position = sender.position
-        copies: list[ScheduledEvent] = [
-            (partial(destination.receive_message, command.message, source), destination.context)
-            for destination in destinations
-            if destination.node is not sender
-            and can_transmit(position, destination.node.position, medium, destination.stream)
-        ]
-        self._event_loop.schedule_events(self._event_loop.current_time + medium.delay, copies)
+        copies = _copies(command.message, sender, destinations, medium)
+        if copies:
+            event_loop.schedule_events(event_loop.current_time + medium.delay, copies)
 
     def _destination_of(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationDestination:
         if command.destination is None:
@@ -179,3 +164,30 @@ class CommunicationHandler(INodeHandler):
                 f"there are {len(known)} nodes, {known[0]} to {known[-1]}"
             )
         return destination
+
+
+def _copies(
+    message: str,
+    sender: Node[Any],
+    destinations: Iterable[CommunicationDestination],
+    medium: CommunicationMedium,
+) -> list[ScheduledEvent]:
+    """Make an event for each destination that the message gets to: `can_transmit`, written out for speed."""
+    reach_squared = medium.transmission_range * medium.transmission_range
+    failure_rate = medium.failure_rate
+    x, y, z = sender.position
+    copies: list[ScheduledEvent] = []
+    for destination in destinations:
+        node = destination.node
+        if node is sender:
+            continue
+        other_x, other_y, other_z = node.position
+        dx = other_x - x
+        dy = other_y - y
+        dz = other_z - z
+        if dx * dx + dy * dy + dz * dz > reach_squared:
+            continue
+        if failure_rate > 0 and destination.stream.random() < failure_rate:
+            continue
+        copies.append((partial(destination.receive_message, message), destination.context))
+    return copies

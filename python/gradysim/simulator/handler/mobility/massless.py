@@ -179,29 +179,33 @@ class MasslessMobilityHandler(INodeHandler):
     def _update(self) -> None:
         event_loop = self._event_loop
         assert event_loop is not None
-        nodes = self.nodes
-        for node_id, target in self.targets.items():
-            node = nodes[node_id]
-            if node.position != target:
-                step = self.speeds[node_id] * self._configuration.update_rate
-                node.position = _moved(node.position, target, step)
+        self._move()
         now = event_loop.current_time
         for group in self._telemetry.values():
             if group.is_due(self._updates):
                 event_loop.schedule_events(now, group.deliveries)
         self._schedule_update(event_loop)
 
-
-def _moved(position: Position, target: Position, step: float) -> Position:
-    """Where a step (m) leads from a position straight to the target, and not beyond."""
-    x, y, z = position
-    dx = target[0] - x
-    dy = target[1] - y
-    dz = target[2] - z
-    distance = math.sqrt(dx * dx + dy * dy + dz * dz)
-    if distance <= step:
-        return target
-    return (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
+    def _move(self) -> None:
+        """Take each node one step of speed * update_rate straight to its target, and not beyond."""
+        update_rate = self._configuration.update_rate
+        nodes = self.nodes
+        speeds = self.speeds
+        for node_id, target in self.targets.items():
+            node = nodes[node_id]
+            position = node.position
+            if position == target:
+                continue
+            x, y, z = position
+            dx = target[0] - x
+            dy = target[1] - y
+            dz = target[2] - z
+            distance = math.sqrt(dx * dx + dy * dy + dz * dz)
+            step = speeds[node_id] * update_rate
+            if distance <= step:
+                node.position = target
+            else:
+                node.position = (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
 
 
 def _whole_frequency(update_rate_s: float) -> float | None:
