@@ -1,0 +1,247 @@
+"""The glue to the compiled engine, tested with the engine itself."""
+
+import pytest
+
+pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+
+from gradysim import _netsim
+from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
+from gradysim.encapsulator.random_stream import random_stream
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    GotoGeoCoordsMobilityCommand,
+    MobilityCommand,
+    MobilityCommandType,
+    SetSpeedMobilityCommand,
+)
+from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
+from gradysim.protocol.position import geo_to_cartesian
+
+ORIGIN = (-22.9, -43.2, 10.0)
+
+
+class Recorder(IProtocol):
+    """Notes its calls; `script` maps the name of a callback to what is done in it."""
+
+    script: dict = {}  # noqa: RUF012 - set per test by `encapsulated`
+
+    def __init__(self):
+        self.calls = []
+
+    def _called(self, name, *arguments):
+        self.calls.append((round(self.provider.current_time(), 9), name, *arguments))
+        if name in self.script:
+            self.script[name](self)
+
+    def initialize(self):
+        self._called("initialize")
+
+    def handle_timer(self, timer):
+        self._called("handle_timer", timer)
+
+    def handle_packet(self, message):
+        self._called("handle_packet", message)
+
+    def handle_telemetry(self, telemetry):
+        self._called("handle_telemetry")
+
+    def finish(self):
+        self._called("finish")
+
+
+class Pair:
+    """Two nodes, 10 m apart, on an ideal channel; node 0 follows the script, node 1 only listens."""
+
+    def __init__(self, seed=0, **script):
+        self.network = _netsim.Network(_netsim.MediumConfig("UnitDiskRadioMedium"), seed)
+        self.encapsulators = []
+        for index in range(2):
+            config = _netsim.NodeConfig(f"node[{index}]")
+            config.radio.communication_range_m = 100.0
+            config.initial_position = (10.0 * index, 0.0, 0.0)
+            config.mobility.telemetry_interval_s = 0.0
+            node = self.network.add_node(config)
+            encapsulator = NetsimEncapsulator(node, seed=seed, reference_coordinates=ORIGIN)
+            encapsulator.encapsulate(type("Scripted", (Recorder,), {"script": script if index == 0 else {}}))
+            self.encapsulators.append(encapsulator)
+
+    def run(self, until_s=2.0):
+        self.network.initialize()
+        self.network.run_until(until_s)
+        self.network.finish()
+        self.network.release_protocols()
+        return self
+
+    def calls(self, index=0):
+        return self.encapsulators[index].protocol.calls
+
+
+def test_every_callback_may_be_empty():
+    assert Pair().run().calls() == [(0.0, "initialize"), (2.0, "finish")]
+
+
+def test_ids_count_from_0():
+    assert [encapsulator.provider.get_id() for encapsulator in Pair().encapsulators] == [0, 1]
+
+
+def test_a_timer_is_due_at_its_time():
+    def initialize(protocol):
+        protocol.provider.schedule_timer("tick", 1.25)
+
+    assert (1.25, "handle_timer", "tick") in Pair(initialize=initialize).run().calls()
+
+
+def test_a_cancelled_timer_is_not():
+    def initialize(protocol):
+        protocol.provider.schedule_timer("tick", 1)
+        protocol.provider.schedule_timer("tick", 1.5)
+        protocol.provider.cancel_timer("tick")
+
+    assert Pair(initialize=initialize).run().calls() == [(0.0, "initialize"), (2.0, "finish")]
+
+
+def test_a_timer_in_the_past_is_an_error():
+    def handle_timer(protocol):
+        protocol.provider.schedule_timer("late", 0.5)
+
+    def initialize(protocol):
+        protocol.provider.schedule_timer("tick", 1)
+
+    with pytest.raises(_netsim.SimulationError) as failure:
+        Pair(initialize=initialize, handle_timer=handle_timer).run()
+    assert failure.value.__notes__ == ["in handle_timer of node 0 (Scripted 0) at 1 s of simulated time"]
+
+
+@pytest.mark.parametrize("command", [BroadcastMessageCommand("hällo {}"), SendMessageCommand("hällo {}", 1)])
+def test_any_text_arrives_as_it_was_sent(command):
+    def initialize(protocol):
+        protocol.provider.send_communication_command(command)
+
+    pair = Pair(initialize=initialize).run()
+    assert [call[1:] for call in pair.calls(1)][1:-1] == [("handle_packet", "hällo {}")]
+
+
+def test_an_unknown_destination_is_an_error():
+    def initialize(protocol):
+        protocol.provider.send_communication_command(SendMessageCommand("a", 7))
+
+    with pytest.raises(_netsim.SimulationError, match="7"):
+        Pair(initialize=initialize).run()
+
+
+def position_after(command, until_s=1.0):
+    def initialize(protocol):
+        protocol.provider.send_mobility_command(SetSpeedMobilityCommand(1000))
+        protocol.provider.send_mobility_command(command)
+
+    pair = Pair(initialize=initialize)
+    pair.network.initialize()
+    pair.network.run_until(until_s)
+    return pair.encapsulators[0]._node.position
+
+
+def test_a_flight_to_coordinates():
+    assert position_after(GotoCoordsMobilityCommand(30, 40, 5)) == pytest.approx((30, 40, 5))
+
+
+def test_a_flight_to_geographic_coordinates_is_relative_to_the_origin():
+    target = (-22.8999, -43.2001, 15.0)
+    assert position_after(GotoGeoCoordsMobilityCommand(*target)) == pytest.approx(
+        geo_to_cartesian(ORIGIN, target)
+    )
+
+
+def test_a_geographic_target_without_altitude_is_an_error():
+    with pytest.raises(ValueError, match="altitude"):
+        position_after(MobilityCommand(MobilityCommandType.GOTO_GEO_COORDS, 1.0, 2.0))
+
+
+def test_random_numbers_follow_from_the_seed_and_the_id():
+    drawn = [encapsulator.provider.random.random() for encapsulator in Pair(seed=9).encapsulators]
+    assert drawn == [random_stream(9, identifier, "protocol").random() for identifier in range(2)]
+
+
+def test_tracked_variables_keep_their_times():
+    def initialize(protocol):
+        protocol.provider.tracked_variables["a"] = 1
+        protocol.provider.schedule_timer("tick", 1.5)
+
+    def handle_timer(protocol):
+        protocol.provider.tracked_variables.update(a=2, b="x")
+
+    provider = Pair(initialize=initialize, handle_timer=handle_timer).run().encapsulators[0].provider
+    assert provider.tracked_variables == {"a": 2, "b": "x"}
+    assert provider.history.values == [(0.0, "a", 1), (1.5, "a", 2), (1.5, "b", "x")]
+
+
+def test_a_mapping_that_replaces_the_tracked_variables_is_followed():
+    provider = Pair().encapsulators[0].provider
+    provider.tracked_variables["a"] = 1
+    provider.tracked_variables = {"b": 2}
+    assert provider.tracked_variables == {"b": 2}
+    assert [(name, value) for _, name, value in provider.history.values] == [("a", 1), ("a", None), ("b", 2)]
+
+
+def test_a_plugin_that_re_binds_a_callback_is_honoured():
+    seen = []
+
+    def initialize(protocol):
+        def on_timer(_, timer):
+            seen.append(timer)
+            return DispatchReturn.INTERRUPT
+
+        create_dispatcher(protocol).register_handle_timer(on_timer)
+        protocol.provider.schedule_timer("tick", 1)
+
+    pair = Pair(initialize=initialize).run()
+    assert seen == ["tick"]
+    assert pair.calls() == [(0.0, "initialize"), (2.0, "finish")]
+
+
+@pytest.mark.parametrize(
+    "name", ["send_communication_command", "schedule_timer", "cancel_timer", "current_time", "get_id"]
+)
+def test_a_call_goes_straight_to_the_engine(name):
+    encapsulator = Pair().encapsulators[0]
+    assert getattr(encapsulator.provider, name) == getattr(encapsulator._node, name)
+
+
+def test_the_methods_of_the_class_do_the_same():
+    pair = Pair()
+    provider = pair.encapsulators[0].provider
+    NetsimProvider.schedule_timer(provider, "kept", 1.0)
+    NetsimProvider.schedule_timer(provider, "dropped", 1.0)
+    NetsimProvider.cancel_timer(provider, "dropped")
+    NetsimProvider.send_communication_command(provider, BroadcastMessageCommand("a"))
+    assert (NetsimProvider.current_time(provider), NetsimProvider.get_id(provider)) == (0.0, 0)
+    pair.run()
+    assert (1.0, "handle_timer", "kept") in pair.calls(0)
+    assert len(pair.calls(0)) == 3
+    assert [call[1:] for call in pair.calls(1)][1:-1] == [("handle_packet", "a")]
+
+
+def test_an_interrupt_gets_no_note():
+    def initialize(protocol):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt) as interrupt:
+        Pair(initialize=initialize).run()
+    assert not hasattr(interrupt.value, "__notes__")
+
+
+def test_the_encapsulator_calls_the_protocol():
+    encapsulator = Pair().encapsulators[0]
+    encapsulator.initialize()
+    encapsulator.handle_timer("tick")
+    encapsulator.handle_packet("text")
+    encapsulator.handle_telemetry(None)
+    encapsulator.finish()
+    assert [call[1] for call in encapsulator.protocol.calls] == [
+        "initialize",
+        "handle_timer",
+        "handle_packet",
+        "handle_telemetry",
+        "finish",
+    ]
