@@ -73,10 +73,7 @@ def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> K
         _check_range(result, value, at_least, None, at_most, None)
         return result
 
-    return Kind(
-        "a whole number" + _range_text(None if at_least == -MAX_INTEGER else at_least, None, None, ""),
-        convert,
-    )
+    return Kind("a whole number" + _range_text(at_least, None, at_most, ""), convert)
 
 
 def whole_bytes() -> Kind:

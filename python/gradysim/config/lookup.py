@@ -105,11 +105,11 @@ class Lookup:
             if not is_option(entry) and not is_ignored(entry)
         ]
         self._uncertain = [found for found in self.found if found.parts is None]
-        self._by_rest: dict[str, tuple[Pattern | None, list[Found]]] = {}
+        self._by_rest: dict[str | None, tuple[Pattern | None, list[Found]]] = {}
         for found in self.found:
             if found.parts is not None and found.parts[0].matches(self.network):
                 rest = found.rest_pattern()
-                self._by_rest.setdefault(rest.text if rest else "", (rest, []))[1].append(found)
+                self._by_rest.setdefault(rest.text if rest else None, (rest, []))[1].append(found)
         self._candidates: dict[str, Candidates] = {}
 
     def candidates(self, rest: str) -> Candidates:
@@ -118,7 +118,7 @@ class Lookup:
         if candidates is None:
             found = list(self._uncertain)
             for pattern, entries in self._by_rest.values():
-                if pattern.matches(rest) if pattern else not rest:
+                if pattern.matches(rest) if rest and pattern else not (rest or pattern):
                     found += entries
             found.sort(key=lambda candidate: candidate.order)
             candidates = self._candidates[rest] = Candidates(self.network, rest, found)

@@ -11,13 +11,14 @@ def fields_of_the_engine() -> set[str]:
     """ "struct.field" of all configurations, from the stub of the compiled part."""
     stub = Path(next(iter(gradysim.__path__))) / "_netsim.pyi"
     classes = {node.name: node for node in ast.parse(stub.read_text()).body if isinstance(node, ast.ClassDef)}
-    return {
-        f"{struct}.{item.target.id if isinstance(item, ast.AnnAssign) else item.name}"
-        for struct, name in STRUCTS.items()
-        for item in classes[name].body
-        if (isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name))
-        or (isinstance(item, ast.FunctionDef) and item.decorator_list)
-    }
+    fields = set()
+    for struct, name in STRUCTS.items():
+        for item in classes[name].body:
+            if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name):
+                fields.add(f"{struct}.{item.target.id}")
+            elif isinstance(item, ast.FunctionDef) and item.decorator_list:
+                fields.add(f"{struct}.{item.name}")
+    return fields
 
 
 def test_targets_are_fields_of_the_engine() -> None:

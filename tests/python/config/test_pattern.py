@@ -127,7 +127,7 @@ def test_splits_below_the_network_and_the_node(pattern: str, parts: list[str] | 
     if pattern == r"*.a\.b":
         parts = ["*", "a", "b"]  # an escaped dot is a dot all the same
     split = compile_pattern(pattern).split()
-    assert (split and [part.text for part in split]) == parts
+    assert (None if split is None else [part.text for part in split]) == parts
 
 
 @given(

@@ -1,0 +1,47 @@
+from gradysim.config.protocol_class import parametrize
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.telemetry import Telemetry
+
+
+class Mobile(IProtocol):
+    """What flies."""
+
+    interval: float = 1.0
+
+    def __init__(self) -> None:
+        self.at_construction = self.interval
+
+    def initialize(self) -> None: ...
+    def handle_timer(self, timer: str) -> None: ...
+    def handle_packet(self, message: str) -> None: ...
+    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
+    def finish(self) -> None: ...
+
+
+def test_parameters_hold_in_the_constructor() -> None:
+    protocol = parametrize(Mobile, {"interval": 2.5})()
+    assert isinstance(protocol, Mobile)
+    assert protocol.at_construction == 2.5
+
+
+def test_the_class_itself_is_left_alone() -> None:
+    parametrize(Mobile, {"interval": 2.5})
+    assert Mobile.interval == 1.0
+
+
+def test_goes_by_the_name_of_the_class() -> None:
+    cls = parametrize(Mobile, {"interval": 2.5})
+    assert (cls.__name__, cls.__qualname__, cls.__module__) == ("Mobile", "Mobile", Mobile.__module__)
+    assert cls.__doc__ == Mobile.__doc__
+
+
+def test_equal_parameters_give_the_same_class() -> None:
+    assert parametrize(Mobile, {"interval": 2.5, "x": 1}) is parametrize(Mobile, {"x": 1, "interval": 2.5})
+
+
+def test_values_of_other_types_give_another_class() -> None:
+    assert len({parametrize(Mobile, {"interval": value}) for value in (1, 1.0, True)}) == 3
+
+
+def test_no_parameters_give_the_class() -> None:
+    assert parametrize(Mobile, {}) is Mobile

@@ -1,0 +1,82 @@
+from typing import ClassVar, Final
+
+import pytest
+
+from gradysim.config.error import BadValue
+from gradysim.config.expression import parse_value
+from gradysim.config.protocol_parameters import parameters_of
+from gradysim.protocol.interface import IProtocol
+
+
+class Base(IProtocol):
+    inherited = 1
+    replaced = 1
+    hidden = 1
+
+
+class Mobile(Base):
+    real = 0.5
+    real_by_annotation: float = 0
+    real_by_text: "float | None" = 0
+    real_constant: ClassVar[float] = 0
+    whole: int = 3
+    text: Final = "x"
+    flag = False
+    replaced = "now a text"
+    hidden = None
+    _private = 1
+    waypoints: ClassVar[list[int]] = [1]
+    annotated_only: float
+    initialize = 3  # type: ignore[assignment]
+
+    @property
+    def derived(self) -> float:
+        return 1.0
+
+    def method(self) -> None: ...
+
+
+def converted(name: str, written: str) -> object:
+    return parameters_of(Mobile)[name].convert(parse_value(written))
+
+
+def test_are_public_plain_class_attributes() -> None:
+    assert set(parameters_of(Mobile)) == {
+        "inherited",
+        "replaced",
+        "real",
+        "real_by_annotation",
+        "real_by_text",
+        "real_constant",
+        "whole",
+        "text",
+        "flag",
+    }
+
+
+@pytest.mark.parametrize("name", ["real", "real_by_annotation", "real_by_text", "real_constant"])
+def test_floats_take_quantities_and_whole_numbers(name: str) -> None:
+    assert converted(name, "100ms") == 0.1
+    assert type(converted(name, "3")) is float
+
+
+def test_other_types_are_kept() -> None:
+    assert (converted("whole", "3"), converted("text", '"y"'), converted("flag", "true")) == (3, "y", True)
+    assert converted("replaced", '"y"') == "y"
+
+
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [
+        ("whole", "3.0"),
+        ("whole", "3s"),
+        ("whole", "true"),
+        ("flag", "1"),
+        ("text", "1"),
+        ("real", "true"),
+        ("real", "nan"),
+    ],
+)
+def test_other_types_are_refused(name: str, written: str) -> None:
+    with pytest.raises(BadValue):
+        converted(name, written)

@@ -1,0 +1,48 @@
+from pathlib import Path
+
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.config.run_numbers import select_runs
+from gradysim.config.source import Source
+
+SOURCE = Source(Path("a.ini"), 3)
+
+
+@pytest.mark.parametrize(
+    ("runs", "expected"),
+    [
+        (None, [0, 1, 2, 3, 4]),
+        ("0", [0]),
+        ("3,1", [1, 3]),
+        ("1..3", [1, 2, 3]),
+        ("1-3", [1, 2, 3]),
+        (" 0 , 2 .. 4 ", [0, 2, 3, 4]),
+        ("2,1..3", [1, 2, 3]),
+        ([4, 0, 4], [0, 4]),
+    ],
+)
+def test_selects(runs: str | list[int] | None, expected: list[int]) -> None:
+    assert select_runs(runs, 5, "X", SOURCE) == expected
+
+
+@pytest.mark.parametrize("runs", ["", "a", "1,,2", "3..1", "-1", "1.5"])
+def test_texts_that_are_no_runs(runs: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        select_runs(runs, 5, "X", SOURCE)
+    assert str(caught.value) == f"-r {runs}: expected numbers of runs and ranges such as `0,2,5..9`"
+
+
+@pytest.mark.parametrize(("runs", "run"), [("5", 5), ("2..7", 7), ([-1], -1)])
+def test_runs_that_do_not_exist(runs: str | list[int], run: int) -> None:
+    with pytest.raises(ConfigError) as caught:
+        select_runs(runs, 5, "X", SOURCE)
+    assert (
+        str(caught.value)
+        == f"a.ini:3: configuration `X` has no run {run}; expected runs 0 to 4 (`repeat = 5`)"
+    )
+
+
+def test_a_range_of_any_size_is_refused_at_once() -> None:
+    with pytest.raises(ConfigError, match="has no run 999999999"):
+        select_runs("0..999999999", 5, "X", SOURCE)

@@ -1,0 +1,45 @@
+from pathlib import Path
+
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.config.kinds import choice, quantity
+from gradysim.config.reader import Entry
+from gradysim.config.setting import Setting, SettingReader, read_scalar
+from gradysim.config.source import Source
+
+SPEED = quantity("mps", at_least=0)
+MODE = choice("b", "a")
+
+
+def entry(text: str, line: int = 7) -> Entry:
+    return Entry("*.x.y", text, Source(Path("a.ini"), line, "*.x.y", text), "General")
+
+
+def test_holds_the_value_and_its_place() -> None:
+    written = entry("36kmph")
+    assert SettingReader().setting(written, SPEED) == Setting(10.0, written.source)
+
+
+def test_reads_an_entry_once_for_each_kind() -> None:
+    settings, written = SettingReader(), entry("3mps")
+    assert settings.setting(written, SPEED) is settings.setting(written, SPEED)
+
+
+def test_errors_name_the_place_the_entry_and_what_was_expected() -> None:
+    with pytest.raises(ConfigError) as caught:
+        read_scalar(entry("3mpss"), SPEED)
+    assert str(caught.value) == (
+        "a.ini:7: *.x.y = 3mpss: there is no unit `mpss`; "
+        "expected a speed such as 10mps, at least 0mps; did you mean `mps`?"
+    )
+
+
+def test_texts_on_the_command_line_need_no_quotes() -> None:
+    assert read_scalar(entry("b", line=0), MODE) == "b"
+    assert read_scalar(entry('"b"', line=0), MODE) == "b"
+
+
+def test_texts_in_a_file_need_quotes() -> None:
+    with pytest.raises(ConfigError, match="a text stands in quotes"):
+        read_scalar(entry("b"), MODE)
