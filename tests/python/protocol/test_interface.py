@@ -1,0 +1,82 @@
+import pytest
+
+from gradysim.protocol.interface import IProtocol, IProvider
+
+
+class SilentProvider(IProvider):
+    """What a user may write: the abstract methods and nothing else."""
+
+    def __init__(self, node_id=0):
+        self.node_id = node_id
+
+    def send_communication_command(self, command):
+        pass
+
+    def send_mobility_command(self, command):
+        pass
+
+    def schedule_timer(self, timer, timestamp):
+        pass
+
+    def cancel_timer(self, timer):
+        pass
+
+    def current_time(self):
+        return 0.0
+
+    def get_id(self):
+        return self.node_id
+
+
+class SilentProtocol(IProtocol):
+    def initialize(self):
+        pass
+
+    def handle_timer(self, timer):
+        pass
+
+    def handle_packet(self, message):
+        pass
+
+    def handle_telemetry(self, telemetry):
+        pass
+
+    def finish(self):
+        pass
+
+
+def test_instantiate_gives_the_protocol_its_provider():
+    provider = SilentProvider()
+    assert SilentProtocol.instantiate(provider).provider is provider
+
+
+def test_the_constructor_runs_before_there_is_a_provider():
+    class Curious(SilentProtocol):
+        def __init__(self):
+            self.had_provider = hasattr(self, "provider")
+
+    assert Curious.instantiate(SilentProvider()).had_provider is False
+
+
+@pytest.mark.parametrize(
+    "missing", ["initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish"]
+)
+def test_a_protocol_must_have_every_callback(missing):
+    methods = {name: (lambda self, *arguments: None) for name in vars(SilentProtocol) if name[0] != "_"}
+    del methods[missing]
+    incomplete = type("Incomplete", (IProtocol,), methods)
+    with pytest.raises(TypeError, match=missing):
+        incomplete()
+
+
+def test_a_provider_without_a_stream_of_its_own_has_one_by_id():
+    def draws(node_id):
+        return [SilentProvider(node_id).random.random() for _ in range(2)]
+
+    assert draws(1)[0] == draws(1)[1]
+    assert draws(1) != draws(2)
+
+
+def test_the_default_stream_goes_on_where_it_was():
+    provider = SilentProvider()
+    assert provider.random.random() != provider.random.random()
