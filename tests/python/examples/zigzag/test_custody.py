@@ -1,6 +1,7 @@
-from custody import Custody
 from hypothesis import given
 from hypothesis import strategies as st
+
+from custody import Custody
 
 
 def test_data_given_to_a_peer_is_held_by_the_peer_alone() -> None:

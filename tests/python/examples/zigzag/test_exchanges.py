@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import pytest
-from ground_station import ZigZagGroundStation
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from message import SensorData, UavHeartbeat
-from mobile import ZigZagMobile
 
 from gradysim.protocol.messages.telemetry import Telemetry
+from ground_station import ZigZagGroundStation
+from message import SensorData, UavHeartbeat
+from mobile import ZigZagMobile
 
 UAVS = 4
 STATION = UAVS

@@ -6,14 +6,14 @@ from functools import cache
 from typing import Any
 
 import pytest
-from ground_station import ZigZagGroundStation
-from mobile import ZigZagMobile
-from sensor import ZigZagSensor
 
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MobilityConfiguration, MobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from ground_station import ZigZagGroundStation
+from mobile import ZigZagMobile
+from sensor import ZigZagSensor
 
 UAVS = (0, 1)
 SENSORS = (2, 3, 4, 5, 6)

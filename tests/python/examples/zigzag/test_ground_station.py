@@ -2,6 +2,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+
 from ground_station import ZigZagGroundStation
 from message import GroundHeartbeat, Message, PairConfirmation, PairRequest, SensorData, UavHeartbeat
 

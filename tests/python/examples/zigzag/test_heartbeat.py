@@ -2,9 +2,10 @@ import math
 from random import Random
 
 import pytest
-from heartbeat import HeartbeatClock
 from hypothesis import given
 from hypothesis import strategies as st
+
+from heartbeat import HeartbeatClock
 
 
 def test_without_jitter_all_clocks_agree_exactly_wherever_they_start() -> None:

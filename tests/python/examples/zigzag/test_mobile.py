@@ -2,6 +2,9 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
 from message import (
     GroundHeartbeat,
     Message,
@@ -11,9 +14,6 @@ from message import (
     UavHeartbeat,
 )
 from mobile import ZigZagMobile
-
-from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 STATION = 9
 

@@ -2,6 +2,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+
 from message import GroundHeartbeat, Message, PairRequest, SensorData, UavHeartbeat
 from sensor import ZigZagSensor
 

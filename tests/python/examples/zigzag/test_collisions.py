@@ -1,0 +1,71 @@
+"""ZigZag on the realistic network: what the paper found, and what prototype mode cannot show."""
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+
+import gradysim.integrated.run
+import gradysim.prototype.run
+from gradysim.config.scenario import load_scenarios
+from gradysim.results.run_result import RunResult
+
+FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
+SIZES = ["ZigZag5", "ZigZag15", "ZigZag25"]
+
+
+@cache
+def fly(config: str, mode: str = "integrated") -> RunResult:
+    run = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}[mode]
+    (scenario,) = load_scenarios(FILE, config)
+    return run(scenario)
+
+
+def arrived(result: RunResult) -> int:
+    (station,) = (node for node in result.nodes if node.name == "groundStation")
+    value = station.tracked_variables["data"]
+    assert isinstance(value, int)
+    return value
+
+
+def uavs(result: RunResult, variable: str) -> list[int]:
+    values = [node.tracked_variables[variable] for node in result.nodes if node.name.startswith("uavs[")]
+    assert all(isinstance(value, int) for value in values)
+    return [int(str(value)) for value in values]
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_when_all_heartbeats_leave_in_the_same_instant_nothing_arrives(size: str) -> None:
+    assert arrived(fly(f"{size}Synchronised")) == 0
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_then_no_uav_ever_hears_another_one_or_the_ground_station(size: str) -> None:
+    assert set(uavs(fly(f"{size}Synchronised"), "interactions")) == {0}
+
+
+def test_then_uavs_still_collect_the_readings_of_sensors() -> None:
+    assert min(uavs(fly("ZigZag5Synchronised"), "collected")) > 1000
+
+
+def test_the_ledger_says_why() -> None:
+    broadcast = fly("ZigZag5Synchronised").fates["frames"]["broadcast"]
+    others = [broadcast[fate] for fate in ("noise", "interference", "receiver_locked")]
+    assert broadcast["receiver_transmitting"] > sum(others)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_with_jitter_data_arrives(size: str) -> None:
+    result = fly(size)
+    assert arrived(result) > 0.8 * sum(uavs(result, "collected"))
+
+
+def test_no_reading_exists_twice() -> None:
+    result = fly("ZigZag5")
+    assert arrived(result) + sum(uavs(result, "data")) <= sum(uavs(result, "collected"))
+
+
+def test_prototype_mode_collects_more() -> None:
+    assert arrived(fly("ZigZag5", mode="prototype")) > arrived(fly("ZigZag5"))
