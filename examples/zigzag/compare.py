@@ -42,7 +42,7 @@ def collected(result: RunResult) -> int:
 
 
 def frames_with(fate: str, fates: Fates) -> str:
-    """Return how many copies of frames had this fate, at those they were for; a dash if a mode has no such fate.
+    """Return how many copies of frames had this fate at their destinations, a dash if there is no such fate.
 
     Acknowledgements are left out. Prototype mode has no frames: there it is copies of messages.
     """

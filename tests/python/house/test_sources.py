@@ -6,8 +6,8 @@ from pathlib import Path
 
 ProjectFiles = Callable[..., list[Path]]
 
-# A folder of somebody's machine. The container's own folders are not meant.
-MACHINE_PATH = re.compile(r"(?<![\w.~/}*)-])/(?:work|root|Users|mnt|home/(?!gradysim\b)\w+)/\w")
+# A folder of somebody's machine; the home of the container's user and of nobody in particular are not meant.
+MACHINE_PATH = re.compile(r"(?<![\w.~/}*)-])/(?:work|root|Users|mnt|home/(?!(?:gradysim|user)\b)\w+)/\w")
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 
 
