@@ -6,6 +6,14 @@ Varying Degrees of Realism". Each lesson that the authors drew is a parameter he
 """
 
 from custody import Custody
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.mission_mobility import (
+    LoopMission,
+    MissionMobilityConfiguration,
+    MissionMobilityPlugin,
+)
 from heartbeat import HeartbeatClock
 from message import (
     GroundHeartbeat,
@@ -15,15 +23,6 @@ from message import (
     UavHeartbeat,
     decode,
     encode,
-)
-
-from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.mission_mobility import (
-    LoopMission,
-    MissionMobilityConfiguration,
-    MissionMobilityPlugin,
 )
 
 
@@ -102,7 +101,6 @@ class ZigZagMobile(IProtocol):
         """Collect the readings of sensors, exchange data with UAVs and the ground station."""
         if not self._launched:
             return
-        me = self.provider.get_id()
         match decode(message):
             case SensorData():
                 self._custody.held += 1
@@ -110,7 +108,7 @@ class ZigZagMobile(IProtocol):
             case GroundHeartbeat(sender=station):
                 self._ask(station, carrier=station)
             case UavHeartbeat(sender=peer, homeward=homeward, available=True):
-                self._ask(peer, carrier=min((homeward, peer), (self._mission.is_reversed, me))[1])
+                self._ask(peer, carrier=self._carrier_of_pair(peer, homeward))
             case PairRequest() as request:
                 self._confirm(request)
             case PairConfirmation() as confirmation:
@@ -129,7 +127,7 @@ class ZigZagMobile(IProtocol):
             [(stop * self.sensor_spacing, 0.0, height) for stop in range(self.sensor_count + 1)]
         )
         self._launched = True
-        self._ignore_others()
+        self._leave_others_alone()
 
     def _send_heartbeat(self) -> None:
         heartbeat = UavHeartbeat(
@@ -138,6 +136,13 @@ class ZigZagMobile(IProtocol):
             available=not self._ignores_others(),
         )
         self.provider.send_communication_command(BroadcastMessageCommand(encode(heartbeat)))
+
+    def _carrier_of_pair(self, peer: int, peer_homeward: bool) -> int:
+        """The one that flies outward; if both fly in the same direction, the one with the lower id."""
+        me, me_homeward = self.provider.get_id(), self._mission.is_reversed
+        if me_homeward == peer_homeward:
+            return min(me, peer)
+        return peer if me_homeward else me
 
     def _ask(self, peer: int, carrier: int) -> None:
         """Answer a heartbeat of `peer`."""
@@ -168,10 +173,10 @@ class ZigZagMobile(IProtocol):
     def _part(self, carrier: int) -> None:
         """End an exchange: the carrier flies towards the ground station, the other one away from it."""
         self._mission.set_reversed(carrier == self.provider.get_id())
-        self._ignore_others()
+        self._leave_others_alone()
         self._interactions += 1
 
-    def _ignore_others(self) -> None:
+    def _leave_others_alone(self) -> None:
         self._ignore_until = self.provider.current_time() + self.interaction_timeout
 
     def _ignores_others(self) -> bool:
