@@ -1,6 +1,9 @@
 """The ground station's part of ZigZag."""
 
 from custody import Custody
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
 from heartbeat import HeartbeatClock
 from message import (
     GroundHeartbeat,
@@ -10,10 +13,6 @@ from message import (
     decode,
     encode,
 )
-
-from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class ZigZagGroundStation(IProtocol):

@@ -1,10 +1,9 @@
 """The sensor's part of ZigZag."""
 
-from message import SensorData, UavHeartbeat, decode, encode
-
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from message import SensorData, UavHeartbeat, decode, encode
 
 
 class ZigZagSensor(IProtocol):
