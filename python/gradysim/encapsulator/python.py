@@ -119,7 +119,7 @@ class PythonEncapsulator(IEncapsulator[IProtocol]):
         try:
             self.protocol = protocol.instantiate(self.provider)
         except BaseException as exception:
-            self._note(exception, "instantiate", protocol)
+            self._note(exception, "__init__", protocol)
             raise
 
     def initialize(self) -> None:

@@ -1,0 +1,26 @@
+import pytest
+
+from gradysim.encapsulator.failure import add_protocol_note
+
+
+def notes_on(exception, time_s=12.5):
+    add_protocol_note(exception, node_id=3, label="ZigZagMobile 3", time_s=time_s, callback="handle_timer")
+    return getattr(exception, "__notes__", [])
+
+
+def test_the_note_names_callback_node_and_time():
+    assert notes_on(RuntimeError("x")) == [
+        "in handle_timer of node 3 (ZigZagMobile 3) at 12.5 s of simulated time"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("time_s", "text"), [(0, "0"), (0.1 + 0.2, "0.3"), (28800, "28800"), (7199.990001, "7199.990001")]
+)
+def test_times_are_written_for_people(time_s, text):
+    assert f"at {text} s of" in notes_on(RuntimeError(), time_s)[0]
+
+
+@pytest.mark.parametrize("interruption", [KeyboardInterrupt, SystemExit])
+def test_interruptions_have_no_note(interruption):
+    assert notes_on(interruption()) == []

@@ -1,0 +1,86 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.encapsulator.tracked_variables import TrackedVariables
+
+
+@pytest.fixture
+def changes():
+    return []
+
+
+@pytest.fixture
+def variables(changes):
+    variables = TrackedVariables(lambda name, value: changes.append((name, value)))
+    variables["a"] = 1
+    variables["b"] = 2
+    changes.clear()
+    return variables
+
+
+def or_itself(variables):
+    variables |= {"a": 3, "c": 4}
+
+
+@pytest.mark.parametrize(
+    ("change", "reported", "result"),
+    [
+        (lambda v: v.__setitem__("a", 3), [("a", 3)], {"a": 3, "b": 2}),
+        (lambda v: v.update({"a": 3}, c=4), [("a", 3), ("c", 4)], {"a": 3, "b": 2, "c": 4}),
+        (lambda v: v.update([("c", 4)]), [("c", 4)], {"a": 1, "b": 2, "c": 4}),
+        (or_itself, [("a", 3), ("c", 4)], {"a": 3, "b": 2, "c": 4}),
+        (lambda v: v.setdefault("c", 4), [("c", 4)], {"a": 1, "b": 2, "c": 4}),
+        (lambda v: v.setdefault("a", 4), [], {"a": 1, "b": 2}),
+        (lambda v: v.__delitem__("a"), [("a", None)], {"b": 2}),
+        (lambda v: v.pop("a"), [("a", None)], {"b": 2}),
+        (lambda v: v.pop("z", 0), [], {"a": 1, "b": 2}),
+        (lambda v: v.popitem(), [("b", None)], {"a": 1}),
+        (lambda v: v.clear(), [("a", None), ("b", None)], {}),
+    ],
+)
+def test_every_way_of_changing_is_reported(variables, changes, change, reported, result):
+    change(variables)
+    assert (changes, dict(variables)) == (reported, result)
+
+
+@pytest.mark.parametrize("removal", [lambda v: v.__delitem__("z"), lambda v: v.pop("z")])
+def test_removing_what_is_not_there_is_an_error(variables, changes, removal):
+    with pytest.raises(KeyError):
+        removal(variables)
+    assert changes == []
+
+
+def test_the_answers_are_those_of_a_dict(variables):
+    assert (variables.setdefault("a", 9), variables.pop("a"), variables.pop("a", 5), variables.popitem()) == (
+        1,
+        1,
+        5,
+        ("b", 2),
+    )
+
+
+names = st.sampled_from("abc")
+operations = st.one_of(
+    st.tuples(st.just("__setitem__"), names, st.integers()),
+    st.tuples(st.just("setdefault"), names, st.integers()),
+    st.tuples(st.just("pop"), names, st.none()),
+    st.tuples(st.just("update"), st.dictionaries(names, st.integers())),
+    st.tuples(st.just("clear")),
+)
+
+
+@given(st.lists(operations))
+def test_who_follows_the_reports_has_the_same_dict(steps):
+    copy = {}
+
+    def follow(name, value):
+        if value is None:
+            del copy[name]
+        else:
+            copy[name] = value
+
+    variables = TrackedVariables(follow)
+    for operation, *arguments in steps:
+        getattr(variables, operation)(*arguments)
+    assert copy == dict(variables)
