@@ -12,7 +12,7 @@ from gradysim.config.groups import Group
 from gradysim.config.keys import NODE_KEYS, PROTOCOL_CLASS, Key
 from gradysim.config.kinds import Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
-from gradysim.config.nearest import did_you_mean
+from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.protocol_parameters import parameters_of
@@ -160,8 +160,9 @@ def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -
 
 
 def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:
-    others = [f"*.{other.size_key}" for other in groups if other is not group and other.size is not None]
-    hint = did_you_mean(f"*.{group.size_key}", others)
+    keys = {other.name: other.size_key for other in groups if other is not group and other.size is not None}
+    match = nearest(group.name, keys)
+    hint = f"; did you mean `*.{keys[match]}`?" if match else ""
     expected = f'`*.{group.written}.protocol.class = "file.py:Class"`'
     source = group.size_found.entry.source if group.size_found else None
     return ConfigError(f"nothing says which protocol {node} runs; expected {expected}{hint}", source)

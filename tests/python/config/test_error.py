@@ -44,4 +44,7 @@ def test_format_is_the_text() -> None:
 
 def test_bad_value_holds_its_suggestion_apart() -> None:
     error = BadValue("no unit `sec`", "; did you mean `s`?")
-    assert (str(error), error.problem) == ("no unit `sec`; did you mean `s`?", "no unit `sec`")
+    assert (str(error), error.problem) == (
+        "no unit `sec`; did you mean `s`?",
+        "no unit `sec`",
+    )

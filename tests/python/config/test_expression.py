@@ -57,7 +57,14 @@ def test_nan_is_a_number_here() -> None:
 
 @pytest.mark.parametrize(
     ("text", "is_integer"),
-    [("3", True), ("3.0", False), ("3e0", False), ("2 + 1", True), ("6 / 2", False), ("2^3", True)],
+    [
+        ("3", True),
+        ("3.0", False),
+        ("3e0", False),
+        ("2 + 1", True),
+        ("6 / 2", False),
+        ("2^3", True),
+    ],
 )
 def test_tells_integers_from_other_numbers(text: str, is_integer: bool) -> None:
     value = parse_value(text)
@@ -110,7 +117,10 @@ def test_truth_values() -> None:
         ("10 ^ 999", "`10` ^ `999` is no number"),
         ("2m ^ 2", "`2m` ^ `2`: powers are for plain numbers"),
         ('"a" + "b"', "arithmetic is for numbers only"),
-        ("uniform(0m, 100m)", "there is no function `uniform`; values are fixed numbers and texts"),
+        (
+            "uniform(0m, 100m)",
+            "there is no function `uniform`; values are fixed numbers and texts",
+        ),
         ("(1", "`(` is not closed"),
         ("1)", "`)` is not understood there"),
         ("1; 2", "`;` is not understood there"),

@@ -16,7 +16,12 @@ def groups_of(*sections: str) -> list[Group]:
     for rank, section in enumerate(sections, start=1):
         for line, written in enumerate(section.split("\n"), start=1):
             key, _, text = (part.strip() for part in written.partition("="))
-            ranked.append((rank, Entry(key, text, Source(Path("a.ini"), line, key, text), str(rank))))
+            ranked.append(
+                (
+                    rank,
+                    Entry(key, text, Source(Path("a.ini"), line, key, text), str(rank)),
+                )
+            )
     return find_groups(Lookup(ranked), SettingReader())
 
 
@@ -32,7 +37,11 @@ def test_a_number_makes_nodes_with_an_index(size: str) -> None:
 @pytest.mark.parametrize("key", ["*.groundStation.protocol.class", "**.groundStation.protocol.class"])
 def test_a_class_makes_a_single_node(key: str) -> None:
     (group,) = groups_of(f'{key} = "x"')
-    assert (group.node_names(), group.size, group.written) == (["groundStation"], None, "groundStation")
+    assert (group.node_names(), group.size, group.written) == (
+        ["groundStation"],
+        None,
+        "groundStation",
+    )
 
 
 def test_a_group_of_one_has_an_index() -> None:

@@ -4,7 +4,12 @@ from pathlib import Path
 import gradysim
 from gradysim.config.keys import GROUP_SIZE, NETWORK_KEYS, NODE_KEYS, OPTIONS
 
-STRUCTS = {"medium": "MediumConfig", "radio": "RadioConfig", "mac": "MacConfig", "mobility": "MobilityConfig"}
+STRUCTS = {
+    "medium": "MediumConfig",
+    "radio": "RadioConfig",
+    "mac": "MacConfig",
+    "mobility": "MobilityConfig",
+}
 
 
 def fields_of_the_engine() -> set[str]:

@@ -79,7 +79,11 @@ def test_converts(kind: Kind, written: str, expected: object) -> None:
         (boolean(), "1", "it is a number"),
         (boolean(), '"true"', "it is a text"),
         (text(), "3m", "it is a quantity"),
-        (choice("b", "g(erp)"), '"g(erp"', "`g(erp` is not known; did you mean `g(erp)`?"),
+        (
+            choice("b", "g(erp)"),
+            '"g(erp"',
+            "`g(erp` is not known; did you mean `g(erp)`?",
+        ),
         (si_number(), "nan", "`nan` is no number"),
         (si_number(), "3B", "bits and bytes have no SI unit"),
     ],
@@ -93,7 +97,10 @@ def test_refuses(kind: Kind, written: str, problem: str) -> None:
     ("kind", "expected"),
     [
         (quantity("mps", at_least=0), "a speed such as 10mps, at least 0mps"),
-        (quantity("bps", above=0, special=-1), "a bitrate such as 24Mbps, greater than 0bps, or -1bps"),
+        (
+            quantity("bps", above=0, special=-1),
+            "a bitrate such as 24Mbps, greater than 0bps, or -1bps",
+        ),
         (
             quantity("deg", at_least=-90, at_most=90),
             "an angle such as 90deg, at least -90deg and at most 90deg",

@@ -46,7 +46,12 @@ def test_paths_begin_with_the_name_of_the_network() -> None:
 
 
 def test_what_omnetpp_alone_reads_is_left_out() -> None:
-    keys = ["*.visualizer.a.b", "**.visualizer.**.c", "**.cmdenv-log-level", "*.uavs[*].x.y"]
+    keys = [
+        "*.visualizer.a.b",
+        "**.visualizer.**.c",
+        "**.cmdenv-log-level",
+        "*.uavs[*].x.y",
+    ]
     assert [found.entry.key for found in Lookup(entries(*keys)).found] == ["*.uavs[*].x.y"]
 
 
@@ -60,7 +65,8 @@ def test_a_bad_pattern_is_an_error_with_its_line() -> None:
 
 
 KEYS = st.from_regex(
-    r"(\*|\*\*|N)\.([ab*?]{1,2}(\[(\*|0|1|1\.\.|\*\*)\])?)(\.(x|\*|\*\*|x\.y|\*\*\.y|z))?", fullmatch=True
+    r"(\*|\*\*|N)\.([ab*?]{1,2}(\[(\*|0|1|1\.\.|\*\*)\])?)(\.(x|\*|\*\*|x\.y|\*\*\.y|z))?",
+    fullmatch=True,
 )
 
 
@@ -72,6 +78,7 @@ KEYS = st.from_regex(
 def test_agrees_with_matching_whole_paths_one_by_one(keys: list[str], name: str, rest: str) -> None:
     path = ".".join(["Network", name, *([rest] if rest else [])])
     expected = next(
-        (str(order) for order, key in enumerate(keys) if compile_pattern(key).matches(path)), None
+        (str(order) for order, key in enumerate(keys) if compile_pattern(key).matches(path)),
+        None,
     )
     assert in_force(Lookup(entries(*keys)), name, rest) == expected

@@ -62,7 +62,10 @@ def test_examples(pattern: str, path: str, expected: bool) -> None:
 @pytest.mark.parametrize(
     ("pattern", "message"),
     [
-        ("a{b", "`{` is not closed; expected `}` after it (a plain brace is written `\\{`)"),
+        (
+            "a{b",
+            "`{` is not closed; expected `}` after it (a plain brace is written `\\{`)",
+        ),
         ("a[5..3]", "the range `[5..3]` is empty; expected the smaller number first"),
         ("a{z-b}", "the range `z-b` is empty; expected `b-z`"),
         ("a\\", "a backslash stands at the end; expected a character after it"),

@@ -31,7 +31,11 @@ def test_the_class_itself_is_left_alone() -> None:
 
 def test_goes_by_the_name_of_the_class() -> None:
     cls = parametrize(Mobile, {"interval": 2.5})
-    assert (cls.__name__, cls.__qualname__, cls.__module__) == ("Mobile", "Mobile", Mobile.__module__)
+    assert (cls.__name__, cls.__qualname__, cls.__module__) == (
+        "Mobile",
+        "Mobile",
+        Mobile.__module__,
+    )
     assert cls.__doc__ == Mobile.__doc__
 
 

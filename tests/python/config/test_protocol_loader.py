@@ -1,6 +1,8 @@
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -9,7 +11,7 @@ from gradysim.config.protocol_loader import ProtocolLoader
 
 
 @pytest.fixture
-def error_of(folder):  # type: ignore[no-untyped-def]
+def error_of(folder: Any) -> Callable[[str], str]:
     def error_of(reference: str) -> str:
         with pytest.raises(BadValue) as caught:
             ProtocolLoader().load(reference, folder.path)
@@ -18,16 +20,16 @@ def error_of(folder):  # type: ignore[no-untyped-def]
     return error_of
 
 
-def test_loads_from_a_file_beside_the_configuration(folder) -> None:  # type: ignore[no-untyped-def]
+def test_loads_from_a_file_beside_the_configuration(folder: Any) -> None:
     assert ProtocolLoader().load("protocols.py:Mobile", folder.path).__name__ == "Mobile"
 
 
-def test_loads_from_any_file(folder) -> None:  # type: ignore[no-untyped-def]
+def test_loads_from_any_file(folder: Any) -> None:
     (folder.path / "configs").mkdir()
     assert ProtocolLoader().load("../protocols.py:Mobile", folder.path / "configs").__name__ == "Mobile"
 
 
-def test_loads_from_a_module(folder, monkeypatch: pytest.MonkeyPatch) -> None:  # type: ignore[no-untyped-def]
+def test_loads_from_a_module(folder: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     (folder.path / "package_y").mkdir()
     folder.write("package_y/mobile.py", (folder.path / "protocols.py").read_text())
     monkeypatch.syspath_prepend(str(folder.path))
@@ -41,10 +43,22 @@ def test_loads_from_a_module(folder, monkeypatch: pytest.MonkeyPatch) -> None:  
         ("protocols.py", "`protocols.py` names no class"),
         ("protocols.py:", "`protocols.py:` names no class"),
         (":Mobile", "`:Mobile` names no class"),
-        ("protocol.py:Mobile", "there is no file protocol.py; did you mean `protocols.py`?"),
-        ("protocols.py:Mobil", "protocols.py has no class `Mobil`; did you mean `Mobile`?"),
-        ("protocols.py:Zzz", "protocols.py has no class `Zzz`; there are Sensor, Mobile, Half"),
-        ("protocols.py:Other", "`Other` in protocols.py is no protocol, it does not derive from IProtocol"),
+        (
+            "protocol.py:Mobile",
+            "there is no file protocol.py; did you mean `protocols.py`?",
+        ),
+        (
+            "protocols.py:Mobil",
+            "protocols.py has no class `Mobil`; did you mean `Mobile`?",
+        ),
+        (
+            "protocols.py:Zzz",
+            "protocols.py has no class `Zzz`; there are Sensor, Mobile, Half",
+        ),
+        (
+            "protocols.py:Other",
+            "`Other` in protocols.py is no protocol, it does not derive from IProtocol",
+        ),
         (
             "protocols.py:IProtocol",
             "`IProtocol` in protocols.py is no protocol, it does not derive from IProtocol",
@@ -54,11 +68,14 @@ def test_loads_from_a_module(folder, monkeypatch: pytest.MonkeyPatch) -> None:  
             "`Half` in protocols.py is not complete, it lacks "
             "finish(), handle_packet(), handle_telemetry(), handle_timer()",
         ),
-        ("no_such_package.mobile:Mobile", "this Python finds no module `no_such_package`"),
+        (
+            "no_such_package.mobile:Mobile",
+            "this Python finds no module `no_such_package`",
+        ),
         ("json.no_such:Mobile", "this Python finds no module `json.no_such`"),
     ],
 )
-def test_errors(error_of, reference: str, message: str) -> None:  # type: ignore[no-untyped-def]
+def test_errors(error_of: Any, reference: str, message: str) -> None:
     assert error_of(reference) == message
 
 
@@ -67,14 +84,22 @@ def test_errors(error_of, reference: str, message: str) -> None:  # type: ignore
     [
         ("import os\nx = undefined", "NameError: name 'undefined' is not defined", 2),
         ("\n\ndef f(:", "SyntaxError: invalid syntax", 3),
-        ("import no_such_module", "ModuleNotFoundError: No module named 'no_such_module'", 1),
-        ("import json\njson.loads('{')", "json.decoder.JSONDecodeError: Expecting property name", 2),
+        (
+            "import no_such_module",
+            "ModuleNotFoundError: No module named 'no_such_module'",
+            1,
+        ),
+        (
+            "import json\njson.loads('{')",
+            "json.decoder.JSONDecodeError: Expecting property name",
+            2,
+        ),
         ("import sys\nsys.exit(3)", "SystemExit: 3", 2),
     ],
 )
 def test_a_file_that_does_not_load_shows_its_own_error_and_line(
-    folder,  # type: ignore[no-untyped-def]
-    error_of,  # type: ignore[no-untyped-def]
+    folder: Any,
+    error_of: Any,
     text: str,
     error: str,
     line: int,
@@ -84,7 +109,7 @@ def test_a_file_that_does_not_load_shows_its_own_error_and_line(
     assert re.fullmatch(rf"broken\.py does not load: {re.escape(error)}.* \(broken\.py:{line}\)", shown)
 
 
-def test_an_error_in_a_sibling_shows_the_siblings_line(folder, error_of) -> None:  # type: ignore[no-untyped-def]
+def test_an_error_in_a_sibling_shows_the_siblings_line(folder: Any, error_of: Any) -> None:
     folder.write("broken.py", "import sibling_x")
     folder.write("sibling_x.py", "\n\n1 / 0")
     assert error_of("broken.py:Mobile") == (

@@ -55,7 +55,11 @@ def test_a_module_of_somebody_else_with_a_siblings_name_comes_back(
 
 
 def test_the_library_is_not_shadowed(tmp_path: Path) -> None:
-    write(tmp_path, mobile="import gradysim.protocol.interface as i", gradysim="raise RuntimeError")
+    write(
+        tmp_path,
+        mobile="import gradysim.protocol.interface as i",
+        gradysim="raise RuntimeError",
+    )
     assert ModuleLoader().load(tmp_path / "mobile.py").i is sys.modules["gradysim.protocol.interface"]
 
 

@@ -22,8 +22,8 @@ class Mobile(Base):
     whole: int = 3
     text: Final = "x"
     flag = False
-    replaced = "now a text"
-    hidden = None
+    replaced = "now a text"  # type: ignore[assignment]
+    hidden = None  # type: ignore[assignment]
     _private = 1
     waypoints: ClassVar[list[int]] = [1]
     annotated_only: float
@@ -61,7 +61,11 @@ def test_floats_take_quantities_and_whole_numbers(name: str) -> None:
 
 
 def test_other_types_are_kept() -> None:
-    assert (converted("whole", "3"), converted("text", '"y"'), converted("flag", "true")) == (3, "y", True)
+    assert (
+        converted("whole", "3"),
+        converted("text", '"y"'),
+        converted("flag", "true"),
+    ) == (3, "y", True)
     assert converted("replaced", '"y"') == "y"
 
 

@@ -65,7 +65,10 @@ def test_a_conversion_is_rounded_once(number: int, unit: object, data: st.DataOb
     assert Quantity(number, unit).to(other) == float(number * unit.factor / other.factor)  # type: ignore[arg-type,attr-defined]
 
 
-@given(st.one_of(st.integers(-(10**15), 10**15), finite), st.sampled_from([None, *UNITS.values()]))
+@given(
+    st.one_of(st.integers(-(10**15), 10**15), finite),
+    st.sampled_from([None, *UNITS.values()]),
+)
 def test_its_text_reads_as_itself(number: float, unit: object) -> None:
     quantity = Quantity(number if isinstance(number, int) else Fraction(number), unit)  # type: ignore[arg-type]
     again = parse_value(str(quantity))
@@ -79,7 +82,11 @@ def test_its_text_reads_as_itself(number: float, unit: object) -> None:
     [
         (q(3), "s", "`3` has no unit"),
         (q(3, "m"), "mps", "`m` is the unit of a length"),
-        (q(5, "m"), "s", "`m` is the unit of a length; `m` is metres, a minute is `min`"),
+        (
+            q(5, "m"),
+            "s",
+            "`m` is the unit of a length; `m` is metres, a minute is `min`",
+        ),
         (q(4, "dB"), "W", "`dB` is the unit of a ratio in decibels"),
         (q(9999, "dBm"), "W", "`9999dBm` is too large for a number"),
     ],

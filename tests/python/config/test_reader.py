@@ -29,11 +29,17 @@ def test_headings(write_ini: Write, heading: str) -> None:
 
 
 def test_carriage_returns_and_byte_order_marks_are_stripped(write_ini: Write) -> None:
-    assert entries(read_ini(write_ini("\ufeffa = 1\r\nb = 2\r\n"))) == [("a", "1", 1), ("b", "2", 2)]
+    assert entries(read_ini(write_ini("\ufeffa = 1\r\nb = 2\r\n"))) == [
+        ("a", "1", 1),
+        ("b", "2", 2),
+    ]
 
 
 def test_a_backslash_joins_without_a_newline(write_ini: Write) -> None:
-    assert entries(read_ini(write_ini('a = "on\\\ne" # c\nb = 2'))) == [("a", '"one"', 1), ("b", "2", 3)]
+    assert entries(read_ini(write_ini('a = "on\\\ne" # c\nb = 2'))) == [
+        ("a", '"one"', 1),
+        ("b", "2", 3),
+    ]
 
 
 def test_an_indented_line_continues_with_a_newline(write_ini: Write) -> None:
@@ -58,7 +64,12 @@ def test_include_is_relative_and_goes_to_the_current_section(write_ini: Write, t
     write_ini("include more.ini\nb = 2\n", "sub/inc.ini")
     write_ini("c = 3\n", "sub/more.ini")
     ini = read_ini(write_ini("[X]\na = 1\ninclude sub/inc.ini # comment\nd = 4\n"))
-    assert entries(ini, "X") == [("a", "1", 2), ("c", "3", 1), ("b", "2", 2), ("d", "4", 4)]
+    assert entries(ini, "X") == [
+        ("a", "1", 2),
+        ("c", "3", 1),
+        ("b", "2", 2),
+        ("d", "4", 4),
+    ]
     assert [entry.source.file.name for entry in ini.sections["X"].entries] == [
         "test.ini",
         "more.ini",
@@ -67,7 +78,9 @@ def test_include_is_relative_and_goes_to_the_current_section(write_ini: Write, t
     ]
 
 
-def test_sections_of_several_files_merge_and_the_current_one_stays(write_ini: Write) -> None:
+def test_sections_of_several_files_merge_and_the_current_one_stays(
+    write_ini: Write,
+) -> None:
     write_ini("[Y]\nb = 2\n[X]\nc = 3\n", "inc.ini")
     ini = read_ini(write_ini("[X]\na = 1\ninclude inc.ini\nd = 4\n"))
     assert [key for key, _, _ in entries(ini, "X")] == ["a", "c", "d"]
@@ -84,7 +97,10 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
     ("text", "message"),
     [
         ("a = 1\n; old\n", "test.ini:2: `;` starts no comment here; expected `#`"),
-        ('\na = "x\n', 'test.ini:2: a text in quotes does not end on its line; expected a closing `"`'),
+        (
+            '\na = "x\n',
+            'test.ini:2: a text in quotes does not end on its line; expected a closing `"`',
+        ),
         ("a 1\n", "test.ini:1: `a 1` is no entry; expected `key = value`"),
         ("= 1\n", "test.ini:1: `= 1` is no entry; expected `key = value`"),
         ("a = # 1\n", "test.ini:1: `a` has no value; expected `a = value`"),
@@ -97,7 +113,10 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
             "test.ini:2: an indented line continues the entry above it, and there is none; expected column 1",
         ),
         ("[X\n", "test.ini:1: `[X` is no heading; expected [General] or [Config NAME]"),
-        ("[Foo X]\n", "test.ini:1: `[Foo X]` is no heading; expected [General] or [Config NAME]"),
+        (
+            "[Foo X]\n",
+            "test.ini:1: `[Foo X]` is no heading; expected [General] or [Config NAME]",
+        ),
         (
             "[Config General]\n",
             "test.ini:1: `[Config General]` is no heading; expected [General] or [Config NAME]",
@@ -106,7 +125,10 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
             "[X]\n[Y]\n[Config X]\n",
             "test.ini:3: section `X` is already at line 1; expected each once in a file",
         ),
-        ("\ninclude test.ini\n", "test.ini:2: test.ini includes itself; expected another file"),
+        (
+            "\ninclude test.ini\n",
+            "test.ini:2: test.ini includes itself; expected another file",
+        ),
         (
             "include tst.ini\n",
             "test.ini:1: tst.ini: no such file; expected an .ini file; did you mean `test.ini`?",

@@ -60,12 +60,19 @@ def test_c3_is_that_of_python_classes(bases: list[list[int]]) -> None:
                 search_order(ini, f"S{index}")
         else:
             expected = [c.__name__ for c in cls.__mro__[:-1]]
-            assert [section.name for section in search_order(ini, f"S{index}")] == [*expected, "General"]
+            assert [section.name for section in search_order(ini, f"S{index}")] == [
+                *expected,
+                "General",
+            ]
 
 
 def _section(name: str, bases: list[str]) -> Section:
     source = Source(Path("a.ini"), 1)
-    return Section(name, source, [Entry("extends", ", ".join(bases), source, name)] if bases else [])
+    return Section(
+        name,
+        source,
+        [Entry("extends", ", ".join(bases), source, name)] if bases else [],
+    )
 
 
 @pytest.mark.parametrize(
@@ -87,14 +94,26 @@ def _section(name: str, bases: list[str]) -> Section:
             "A",
             "test.ini:4: `B` extends itself through `A`; expected no circle",
         ),
-        ("[A]\nextends = A\n", "A", "test.ini:2: `A` extends itself through `A`; expected no circle"),
+        (
+            "[A]\nextends = A\n",
+            "A",
+            "test.ini:2: `A` extends itself through `A`; expected no circle",
+        ),
         (
             "[A]\nabstract = true\n[B]\nextends = A\n",
             "A",
             "test.ini:2: configuration `A` is abstract, it is only there to be extended; expected one of B",
         ),
-        ("[A]\nabstract = yes\n", "A", "test.ini:2: abstract = yes: expected true or false"),
-        ("[A]\n[B]\nextends = A, A\n", "B", "test.ini:3: extends = A, A: expected each section once"),
+        (
+            "[A]\nabstract = yes\n",
+            "A",
+            "test.ini:2: abstract = yes: expected true or false",
+        ),
+        (
+            "[A]\n[B]\nextends = A, A\n",
+            "B",
+            "test.ini:3: extends = A, A: expected each section once",
+        ),
         (
             "[A]\n[General]\nextends = A\n",
             "General",
@@ -107,7 +126,11 @@ def test_errors(write_ini: Write, text: str, config: str, message: str) -> None:
 
 
 def test_abstract_is_not_inherited(write_ini: Write) -> None:
-    assert order_of(write_ini("[A]\nabstract = true\n[B]\nextends = A\n"), "B") == ["B", "A", "General"]
+    assert order_of(write_ini("[A]\nabstract = true\n[B]\nextends = A\n"), "B") == [
+        "B",
+        "A",
+        "General",
+    ]
 
 
 def test_names_are_those_that_can_be_run(write_ini: Write) -> None:

@@ -29,7 +29,11 @@ def test_means_what_omnetpp_means(name: str, dimension: Dimension, factor: Fract
 
 def test_decibels_alone_are_a_dimension_of_their_own() -> None:
     assert unit_named("dB").dimension is Dimension.LEVEL
-    assert {name for name, unit in UNITS.items() if unit.logarithmic} == {"dBm", "dBmW", "dBW"}
+    assert {name for name, unit in UNITS.items() if unit.logarithmic} == {
+        "dBm",
+        "dBmW",
+        "dBW",
+    }
 
 
 def test_every_dimension_has_a_linear_si_unit() -> None:

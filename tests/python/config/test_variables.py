@@ -35,7 +35,12 @@ def test_iteration_variables_are_errors(variable: str) -> None:
 
 @pytest.mark.parametrize(
     ("text", "expected"),
-    [("5", False), ("${configname}", False), ("${runnumber}", True), ("${repetition}", True)],
+    [
+        ("5", False),
+        ("${configname}", False),
+        ("${runnumber}", True),
+        ("${repetition}", True),
+    ],
 )
 def test_tells_what_differs_between_runs(text: str, expected: bool) -> None:
     assert depends_on_run(entry(text)) is expected

@@ -1,0 +1,78 @@
+from typing import Any
+
+import pytest
+
+
+@pytest.mark.parametrize(
+    "added",
+    [
+        "**.power = 1mW\n",
+        "*.*.mobility.speed = 1mps\n",
+        "*.*[*].mobility.speed = 1mps\n",
+        "*.uavs[0..5].mobility.speed = 1mps\n",
+        "*.uavs[1].wlan[0].bitrate = 1Mbps\n",
+        "**.uavs[1].**.bitrate = 1Mbps\n",
+        "*.uavs[*].**.power = 1mW\n",
+        "**.heartbeat_jitter = 1s\n",
+        "Network.uavs[*].mobility.speed = 1mps\n",
+        "*.radioMedium.**.power = 1mW\n",
+        "*.visualizer.**.anything = whatever\n*.visualizer.x = ${y}\n",
+        "cmdenv-status-frequency = 1s\nqtenv-x = 1\n**.cmdenv-log-level = trace\nnetwork = Network\n",
+        "result-dir = results\nexperiment-label = ${configname}\n",
+        "*.numBoats = 0\n*.boats[*].mobility.speed = 1mps\n*.boats[*].protocol.anything = 3\n",
+    ],
+)
+def test_keys_that_match_something(folder: Any, added: str) -> None:
+    assert len(folder.load(added).nodes) == 3
+
+
+def test_a_key_may_name_nodes_that_a_more_specific_section_takes_away(folder: Any) -> None:
+    added = "*.uavs[1].mobility.speed = 1mps\n[Small]\n*.numUavs = 1\n"
+    assert len(folder.load(added, "Small").nodes) == 2
+    assert len(folder.load(added, "Small", "*.numUavs=0").nodes) == 1
+
+
+def test_a_key_of_a_shrunk_group_still_has_to_name_a_parameter(folder: Any) -> None:
+    added = "*.uavs[1].mobility.sped = 1mps\n[Small]\n*.numUavs = 1\n"
+    assert folder.error(added, "Small") == (
+        "test.ini:6: `*.uavs[1].mobility.sped` matches no parameter; expected the name of one; "
+        "did you mean `*.uavs[*].mobility.speed`?"
+    )
+
+
+def test_sections_that_are_not_run_are_not_checked(folder: Any) -> None:
+    assert folder.load("[Other]\n*.boats[*].mobility.speed = 1mps\n")
+
+
+def test_the_first_mistake_of_the_file_is_reported(folder: Any) -> None:
+    assert folder.error("*.boats.x.y = 1\n[X]\n*.ships.x.y = 1\n", "X").startswith(
+        "test.ini:6: `*.boats.x.y`"
+    )
+
+
+@pytest.mark.parametrize(
+    ("key", "hint"),
+    [
+        ("sim-time-limt", "; did you mean `sim-time-limit`?"),
+        ("zzzz", ""),
+        ("numUavs", ""),
+    ],
+)
+def test_unknown_options(folder: Any, key: str, hint: str) -> None:
+    assert folder.error(f"{key} = 3\n") == (
+        f"test.ini:6: there is no option `{key}`; "
+        f"expected one, or a parameter such as `*.uavs[*].mobility.speed`{hint}"
+    )
+
+
+def test_options_of_a_section_cannot_be_overridden(folder: Any) -> None:
+    assert folder.error("", "General", "abstract=true") == (
+        "--set abstract=true: `abstract` belongs to a section; expected it in the file"
+    )
+
+
+def test_overrides_are_checked(folder: Any) -> None:
+    assert folder.error("", "General", "*.uavz[*].mobility.speed=1mps") == (
+        "--set *.uavz[*].mobility.speed=1mps: `*.uavz[*].mobility.speed` matches no node; "
+        "expected one of `groundStation`, `uavs[*]`; did you mean `*.uavs[*].mobility.speed`?"
+    )

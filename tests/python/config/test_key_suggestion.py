@@ -1,0 +1,112 @@
+from typing import Any
+
+import pytest
+
+NODES = "expected one of `groundStation`, `uavs[*]`"
+
+
+@pytest.mark.parametrize(
+    ("key", "message"),
+    [
+        (
+            "*.uavz[*].mobility.speed",
+            f"`*.uavz[*].mobility.speed` matches no node; {NODES}; did you mean `*.uavs[*].mobility.speed`?",
+        ),
+        (
+            "*.uavz[*].mobility.sped",
+            f"`*.uavz[*].mobility.sped` matches no node; {NODES}; did you mean `*.uavs[*].mobility.sped`?",
+        ),
+        (
+            "*.radioMedum.pathLoss.alpha",
+            f"`*.radioMedum.pathLoss.alpha` matches no node; {NODES}; "
+            "did you mean `*.radioMedium.pathLoss.alpha`?",
+        ),
+        (
+            "*.boats[*].mobility.speed",
+            "`*.boats[*].mobility.speed` matches no node: nothing says how many `boats` there are; "
+            "expected `*.numBoats = ...`",
+        ),
+        (
+            "*.uavs[7].mobility.speed",
+            "`*.uavs[7].mobility.speed` matches no node; "
+            "expected `uavs` as it is, with nodes uavs[0] to uavs[1]; "
+            "did you mean `*.uavs[*].mobility.speed`?",
+        ),
+        (
+            "*.groundStation[*].mobility.speed",
+            "`*.groundStation[*].mobility.speed` matches no node; "
+            "expected `groundStation` as it is, with one node, without index; "
+            "did you mean `*.groundStation.mobility.speed`?",
+        ),
+        (
+            "*.uavs.mobility.speed",
+            "`*.uavs.mobility.speed` matches no parameter; expected the name of one; "
+            "did you mean `*.uavs[*].mobility.speed`?",
+        ),
+        (
+            "uavs[*].mobility.speed",
+            "`uavs[*].mobility.speed` does not begin with `*.` or `**.`, "
+            "nor with the network's name `Network.`; "
+            "expected a key such as `*.uavs[*].mobility.speed`; did you mean `*.uavs[*].mobility.speed`?",
+        ),
+        (
+            "*.uavs[0].wlan[0].radio.transmiter.power",
+            "`*.uavs[0].wlan[0].radio.transmiter.power` matches no parameter; expected the name of one; "
+            "did you mean `*.uavs[0].wlan[*].radio.transmitter.power`?",
+        ),
+        (
+            "*.uavs[*].bitrate",
+            "`*.uavs[*].bitrate` matches no parameter; expected the name of one; "
+            "did you mean `*.uavs[*].wlan[*].bitrate`?",
+        ),
+        (
+            "*.radioMedium.pathLoss.alfa",
+            "`*.radioMedium.pathLoss.alfa` matches no parameter; expected the name of one; "
+            "did you mean `*.radioMedium.pathLoss.alpha`?",
+        ),
+        (
+            "**.powr",
+            "`**.powr` matches no parameter; expected the name of one; did you mean `**.power`?",
+        ),
+        (
+            "**.radio.transmiter.power",
+            "`**.radio.transmiter.power` matches no parameter; expected the name of one; "
+            "did you mean `**.radio.transmitter.power`?",
+        ),
+        (
+            "**.heartbeat_jiter",
+            "`**.heartbeat_jiter` matches no parameter; expected the name of one; "
+            "did you mean `**.heartbeat_jitter`?",
+        ),
+        (
+            "*.uavs[*].protocol.heartbeat_jiter",
+            "`heartbeat_jiter` is no parameter of Mobile; "
+            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries; "
+            "did you mean `*.uavs[*].protocol.heartbeat_jitter`?",
+        ),
+        (
+            "*.uavs[*].protocol.waypoints",
+            "`waypoints` is no parameter of Mobile, it is of type list and not a plain public value; "
+            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries",
+        ),
+        (
+            "*.groundStation.protocol.label",
+            "`label` is no parameter of Sensor; expected one of class",
+        ),
+        (
+            "*.*.protocol.lable",
+            "`lable` is no parameter of Mobile or Sensor; "
+            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries; "
+            "did you mean `*.*.protocol.label`?",
+        ),
+    ],
+)
+def test_says_what_was_expected_and_the_nearest_key(folder, key: str, message: str) -> None:
+    assert folder.error(f"{key} = 1\n") == f"test.ini:6: {message}"
+
+
+def test_a_misspelt_number_of_nodes(folder: Any) -> None:
+    assert folder.error("*.numUavz = 1\n") == (
+        "test.ini:6: nothing says which protocol uavz[0] runs; "
+        'expected `*.uavz[*].protocol.class = "file.py:Class"`; did you mean `*.numUavs`?'
+    )

@@ -1,0 +1,274 @@
+from typing import Any
+
+import pytest
+
+from gradysim.config.scenario import Scenario
+
+LINE = """\
+*.uavs[*].mobility.lineStartX = 100m
+*.uavs[*].mobility.lineStepX = 50m
+*.uavs[*].mobility.lineStepZ = 1m
+"""
+
+
+def positions(scenario: Scenario) -> list[tuple[float, float, float]]:
+    return [node.initial_position for node in scenario.nodes if node.group == "uavs"]
+
+
+def values(mapping: Any) -> dict[str, object]:
+    return {field: setting.value for field, setting in mapping.items()}
+
+
+def test_nodes_have_ids_names_groups_and_indices(folder: Any) -> None:
+    assert [
+        (node.id, node.name, node.group, node.index, node.protocol.__name__) for node in folder.load().nodes
+    ] == [
+        (0, "groundStation", "groundStation", 0, "Sensor"),
+        (1, "uavs[0]", "uavs", 0, "Mobile"),
+        (2, "uavs[1]", "uavs", 1, "Mobile"),
+    ]
+
+
+def test_nodes_start_at_the_origin(folder: Any) -> None:
+    assert positions(folder.load()) == [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]
+
+
+def test_nodes_start_along_a_line(folder: Any) -> None:
+    assert positions(folder.load(LINE)) == [(100.0, 0.0, 0.0), (150.0, 0.0, 1.0)]
+
+
+def test_nodes_start_at_places_of_their_own(folder: Any) -> None:
+    added = "*.uavs[1].mobility.initialX = 7m\n*.uavs[*].mobility.initialY = 2m\n" + LINE
+    assert positions(folder.load(added)) == [(100.0, 2.0, 0.0), (7.0, 2.0, 1.0)]
+
+
+def test_of_line_and_place_the_first_in_search_order_counts(folder: Any) -> None:
+    added = LINE + "*.uavs[1].mobility.initialX = 7m\n[X]\n*.uavs[1].mobility.initialX = 7m\n"
+    assert positions(folder.load(added))[1][0] == 150.0
+    assert positions(folder.load(added, "X"))[1][0] == 7.0
+
+
+def test_only_what_was_written_is_set(folder: Any) -> None:
+    node = folder.load().nodes[0]
+    assert (node.mobility, node.radio, node.mac, node.protocol_parameters) == (
+        {},
+        {},
+        {},
+        {},
+    )
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "struct", "field", "value"),
+    [
+        (
+            "mobility.typename",
+            '"StationaryMobility"',
+            "mobility",
+            "typename",
+            "StationaryMobility",
+        ),
+        ("mobility.speed", "36kmph", "mobility", "speed_mps", 10.0),
+        ("mobility.telemetryInterval", "0s", "mobility", "telemetry_interval_s", 0.0),
+        ("wlan[*].opMode", '"g(erp)"', "mac", "op_mode", "g(erp)"),
+        ("wlan[*].bitrate", "5.5Mbps", "mac", "bitrate_bps", 5.5e6),
+        ("wlan[*].mac.mtu", "1500B", "mac", "mtu_bytes", 1500),
+        ("**.multicastFrameBitrate", "-1bps", "mac", "multicast_bitrate_bps", -1.0),
+        ("**.shortRetryLimit", "4", "mac", "short_retry_limit", 4),
+        ("**.cwMin", "15", "mac", "cw_min", 15),
+        ("**.cwMax", "63", "mac", "cw_max", 63),
+        ("**.packetCapacity", "10", "mac", "queue_capacity", 10),
+        ("**.backoffOptimization", "false", "mac", "backoff_optimization", False),
+        ("wlan[*].radio.channelNumber", "5", "radio", "carrier_hz", 2.437e9),
+        ("wlan[*].radio.centerFrequency", "5.18GHz", "radio", "carrier_hz", 5.18e9),
+        ("wlan[*].radio.bandwidth", "20MHz", "radio", "bandwidth_hz", 20e6),
+        ("wlan[*].radio.transmitter.power", "0.95mW", "radio", "tx_power_w", 0.00095),
+        (
+            "wlan[*].radio.transmitter.communicationRange",
+            "1km",
+            "radio",
+            "communication_range_m",
+            1000.0,
+        ),
+        (
+            "wlan[*].radio.receiver.sensitivity",
+            "-90dBm",
+            "radio",
+            "sensitivity_w",
+            1e-12,
+        ),
+        (
+            "wlan[*].radio.receiver.energyDetection",
+            "1pW",
+            "radio",
+            "energy_detection_w",
+            1e-12,
+        ),
+        (
+            "wlan[*].radio.receiver.snirThreshold",
+            "10dB",
+            "radio",
+            "snir_threshold",
+            10.0,
+        ),
+        (
+            "**.errorModel.typename",
+            '"Ieee80211NistErrorModel"',
+            "radio",
+            "error_model",
+            "Ieee80211NistErrorModel",
+        ),
+        (
+            "**.antenna.typename",
+            '"IsotropicAntenna"',
+            "radio",
+            "antenna",
+            "IsotropicAntenna",
+        ),
+    ],
+)
+def test_keys_reach_their_fields(folder, key: str, text: str, struct: str, field: str, value: object) -> None:
+    node = folder.load(f"*.uavs[*].{key} = {text}\n").nodes[1]
+    setting = getattr(node, struct)[field]
+    assert (
+        setting.value == pytest.approx(value, rel=1e-14)
+        if isinstance(value, float)
+        else setting.value == value
+    )
+    assert type(setting.value) is type(value)
+    assert (setting.source.line, setting.source.key) == (6, f"*.uavs[*].{key}")
+
+
+def test_each_node_has_the_first_entry_that_matches_it(folder: Any) -> None:
+    scenario = folder.load(
+        "*.uavs[1].mobility.speed = 1mps\n**.speed = 2mps\n*.uavs[0].mobility.speed = 3mps\n"
+    )
+    assert [node.mobility["speed_mps"].value for node in scenario.nodes] == [
+        2.0,
+        2.0,
+        1.0,
+    ]
+
+
+def test_default_stops_the_search(folder: Any) -> None:
+    scenario = folder.load(
+        "*.uavs[1].mobility.speed = default\n*.uavs[1].protocol.retries = default\n"
+        "*.uavs[*].mobility.speed = 2mps\n*.uavs[*].protocol.retries = 2\n"
+    )
+    assert [values(node.mobility) for node in scenario.nodes] == [
+        {},
+        {"speed_mps": 2.0},
+        {},
+    ]
+    assert [node.protocol_parameters for node in scenario.nodes] == [
+        {},
+        {"retries": 2},
+        {},
+    ]
+
+
+def test_of_two_keys_for_one_field_the_first_in_search_order_counts(folder: Any) -> None:
+    added = "**.channelNumber = 5\n[X]\n**.centerFrequency = 2.5GHz\n"
+    assert folder.load(added).nodes[0].radio["carrier_hz"].value == 2.437e9
+    assert folder.load(added, "X").nodes[0].radio["carrier_hz"].value == 2.5e9
+
+
+def test_protocol_parameters_are_converted(folder: Any) -> None:
+    scenario = folder.load(
+        "*.uavs[*].protocol.heartbeat_jitter = 100ms\n*.uavs[0].protocol.retries = 5\n"
+        '**.label = "x"\n**.eager = true\n**.launch_interval = 2\n'
+    )
+    expected = {
+        "heartbeat_jitter": 0.1,
+        "label": "x",
+        "eager": True,
+        "launch_interval": 2.0,
+    }
+    assert [node.protocol_parameters for node in scenario.nodes] == [
+        {},
+        {**expected, "retries": 5},
+        expected,
+    ]
+
+
+def test_nodes_of_one_group_may_run_different_protocols(folder: Any) -> None:
+    scenario = folder.load('[X]\n*.uavs[0].protocol.class = "protocols.py:Sensor"\n**.retries = 1\n', "X")
+    assert [node.protocol.__name__ for node in scenario.nodes] == [
+        "Sensor",
+        "Sensor",
+        "Mobile",
+    ]
+    assert [node.protocol_parameters for node in scenario.nodes] == [
+        {},
+        {},
+        {"retries": 1},
+    ]
+
+
+def test_nodes_of_one_file_share_its_classes(folder: Any) -> None:
+    nodes = folder.load().nodes
+    assert nodes[1].protocol is nodes[2].protocol
+    assert issubclass(nodes[1].protocol, nodes[0].protocol)
+
+
+def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None:
+    folder.write(
+        "sub/protocols.py",
+        (folder.path / "protocols.py").read_text() + "\n\nclass Sub(Sensor): pass\n",
+    )
+    folder.write("sub/more.ini", '*.boat.protocol.class = "protocols.py:Sub"\n')
+    assert [node.protocol.__name__ for node in folder.load("include sub/more.ini\n").nodes][-1] == "Sub"
+
+
+@pytest.mark.parametrize(
+    ("added", "message"),
+    [
+        (
+            "*.uavs[*].mobility.speed = 3\n",
+            "*.uavs[*].mobility.speed = 3: `3` has no unit; expected a speed such as 10mps, at least 0mps",
+        ),
+        (
+            "*.uavs[*].mobility.speed = 3m\n",
+            "*.uavs[*].mobility.speed = 3m: `m` is the unit of a length; "
+            "expected a speed such as 10mps, at least 0mps",
+        ),
+        (
+            "**.speed = -3mps\n",
+            "**.speed = -3mps: it is out of range; expected a speed such as 10mps, at least 0mps",
+        ),
+        (
+            "**.power = nan W\n",
+            "**.power = nan W: `nanW` is not finite; expected a power such as 20mW or -85dBm, at least 0W",
+        ),
+        (
+            '**.opMode = "g"\n',
+            '**.opMode = "g": `g` is not known; expected one of "b", "g(erp)", "g(mixed)", "a"',
+        ),
+        (
+            "**.retries = 1.5\n",
+            "**.retries = 1.5: `1.5` is no whole number; expected a whole number",
+        ),
+        (
+            "*.boat.protocol.class = 3\n",
+            '*.boat.protocol.class = 3: it is a number; expected a text in quotes ("...")',
+        ),
+        (
+            '*.boat.protocol.class = "protocol.py:Mobile"\n',
+            '*.boat.protocol.class = "protocol.py:Mobile": there is no file protocol.py; '
+            'expected a protocol as "file.py:Class" or "package.module:Class"; did you mean `protocols.py`?',
+        ),
+        (
+            "*.numBoats = 1\n",
+            "nothing says which protocol boats[0] runs; "
+            'expected `*.boats[*].protocol.class = "file.py:Class"`',
+        ),
+    ],
+)
+def test_errors(folder: Any, added: str, message: str) -> None:
+    assert folder.error(added) == f"test.ini:6: {message}"
+
+
+def test_ten_thousand_nodes_share_what_is_the_same(folder: Any) -> None:
+    scenario = folder.load("*.uavs[3].mobility.speed = 3mps\n**.power = 1mW\n[X]\n*.numUavs = 10000\n", "X")
+    assert len(scenario.nodes) == 10001
+    assert len({id(node.radio) for node in scenario.nodes if node.group == "uavs"}) == 2

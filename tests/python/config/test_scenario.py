@@ -1,0 +1,195 @@
+import pickle
+from typing import Any
+
+import pytest
+
+from gradysim.config import ConfigError, load_scenarios
+from gradysim.config.scenario import CommunicationMediumSpec
+
+
+def test_a_run_holds_what_the_file_says(folder: Any) -> None:
+    scenario = folder.load('[X]\ndescription = "Two UAVs"\nseed-set = 7\nsim-time-limit = 1h 30min\n', "X")
+    assert (scenario.file, scenario.config, scenario.run_number) == (folder.ini, "X", 0)
+    assert (scenario.seed, scenario.description, scenario.sim_time_limit_s) == (
+        7,
+        "Two UAVs",
+        5400.0,
+    )
+
+
+def test_defaults(folder: Any) -> None:
+    scenario = folder.load()
+    assert (scenario.seed, scenario.description, scenario.medium) == (0, "", {})
+    assert scenario.communication_medium == CommunicationMediumSpec(60.0, 0.0, 0.0)
+    assert scenario.reference_coordinates == (0.0, 0.0, 0.0)
+
+
+def test_a_description_needs_no_quotes(folder: Any) -> None:
+    assert folder.load("description = Two UAVs # really\n").description == "Two UAVs"
+
+
+def test_own_section_bases_and_general_in_that_order(folder: Any) -> None:
+    added = "[A]\nextends = B\nseed-set = 1\n[B]\nseed-set = 2\n*.numUavs = 5\n"
+    scenario = folder.load(added, "A")
+    assert (scenario.seed, len(scenario.nodes), scenario.sim_time_limit_s) == (
+        1,
+        6,
+        3600.0,
+    )
+
+
+def test_overrides_come_before_all(folder: Any) -> None:
+    scenario = folder.load("", "General", "*.numUavs=1", "sim-time-limit=10s", "sim-time-limit=20s")
+    assert (len(scenario.nodes), scenario.sim_time_limit_s) == (2, 10.0)
+
+
+def test_a_class_on_the_command_line_needs_no_quotes(folder: Any) -> None:
+    scenario = folder.load("", "General", "*.uavs[*].protocol.class=protocols.py:Sensor")
+    assert [node.protocol.__name__ for node in scenario.nodes] == [
+        "Sensor",
+        "Sensor",
+        "Sensor",
+    ]
+
+
+def test_one_scenario_for_each_run(folder: Any) -> None:
+    folder.load("repeat = 3\n")
+    scenarios = load_scenarios(str(folder.ini))
+    assert [(scenario.run_number, scenario.seed) for scenario in scenarios] == [
+        (0, 0),
+        (1, 1),
+        (2, 2),
+    ]
+    assert scenarios[0].nodes is scenarios[2].nodes
+    assert [scenario.run_number for scenario in load_scenarios(folder.ini, runs="1..2")] == [1, 2]
+
+
+def test_values_may_depend_on_the_run(folder: Any) -> None:
+    folder.load('repeat = 2\nseed-set = 10${runnumber}\n**.label = "${configname}-${repetition}"\n')
+    scenarios = load_scenarios(folder.ini)
+    assert [scenario.seed for scenario in scenarios] == [100, 101]
+    assert [scenario.nodes[1].protocol_parameters["label"] for scenario in scenarios] == [
+        "General-0",
+        "General-1",
+    ]
+    assert scenarios[0].nodes[1].protocol is scenarios[1].nodes[1].protocol
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "field", "value"),
+    [
+        ("typename", '"UnitDiskRadioMedium"', "typename", "UnitDiskRadioMedium"),
+        ("backgroundNoise.power", "-110dBm", "background_noise_w", 1e-14),
+        (
+            "pathLoss.typename",
+            '"BreakpointPathLoss"',
+            "path_loss",
+            "BreakpointPathLoss",
+        ),
+        ("pathLoss.alpha", "2.5", "alpha", 2.5),
+        ("pathLoss.breakpointDistance", "8m", "breakpoint_distance_m", 8.0),
+        ("pathLoss.l01", "40.2dB", "l01_db", 40.2),
+        ("pathLoss.l02", "58.5dB", "l02_db", 58.5),
+        ("pathLoss.alpha1", "2", "alpha1", 2.0),
+        ("pathLoss.alpha2", "3.3", "alpha2", 3.3),
+        (
+            "propagation.typename",
+            '"ConstantSpeedPropagation"',
+            "propagation",
+            "ConstantSpeedPropagation",
+        ),
+    ],
+)
+def test_keys_of_the_medium(folder, key: str, text: str, field: str, value: object) -> None:
+    setting = folder.load(f"*.radioMedium.{key} = {text}\n").medium[field]
+    assert (setting.value, setting.source.line) == (value, 6)
+
+
+def test_prototype_modes_medium(folder: Any) -> None:
+    scenario = folder.load(
+        "*.communicationMedium.transmissionRange = 50m\n*.communicationMedium.delay = 5ms\n"
+        "*.communicationMedium.failureRate = 0.25\n"
+    )
+    assert scenario.communication_medium == CommunicationMediumSpec(50.0, 0.005, 0.25)
+
+
+def test_the_place_on_earth(folder: Any) -> None:
+    scenario = folder.load(
+        "*.coordinateSystem.sceneLatitude = -22.9deg\n*.coordinateSystem.sceneLongitude = -43.2deg\n"
+        "*.coordinateSystem.sceneAltitude = 11m\n"
+    )
+    assert scenario.reference_coordinates == (-22.9, -43.2, 11.0)
+
+
+@pytest.mark.parametrize(
+    ("added", "message"),
+    [
+        (
+            "repeat = 0\n",
+            "repeat = 0: it is out of range; expected a whole number, at least 1 and at most 1000000",
+        ),
+        (
+            "seed-set = 1.5\n",
+            "seed-set = 1.5: `1.5` is no whole number; expected a whole number",
+        ),
+        (
+            "*.uavs[*].mobility.speed = ${v=1,2}mps\n",
+            "*.uavs[*].mobility.speed = ${v=1,2}mps: iteration variables",
+        ),
+        (
+            "**.failureRate = 1.5\n",
+            "**.failureRate = 1.5: it is out of range; expected a plain number, at least 0",
+        ),
+        (
+            "**.sceneLatitude = 91deg\n",
+            "**.sceneLatitude = 91deg: it is out of range; expected an angle such as",
+        ),
+        (
+            "**.pathLoss.alpha = 0\n",
+            "**.pathLoss.alpha = 0: it is out of range; expected a plain number, greater than 0",
+        ),
+        (
+            "**.transmissionRange = inf m\n",
+            "**.transmissionRange = inf m: `infm` is not finite; expected a length",
+        ),
+    ],
+)
+def test_errors(folder: Any, added: str, message: str) -> None:
+    assert folder.error(added).startswith(f"test.ini:6: {message}")
+
+
+@pytest.mark.parametrize("text", ["1", "5m", "0s", "-1s", "inf s", "nan s", "200d", "1h 5"])
+def test_a_time_limit_that_is_none(folder: Any, text: str) -> None:
+    error = folder.error(f"[X]\nsim-time-limit = {text}\n", "X")
+    assert error.startswith(f"test.ini:7: sim-time-limit = {text}: ")
+    assert "expected a time such as 10s, greater than 0s and at most 9223372s" in error
+
+
+def test_a_time_limit_is_needed(folder: Any) -> None:
+    assert folder.error("[X]\nsim-time-limit = default\n", "X") == (
+        "test.ini:6: `X` does not say how long to simulate; expected `sim-time-limit = 1h`"
+    )
+
+
+def test_nodes_are_needed(folder: Any) -> None:
+    folder.write("test.ini", "[General]\nsim-time-limit = 1s\n[X]\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini)
+    assert str(caught.value) == (
+        f"{folder.ini}:1: there are no nodes; "
+        "expected some, such as `*.numUavs = 2` in the configuration that is run (`-c NAME`)"
+    )
+
+
+def test_a_run_that_does_not_exist(folder: Any) -> None:
+    folder.load("repeat = 3\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini, runs="3")
+    assert str(caught.value) == (
+        f"{folder.ini}:6: configuration `General` has no run 3; expected runs 0 to 2 (`repeat = 3`)"
+    )
+
+
+def test_settings_can_be_pickled(folder: Any) -> None:
+    node = folder.load("**.power = 1mW\n").nodes[0]
+    assert pickle.loads(pickle.dumps(node.radio)) == node.radio
