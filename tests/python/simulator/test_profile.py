@@ -1,0 +1,31 @@
+import logging
+
+import pytest
+
+from gradysim.simulator.profile import EventProfile
+
+
+def test_the_report_counts_events_by_context(caplog):
+    profile = EventProfile()
+    for context in ("a", "b", "a"):
+        profile.run((lambda: None, context))
+    profile.report()
+    rows = [line.split()[:2] for line in caplog.text.splitlines()]
+    assert ["a", "2"] in rows
+    assert ["b", "1"] in rows
+
+
+def test_the_report_is_a_warning(caplog):
+    EventProfile().report()
+    assert [record.levelno for record in caplog.records] == [logging.WARNING]
+
+
+def test_a_failing_event_counts_and_fails(caplog):
+    def fail():
+        raise LookupError("broken")
+
+    profile = EventProfile()
+    with pytest.raises(LookupError):
+        profile.run((fail, "a"))
+    profile.report()
+    assert ["a", "1"] in [line.split()[:2] for line in caplog.text.splitlines()]
