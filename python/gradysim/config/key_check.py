@@ -80,7 +80,7 @@ class _ParameterCheck:
     def matches(self, found: Found) -> bool:
         name, rest = found.name_pattern(), found.rest_pattern()
         if name is None:
-            return any(found.pattern.matches(path) for path in self._all_paths())
+            return any(found.pattern.matches(path) for path in self._paths_like(found))
         if rest is None:
             return any(name.matches(group.size_key) for group in self._groups)
         if any(name.matches(module) and rest.matches(below) for module, below in _NETWORK_RESTS):
@@ -116,15 +116,17 @@ class _ParameterCheck:
             self._known[cls, rest.text] = any(map(rest.matches, self._rests[cls]))
         return self._known[cls, rest.text]
 
-    def _all_paths(self) -> Iterator[str]:
+    def _paths_like(self, found: Found) -> Iterator[str]:
+        """All paths but those that the end of the key excludes."""
         yield from (f"{self._network}.{key.path}" for key in NETWORK_KEYS)
         for group in self._groups:
             yield f"{self._network}.{group.size_key}"
             yield f"{self._network}.{group.name}.{GROUP_SIZE.path}"
             if group.size == 0:
                 yield from (f"{self._network}.{group.name}[0].{key.path}" for key in NODE_KEYS)
+        rests = {cls: [rest for rest in all if found.may_end_in(rest)] for cls, all in self._rests.items()}
         for node, cls in self._classes.items():
-            yield from (f"{self._network}.{node}.{rest}" for rest in self._rests[cls])
+            yield from (f"{self._network}.{node}.{rest}" for rest in rests[cls])
 
 
 def _rests_of(cls: type[IProtocol]) -> list[str]:

@@ -152,5 +152,8 @@ SECTION_OPTIONS = ("extends", "abstract")
 IGNORED_OPTIONS = ("network", "result-dir", "experiment-label", "cmdenv-*", "qtenv-*")
 """Options of OMNeT++ that files share with it. `network` is only the name that paths begin with."""
 
+IGNORED_ENDS = ("cmdenv-", "qtenv-")
+"""Options of OMNeT++ that are given per module, such as `**.cmdenv-log-level`."""
+
 IGNORED_MODULES = ("visualizer",)
 """Names below the network whose parameters are OMNeT++'s alone."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from gradysim.config.error import BadValue, ConfigError
-from gradysim.config.keys import IGNORED_MODULES, IGNORED_OPTIONS
+from gradysim.config.keys import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
 from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.reader import Entry
 
@@ -38,6 +38,11 @@ class Found:
     def is_default(self) -> bool:
         """Whether the entry says to look no further and to leave the default."""
         return self.entry.text == "default"
+
+    def may_end_in(self, rest: str) -> bool:
+        """Whether paths that end in `rest` can match at all, judged by the last part; spares most matches."""
+        tail = self.pattern.tail
+        return tail is None or not rest or tail.matches(rest.rpartition(".")[2])
 
     def name_pattern(self) -> Pattern | None:
         """The part that names something below the network, if it is certain."""
@@ -116,7 +121,7 @@ class Lookup:
         """The entries that can match `NETWORK.<a name>.<rest>`, or `NETWORK.<a name>` for an empty rest."""
         candidates = self._candidates.get(rest)
         if candidates is None:
-            found = list(self._uncertain)
+            found = [uncertain for uncertain in self._uncertain if uncertain.may_end_in(rest)]
             for pattern, entries in self._by_rest.values():
                 if pattern.matches(rest) if rest and pattern else not (rest or pattern):
                     found += entries
@@ -137,9 +142,9 @@ def is_option(entry: Entry) -> bool:
 def is_ignored(entry: Entry) -> bool:
     """Whether an entry is OMNeT++'s alone, so that its value is not even looked at."""
     parts = entry.key.split(".")
-    if any(fnmatchcase(parts[-1], option) for option in IGNORED_OPTIONS):  # also **.cmdenv-log-level
-        return True
-    return len(parts) > 2 and parts[1] in IGNORED_MODULES
+    if len(parts) == 1:
+        return any(fnmatchcase(entry.key, option) for option in IGNORED_OPTIONS)
+    return parts[-1].startswith(IGNORED_ENDS) or (len(parts) > 2 and parts[1] in IGNORED_MODULES)
 
 
 def _compile(order: int, rank: int, entry: Entry) -> Found:

@@ -45,6 +45,18 @@ class Pattern:
     def _regex(self) -> re.Pattern[str]:
         return re.compile("".join(token.regex for token in self.tokens), re.DOTALL)
 
+    @cached_property
+    def tail(self) -> "Pattern | None":
+        """The part after the last dot, or None if `**` makes it uncertain."""
+        tokens: list[Token] = []
+        for token in reversed(self.tokens):
+            if token.literal == ".":
+                break
+            if token.spans_dots:
+                return None
+            tokens.insert(0, token)
+        return Pattern(tuple(tokens))
+
     def matches(self, path: str) -> bool:
         """Whether the whole of `path` matches."""
         return self._regex.fullmatch(path) is not None

@@ -1,5 +1,6 @@
 """Gives a protocol class the parameters of one node."""
 
+import dataclasses
 import types
 from collections.abc import Mapping
 from functools import lru_cache
@@ -25,4 +26,15 @@ def _parametrized(cls: type[IProtocol], parameters: tuple[tuple[str, type, objec
         namespace.update({name: value for name, _, value in parameters})
         namespace.update(__module__=cls.__module__, __qualname__=cls.__qualname__, __doc__=cls.__doc__)
 
-    return types.new_class(cls.__name__, (cls,), exec_body=fill)
+    subclass: type[IProtocol] = types.new_class(cls.__name__, (cls,), exec_body=fill)
+    made_by = getattr(cls, "__dataclass_params__", None)
+    if made_by is not None and made_by.init:
+        # The constructor of a data class holds the defaults of its fields, so it has to be made again.
+        subclass.__annotations__ = {
+            field.name: field.type
+            for field in dataclasses.fields(cls)  # type: ignore[arg-type]
+            if any(field.name == name for name, _, _ in parameters)
+        }
+        options = {name: getattr(made_by, name) for name in ("eq", "order", "unsafe_hash", "frozen")}
+        subclass = dataclasses.dataclass(**options)(subclass)
+    return subclass

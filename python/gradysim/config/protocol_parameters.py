@@ -7,10 +7,20 @@ from functools import lru_cache
 from gradysim.config.kinds import Kind, boolean, integer, si_number, text
 from gradysim.protocol.interface import IProtocol
 
+
+def _annotations(cls: type) -> dict[str, object]:
+    try:
+        return dict(inspect.get_annotations(cls))
+    except NameError:  # names that exist for type checkers only; Python 3.14 looks them up here
+        return {}
+
+
 _FLOAT = si_number()
 _INTEGER = integer(at_most=None)
 _BOOLEAN = boolean()
 _TEXT = text()
+_CONTRACT = {*dir(IProtocol), *_annotations(IProtocol)}
+"""Names that mean something to every environment."""
 
 
 @lru_cache(maxsize=1024)
@@ -25,7 +35,7 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
             continue
         annotations = _annotations(base)
         for name, default in vars(base).items():
-            if name.startswith("_") or hasattr(IProtocol, name) or name == "provider":
+            if name.startswith("_") or name in _CONTRACT:
                 continue
             kind = _kind_of(default, annotations.get(name))
             if kind is not None:
@@ -48,10 +58,3 @@ def _kind_of(default: object, annotation: object) -> Kind | None:
 def _mentions_float(annotation: object) -> bool:
     text_of_it = annotation.__name__ if isinstance(annotation, type) else str(annotation)
     return re.search(r"\bfloat\b", text_of_it) is not None
-
-
-def _annotations(cls: type) -> dict[str, object]:
-    try:
-        return dict(inspect.get_annotations(cls))
-    except NameError:  # names that exist for type checkers only; Python 3.14 looks them up here
-        return {}

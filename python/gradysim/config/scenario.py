@@ -106,48 +106,48 @@ def load_scenarios(
         if is_option(entry):
             check_option(entry)
 
-    section_source = sections[0].source
-    options = _options(_substituted(ranked, config, 0))
-    repeat = options.get("repeat")
+    source = sections[0].source
+    only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
+    repeat = _options(_substituted(only_options, config, 0)).get("repeat")
     count = int(read_scalar(repeat, OPTIONS["repeat"])) if repeat else 1
-    numbers = select_runs(runs, count, config, repeat.source if repeat else section_source)
+    numbers = select_runs(runs, count, config, repeat.source if repeat else source)
 
     loader = ProtocolLoader()
-    shared: _Network | None = None
-    varies = any(
-        depends_on_run(entry) for _, entry in ranked if not is_option(entry) and not is_ignored(entry)
-    )
+    network: _Network | None = None
+    parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
+    varies = any(map(depends_on_run, parameters))
+    is_one_of_several = config_names(ini) != [config]
     scenarios = []
     for number in numbers:
-        entries = _substituted(ranked, config, number)
-        options = _options(entries)
-        sim_time_limit = options.get("sim-time-limit")
-        if shared is None or varies:
-            shared = _network(
-                entries, loader, ini_is_split=config_names(ini) != [config], source=section_source
-            )
-        if sim_time_limit is None:
-            raise ConfigError(
-                f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`",
-                section_source,
-            )
-        seed = options.get("seed-set")
-        description = options.get("description")
-        scenarios.append(
-            Scenario(
-                file=file,
-                config=config,
-                run_number=number,
-                seed=int(read_scalar(seed, OPTIONS["seed-set"])) if seed else number,
-                description=_description(description) if description else "",
-                sim_time_limit_s=float(read_scalar(sim_time_limit, OPTIONS["sim-time-limit"])),
-                nodes=shared.nodes,
-                medium=shared.medium,
-                communication_medium=shared.communication_medium,
-                reference_coordinates=shared.reference_coordinates,
-            )
-        )
+        options = _options(_substituted(only_options, config, number))
+        if network is None or varies:
+            network = _network(_substituted(ranked, config, number), loader, is_one_of_several, source)
+        scenarios.append(_scenario(file, config, number, options, network, source))
     return scenarios
+
+
+def _scenario(
+    file: Path, config: str, number: int, options: Mapping[str, Entry], network: _Network, source: Source
+) -> Scenario:
+    sim_time_limit = options.get("sim-time-limit")
+    if sim_time_limit is None:
+        raise ConfigError(
+            f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`", source
+        )
+    seed = options.get("seed-set")
+    description = options.get("description")
+    return Scenario(
+        file=file,
+        config=config,
+        run_number=number,
+        seed=int(read_scalar(seed, OPTIONS["seed-set"])) if seed else number,
+        description=_description(description) if description else "",
+        sim_time_limit_s=float(read_scalar(sim_time_limit, OPTIONS["sim-time-limit"])),
+        nodes=network.nodes,
+        medium=network.medium,
+        communication_medium=network.communication_medium,
+        reference_coordinates=network.reference_coordinates,
+    )
 
 
 def _substituted(ranked: list[tuple[int, Entry]], config: str, run_number: int) -> list[tuple[int, Entry]]:
@@ -170,7 +170,7 @@ def _description(entry: Entry) -> str:
 
 
 def _network(
-    ranked: list[tuple[int, Entry]], loader: ProtocolLoader, ini_is_split: bool, source: Source
+    ranked: list[tuple[int, Entry]], loader: ProtocolLoader, is_one_of_several: bool, source: Source
 ) -> _Network:
     lookup = Lookup(ranked)
     settings = SettingReader()
@@ -179,7 +179,7 @@ def _network(
     classes = load_classes(lookup, groups, settings, loader)
     check_parameters(lookup, groups, classes)
     if not classes:
-        hint = " in the configuration that is run (`-c NAME`)" if ini_is_split else ""
+        hint = " in the configuration that is run (`-c NAME`)" if is_one_of_several else ""
         raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{hint}", source)
 
     found = {

@@ -101,7 +101,7 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
         ),
     ],
 )
-def test_says_what_was_expected_and_the_nearest_key(folder, key: str, message: str) -> None:
+def test_says_what_was_expected_and_the_nearest_key(folder: Any, key: str, message: str) -> None:
     assert folder.error(f"{key} = 1\n") == f"test.ini:6: {message}"
 
 

@@ -127,7 +127,9 @@ def test_only_what_was_written_is_set(folder: Any) -> None:
         ),
     ],
 )
-def test_keys_reach_their_fields(folder, key: str, text: str, struct: str, field: str, value: object) -> None:
+def test_keys_reach_their_fields(
+    folder: Any, key: str, text: str, struct: str, field: str, value: object
+) -> None:
     node = folder.load(f"*.uavs[*].{key} = {text}\n").nodes[1]
     setting = getattr(node, struct)[field]
     assert (
@@ -272,3 +274,9 @@ def test_ten_thousand_nodes_share_what_is_the_same(folder: Any) -> None:
     scenario = folder.load("*.uavs[3].mobility.speed = 3mps\n**.power = 1mW\n[X]\n*.numUavs = 10000\n", "X")
     assert len(scenario.nodes) == 10001
     assert len({id(node.radio) for node in scenario.nodes if node.group == "uavs"}) == 2
+
+
+def test_a_thousand_keys_of_any_kind_take_no_time(folder: Any) -> None:
+    keys = "".join(f"**.uavs[{index}].mobility.initialX = {index}m\n" for index in range(1000))
+    scenario = folder.load(keys + "[X]\n*.numUavs = 1000\n*.numSmall = 0\n", "X")
+    assert [node.initial_position[0] for node in scenario.nodes[1:]] == list(range(1000))

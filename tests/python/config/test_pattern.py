@@ -158,3 +158,12 @@ def test_the_parts_of_a_split_match_the_parts_of_a_path(pattern: str, path: str)
 def test_knows_what_is_literal(pattern: str, literal: str | None, prefix: str) -> None:
     compiled = compile_pattern(pattern)
     assert (compiled.literal, compiled.literal_prefix()) == (literal, prefix)
+
+
+@pytest.mark.parametrize(
+    ("pattern", "tail"),
+    [("**.power", "power"), ("**.x.p*", "p*"), ("**.x.**", None), ("**", None), ("a", "a")],
+)
+def test_knows_its_last_part(pattern: str, tail: str | None) -> None:
+    found = compile_pattern(pattern).tail
+    assert (None if found is None else found.text) == tail

@@ -1,3 +1,5 @@
+from dataclasses import dataclass, field
+
 from gradysim.config.protocol_class import parametrize
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
@@ -49,3 +51,17 @@ def test_values_of_other_types_give_another_class() -> None:
 
 def test_no_parameters_give_the_class() -> None:
     assert parametrize(Mobile, {}) is Mobile
+
+
+@dataclass
+class FlyingDataClass(Mobile):
+    first: int = 1
+    second: int = 2
+    third: list[int] = field(default_factory=list)
+
+
+def test_parameters_hold_in_the_constructor_of_a_data_class() -> None:
+    protocol = parametrize(FlyingDataClass, {"second": 5, "interval": 2.5})()
+    assert isinstance(protocol, FlyingDataClass)
+    assert (protocol.first, protocol.second, protocol.third, protocol.interval) == (1, 5, [], 2.5)
+    assert FlyingDataClass().second == 2

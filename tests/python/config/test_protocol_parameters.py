@@ -22,6 +22,7 @@ class Mobile(Base):
     whole: int = 3
     text: Final = "x"
     flag = False
+    register = 1  # the name of a method of all abstract classes, but of no protocol
     replaced = "now a text"  # type: ignore[assignment]
     hidden = None  # type: ignore[assignment]
     _private = 1
@@ -51,6 +52,7 @@ def test_are_public_plain_class_attributes() -> None:
         "whole",
         "text",
         "flag",
+        "register",
     }
 
 

@@ -100,7 +100,7 @@ def test_values_may_depend_on_the_run(folder: Any) -> None:
         ),
     ],
 )
-def test_keys_of_the_medium(folder, key: str, text: str, field: str, value: object) -> None:
+def test_keys_of_the_medium(folder: Any, key: str, text: str, field: str, value: object) -> None:
     setting = folder.load(f"*.radioMedium.{key} = {text}\n").medium[field]
     assert (setting.value, setting.source.line) == (value, 6)
 
