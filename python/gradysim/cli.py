@@ -12,13 +12,13 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, TextIO
 
 from cyclopts import App, CycloptsError, Parameter
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
-    from gradysim.report.supervised_run import Run
+    from gradysim.report.supervised_run import Outcome, Run
     from gradysim.results.run_result import RunResult
 
 OK, FAILED, MISTAKE, INTERRUPTED = 0, 1, 2, 130
@@ -86,9 +86,7 @@ def run(
     ] = None,
     as_json: Annotated[
         bool,
-        Parameter(
-            name="--json", negative="", help="Print one JSON object per run, one per line, no more."
-        ),
+        Parameter(name="--json", negative="", help="Print one JSON object per run, one per line, no more."),
     ] = False,
     quiet: Annotated[bool, Parameter(negative="", help="No progress bar.")] = False,
 ) -> int:
@@ -97,19 +95,27 @@ def run(
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report.interrupt import StopOnInterrupt
 
-    try:
-        if result_dir is not None:
-            result_dir.mkdir(parents=True, exist_ok=True)
-        scenarios = load(file, config, runs, settings)
-        with StopOnInterrupt() as interrupt:
+    output = sys.stdout
+    # What protocols print, also when they are imported, must not get between the JSON objects.
+    with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
+        try:
+            if result_dir is not None:
+                result_dir.mkdir(parents=True, exist_ok=True)
+            scenarios = load(file, config, runs, settings)
+            check, build = simulator(mode)
             for scenario in scenarios:
-                code = run_one(
-                    builder(mode), scenario, interrupt.should_stop, result_dir, as_json=as_json, quiet=quiet
-                )
-                if code != OK:
-                    return code
-    except (ConfigError, CompiledPartMissingError, OSError) as mistake:
-        return say_mistake(mistake)
+                check(scenario)
+            with StopOnInterrupt() as interrupt:
+                for scenario in scenarios:
+                    if interrupt.should_stop():  # pressed between two runs
+                        return INTERRUPTED
+                    bar = not quiet and not as_json
+                    outcome = run_one(build, scenario, interrupt.should_stop, bar=bar)
+                    code = report(outcome, output, result_dir, as_json=as_json)
+                    if code != OK:
+                        return code
+        except (ConfigError, CompiledPartMissingError, OSError) as mistake:
+            return say_mistake(mistake)
     return OK
 
 
@@ -139,56 +145,55 @@ def load(file: Path, config: str, runs: str | None, settings: Sequence[str]) -> 
     return load_scenarios(file, config, runs, settings)
 
 
-def builder(mode: Mode) -> "Callable[[Scenario], Run]":
-    """Return what builds a run in `mode`; only that mode's simulator is imported."""
+def simulator(mode: Mode) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":
+    """Return what checks a scenario for `mode` and what builds its run; the other mode is not imported."""
     if mode == "prototype":
         from gradysim.prototype.run import PrototypeRun
+        from gradysim.prototype.simulation import check_scenario
 
-        return PrototypeRun
+        return check_scenario, PrototypeRun
+    from gradysim.integrated.network import check_scenario
     from gradysim.integrated.run import IntegratedRun
 
-    return IntegratedRun
+    return check_scenario, IntegratedRun
 
 
 def run_one(
-    build: "Callable[[Scenario], Run]",
-    scenario: "Scenario",
-    should_stop: Callable[[], bool],
-    result_dir: Path | None,
-    *,
-    as_json: bool,
-    quiet: bool,
-) -> int:
-    """Carry out one run, show and write its result, and return the exit code."""
+    build: "Callable[[Scenario], Run]", scenario: "Scenario", should_stop: Callable[[], bool], *, bar: bool
+) -> "Outcome":
+    """Carry out one run, with a progress bar if `bar` and the error output is a terminal."""
     from rich.console import Console
 
-    from gradysim.report.failure import print_failure
     from gradysim.report.supervised_run import carry_out
+
+    console = Console(stderr=True) if bar and sys.stderr.isatty() else None
+    return carry_out(build, scenario, should_stop, console)
+
+
+def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool) -> int:
+    """Show and write what came out of a run, and return the exit code."""
+    from gradysim.report.failure import print_failure
     from gradysim.results.run_file import write_run_file
 
-    bar = Console(stderr=True) if sys.stderr.isatty() and not quiet and not as_json else None
-    # What protocols print must not get between the JSON objects.
-    with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
-        outcome = carry_out(build, scenario, should_stop, bar)
     if outcome.failure is not None:
         print_failure(outcome.failure, sys.stderr)
     if outcome.result is not None:
-        show(outcome.result, as_json=as_json)
+        show(outcome.result, output, as_json=as_json)
         if result_dir is not None:
-            path = write_run_file(outcome.result, result_dir)
-            print(f"written to {path}", file=sys.stderr if as_json else sys.stdout)
+            print(f"written to {write_run_file(outcome.result, result_dir)}")
     if outcome.failure is not None:
         return FAILED
     return INTERRUPTED if outcome.interrupted else OK
 
 
-def show(result: "RunResult", *, as_json: bool) -> None:
+def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
     """Print a result: a line of JSON, or the summary for people."""
     if as_json:
-        print(json.dumps(result.to_json_object()), flush=True)
+        print(json.dumps(result.to_json_object()), file=output, flush=True)
         return
     from rich.console import Console
 
     from gradysim.report.summary import print_summary
 
-    print_summary(result, Console())
+    print_summary(result, Console(file=output))
+    print(file=output)

@@ -22,8 +22,25 @@ def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
 
     Raises ConfigError, with the place in the .ini file, when a value is outside the engine's range.
     """
-    network = load_netsim().Network(medium_config(scenario), scenario.seed)
-    return network, tuple(network.add_node(node_config(spec)) for spec in scenario.nodes)
+    config = medium_config(scenario)
+    with errors_at(scenario.medium):
+        network: Network = load_netsim().Network(config, scenario.seed)
+    return network, tuple(add_node(network, spec) for spec in scenario.nodes)
+
+
+def check_scenario(scenario: Scenario) -> None:
+    """Raise ConfigError, with the place in the .ini file, when a value is outside the engine's range.
+
+    Building the network does the same check; this is for who wants to know before other runs are run.
+    """
+    build_network(scenario)
+
+
+def add_node(network: "Network", spec: NodeSpec) -> "Node":
+    """Add one node to `network`; what only the whole configuration shows to be wrong is found now."""
+    config = node_config(spec)
+    with errors_at({**spec.radio, **spec.mac, **spec.mobility}):
+        return network.add_node(config)
 
 
 def medium_config(scenario: Scenario) -> "MediumConfig":
@@ -62,13 +79,13 @@ def set_fields(config: object, settings: Mapping[str, Setting]) -> None:
 
 @contextmanager
 def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
-    """Turn an error of the engine's check into a ConfigError at the setting whose field its text names."""
+    """Turn an error of the engine's check into a ConfigError, at the setting whose field its text names."""
     try:
         yield
     except ValueError as error:  # the engine's ConfigError is one
         setting = named_in(str(error), settings)
         if setting is None:
-            raise
+            raise ConfigError(str(error)) from error
         raise ConfigError.at(setting.source, str(error)) from error
 
 

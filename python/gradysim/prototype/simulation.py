@@ -17,19 +17,34 @@ def build_simulation(scenario: Scenario) -> tuple[Simulator, CountedCommunicatio
     raises.
     """
     communication = CountedCommunication(communication_medium(scenario))
-    mobility = MasslessMobilityHandler(
-        MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
-    )
     builder = SimulationBuilder(
         SimulationConfiguration(
             duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
         )
     )
-    builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
+    builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility_handler(scenario))
     for spec in scenario.nodes:
-        configure_mobility(mobility, spec)
         builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
     return builder.build(), communication
+
+
+def check_scenario(scenario: Scenario) -> None:
+    """Raise ConfigError, with the place in the .ini file, when a value is outside the simulator's range.
+
+    Building the simulation does the same check; this is for who wants to know before other runs are run.
+    """
+    communication_medium(scenario)
+    mobility_handler(scenario)
+
+
+def mobility_handler(scenario: Scenario) -> MasslessMobilityHandler:
+    """Return what moves the nodes. Raises ConfigError when a value is outside its range."""
+    mobility = MasslessMobilityHandler(
+        MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
+    )
+    for spec in scenario.nodes:
+        configure_mobility(mobility, spec)
+    return mobility
 
 
 def communication_medium(scenario: Scenario) -> CommunicationMedium:

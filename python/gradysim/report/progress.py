@@ -6,7 +6,14 @@ from typing import Self
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
+from rich.table import Column
 from rich.text import Text
+
+MIN_BAR_WIDTH, MAX_BAR_WIDTH = 4, 40
+"""Columns of the bar itself."""
+
+TEXT_WIDTH = 76
+"""Columns that the texts beside the bar may need."""
 
 
 class SimulatedTimeColumn(ProgressColumn):
@@ -42,11 +49,12 @@ class RunProgress:
     def __init__(self, console: Console, title: str, limit_s: float) -> None:
         """Prepare a bar for a run of `limit_s` simulated seconds, which may be infinite."""
         self._bar = Progress(
-            TextColumn("{task.description}", markup=False),
-            BarColumn(),
-            SimulatedTimeColumn(),
-            SpeedColumn(),
+            TextColumn("{task.description}", markup=False, table_column=Column(no_wrap=True)),
+            BarColumn(max(MIN_BAR_WIDTH, min(MAX_BAR_WIDTH, console.width - TEXT_WIDTH))),
+            SimulatedTimeColumn(table_column=Column(no_wrap=True)),
+            SpeedColumn(table_column=Column(no_wrap=True)),
             TimeRemainingColumn(),
+            TextColumn("left"),
             console=console,
             auto_refresh=False,
             transient=True,

@@ -76,6 +76,13 @@ sim-time-limit = 2500h
 [Config Unmakeable]
 *.uavs[*].protocol.class = "protocol.py:Unmakeable"
 
+[Config Chatty]
+*.uavs[*].protocol.class = "chatty.py:Talker"
+
+[Config LateMistake]
+*.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 20000 * ${runnumber}
+*.uavs[*].mobility.telemetryInterval = ${runnumber}ms
+
 [Config WrongKey]
 *.uavs[*].mobility.sped = 3mps
 """
@@ -97,6 +104,7 @@ def environment():
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     (tmp_path / "protocol.py").write_text(PROTOCOL, encoding="utf-8")
+    (tmp_path / "chatty.py").write_text(PROTOCOL + "print('printed by a module')", encoding="utf-8")
     (tmp_path / "test.ini").write_text(INI, encoding="utf-8")
     return tmp_path
 
@@ -204,10 +212,11 @@ def test_json_has_the_keys_that_scripts_rely_on(gradysim, mode):
     assert run["nodes"][0]["tracked_variables"] == {"said": 10}
 
 
-def test_what_protocols_print_is_kept_out_of_the_json(gradysim):
-    done = gradysim("run", "test.ini", "--mode", "prototype", "--json", "-r", "0")
+@pytest.mark.parametrize("origin", ["protocol", "module"])
+def test_what_protocols_print_is_kept_out_of_the_json(gradysim, origin):
+    done = gradysim("run", "test.ini", "-c", "Chatty", "--mode", "prototype", "--json", "-r", "0")
     assert len(done.stdout.splitlines()) == 1
-    assert "printed by a protocol" in done.stderr
+    assert f"printed by a {origin}" in done.stderr
 
 
 def test_set_comes_before_the_file(gradysim):
@@ -291,10 +300,17 @@ def test_a_wrong_key_is_named_with_its_place(gradysim):
 
 @compiled
 def test_a_value_that_the_engine_refuses_is_named_with_its_place(gradysim):
-    done = gradysim("run", "test.ini", "--set", "*.uavs[*].wlan[*].radio.transmitter.power = -1mW")
+    done = gradysim("run", "test.ini", "--set", "*.uavs[*].wlan[*].bitrate = 7Mbps")
     assert done.returncode == 2
-    assert "power" in done.stderr
+    assert "--set *.uavs[*].wlan[*].bitrate=7Mbps" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@both_modes
+def test_a_mistake_in_a_later_run_is_found_before_the_first_one(gradysim, mode):
+    done = gradysim("run", "test.ini", "-c", "LateMistake", "--mode", mode)
+    assert done.returncode == 2
+    assert done.stdout == ""
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,15 @@ import pytest
 
 from gradysim.config.error import ConfigError
 from gradysim.config.scenario import Setting, Source
-from gradysim.integrated.network import build_network, medium_config, named_in, node_config, set_fields
+from gradysim.integrated.network import (
+    build_network,
+    check_scenario,
+    errors_at,
+    medium_config,
+    named_in,
+    node_config,
+    set_fields,
+)
 
 
 def setting(value, key="key"):
@@ -39,15 +47,22 @@ def test_settings_of_the_medium(make_scenario):
 @pytest.mark.parametrize(
     "text",
     [
-        "*.uavs[*].wlan[*].radio.transmitter.power = -1mW",
+        "*.uavs[*].wlan[*].mac.mtu = 10MB",
         "*.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 40000",
-        "*.radioMedium.pathLoss.alpha = -1",
+        "*.uavs[*].wlan[*].bitrate = 7Mbps",
     ],
 )
 def test_what_the_engine_refuses_is_an_error_at_its_setting(make_scenario, text):
+    scenario = make_scenario("class Tested(Quiet): pass", text)
     with pytest.raises(ConfigError) as error:
-        build_network(make_scenario("class Tested(Quiet): pass", "**.bitrate = 6Mbps", text))
+        check_scenario(scenario)
     assert error.value.key == text.partition(" = ")[0]
+
+
+def test_an_error_that_names_no_setting_is_one_without_a_place():
+    with pytest.raises(ConfigError) as error, errors_at({"power_w": setting(0)}):
+        raise ValueError("nothing works")
+    assert str(error.value) == "nothing works"
 
 
 def test_a_value_of_a_type_that_the_field_cannot_hold_is_an_error_at_its_setting():

@@ -2,6 +2,7 @@ import gc
 import random
 import traceback
 import weakref
+from contextlib import suppress
 
 import pytest
 
@@ -114,6 +115,15 @@ def test_a_keyboard_interrupt_stops_likewise(make_scenario):
     assert result.interrupted
     assert result.sim_time_s == pytest.approx(0.1, abs=0.01)
     assert result.nodes[0].tracked_variables["finished"]
+
+
+@pytest.mark.parametrize("callback", ["initialize", "finish"])
+def test_a_keyboard_interrupt_before_or_after_the_events(make_scenario, callback):
+    scenario = make_scenario(f"class Tested(Quiet):\n    def {callback}(self): raise KeyboardInterrupt")
+    interrupted = IntegratedRun(scenario)
+    with suppress(KeyboardInterrupt):  # that of `finish` comes through: there is nothing left to do
+        interrupted.execute()
+    assert interrupted.result().interrupted
 
 
 def test_an_exception_in_a_protocol_comes_out_with_its_place(make_scenario):

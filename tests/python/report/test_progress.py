@@ -7,9 +7,9 @@ from rich.console import Console
 from gradysim.report.progress import RunProgress
 
 
-def shown(limit_s, *times):
+def shown(limit_s, *times, width=120):
     text = StringIO()
-    console = Console(file=text, force_terminal=True, width=120, color_system=None)
+    console = Console(file=text, force_terminal=True, width=width, color_system=None)
     with RunProgress(console, "ZigZag5 run [0]", limit_s) as bar:
         for time in times:
             bar.update(time)
@@ -35,6 +35,11 @@ def test_a_run_without_a_limit(limit_s):
     text = shown(limit_s, 5.0)
     assert "5 s" in text
     assert " of " not in text
+
+
+def test_it_fits_into_one_line_of_a_narrow_terminal():
+    text = shown(28_800.0, 1.0, 27_000.0, 28_000.0, width=80)
+    assert text.count("\n") == 1
 
 
 def test_the_bar_is_gone_at_the_end():
