@@ -1,0 +1,225 @@
+import math
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.protocol.messages.communication import (
+    BroadcastMessageCommand,
+    CommunicationCommand,
+    CommunicationCommandType,
+    SendMessageCommand,
+)
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.communication import (
+    CommunicationException,
+    CommunicationHandler,
+    CommunicationMedium,
+    can_transmit,
+)
+
+
+@pytest.fixture
+def network(world):
+    """Make a handler with nodes 0, 1, ... at the given x."""
+
+    def make(medium=None, xs=(0, 50, 70)):
+        handler = CommunicationHandler(medium) if medium else CommunicationHandler()
+        handler.inject(world.loop)
+        return handler, [world.node(number, (x, 0, 0), handler) for number, x in enumerate(xs)]
+
+    return make
+
+
+def received(nodes):
+    return [node.protocol_encapsulator.calls for node in nodes]
+
+
+def test_the_label():
+    assert CommunicationHandler.get_label() == "communication"
+
+
+def test_the_default_medium_is_the_published_one():
+    expected = CommunicationMedium(transmission_range=60, delay=0, failure_rate=0)
+    assert CommunicationHandler().default_medium == CommunicationMedium() == expected
+
+
+def test_a_broadcast_reaches_all_others_in_range(world, network):
+    handler, nodes = network()
+    handler.handle_command(BroadcastMessageCommand("hi"), nodes[0])
+    world.run()
+    assert received(nodes) == [[], [(0, "hi")], []]
+
+
+def test_a_message_to_one_reaches_that_one(world, network):
+    handler, nodes = network()
+    handler.handle_command(SendMessageCommand("hi", 2), nodes[1])
+    world.run()
+    assert received(nodes) == [[], [], [(0, "hi")]]
+
+
+def test_a_message_to_one_out_of_range_is_lost(world, network):
+    handler, nodes = network()
+    handler.handle_command(SendMessageCommand("hi", 2), nodes[0])
+    assert world.run() == 0
+
+
+def test_the_range_is_inclusive(world, network):
+    handler, nodes = network(CommunicationMedium(transmission_range=50))
+    handler.handle_command(BroadcastMessageCommand("hi"), nodes[0])
+    world.run()
+    assert received(nodes) == [[], [(0, "hi")], []]
+
+
+def test_the_delay_is_that_of_the_medium(world, network):
+    handler, nodes = network(CommunicationMedium(delay=1.5))
+    handler.handle_command(BroadcastMessageCommand("hi"), nodes[0])
+    world.run()
+    assert received(nodes)[1] == [(1.5, "hi")]
+
+
+def test_who_is_in_range_is_decided_at_the_instant_of_sending(world, network):
+    handler, nodes = network(CommunicationMedium(delay=1))
+    handler.handle_command(BroadcastMessageCommand("hi"), nodes[0])
+    nodes[1].position = (1000, 0, 0)
+    nodes[2].position = (0, 0, 0)
+    world.run()
+    assert received(nodes) == [[], [(1, "hi")], []]
+
+
+def test_a_command_can_have_a_medium_of_its_own(world, network):
+    handler, nodes = network()
+    handler.handle_command(BroadcastMessageCommand("hi"), nodes[0], CommunicationMedium(1000))
+    world.run()
+    assert received(nodes) == [[], [(0, "hi")], [(0, "hi")]]
+
+
+def test_messages_of_one_instant_arrive_in_the_order_of_sending(world, network):
+    handler, nodes = network(xs=(0, 0, 0))
+    for text in "abc":
+        handler.handle_command(BroadcastMessageCommand(text), nodes[0])
+    world.run()
+    assert [message for _, message in received(nodes)[1]] == ["a", "b", "c"]
+
+
+def test_a_failure_rate_of_one_loses_everything(world, network):
+    handler, nodes = network(CommunicationMedium(failure_rate=1))
+    for _ in range(50):
+        handler.handle_command(BroadcastMessageCommand("hi"), nodes[0])
+    assert world.run() == 0
+
+
+def test_the_failure_rate_is_the_share_of_lost_messages(world, network):
+    handler, nodes = network(CommunicationMedium(failure_rate=0.3))
+    for _ in range(5000):
+        handler.handle_command(SendMessageCommand("hi", 1), nodes[0])
+    # Four standard deviations of a binomial with n = 5000, p = 0.7.
+    assert world.run() / 5000 == pytest.approx(0.7, abs=4 * math.sqrt(0.7 * 0.3 / 5000))
+
+
+def test_the_losses_follow_from_the_seed(world):
+    def losses(seed):
+        handler = CommunicationHandler(CommunicationMedium(failure_rate=0.5))
+        handler.inject(EventLoop())
+        nodes = [world.node(number) for number in range(2)]
+        for node in nodes:
+            node.seed = seed
+            handler.register_node(node)
+        pending = []
+        for _ in range(64):
+            handler.handle_command(SendMessageCommand("hi", 1), nodes[0])
+            pending.append(len(handler._event_loop))
+        return pending
+
+    assert losses(1) == losses(1) != losses(2)
+
+
+def test_another_node_does_not_change_the_losses_of_the_first_ones(world):
+    def heard(count):
+        handler = CommunicationHandler(CommunicationMedium(failure_rate=0.5))
+        loop = EventLoop()
+        handler.inject(loop)
+        nodes = [world.node(number, handler=handler) for number in range(count)]
+        for number in range(64):
+            handler.handle_command(BroadcastMessageCommand(str(number)), nodes[0])
+        while len(loop):
+            loop.pop_event().callback()
+        return [message for _, message in nodes[1].protocol_encapsulator.calls]
+
+    assert heard(2) == heard(5)
+
+
+@pytest.mark.parametrize(
+    ("command", "text"),
+    [
+        (SendMessageCommand("hi", 0), "itself"),
+        (SendMessageCommand("hi", 9), "node 9, which does not exist: there are 3 nodes, 0 to 2"),
+        (SendMessageCommand("hi", None), "without a destination"),
+        (CommunicationCommand(CommunicationCommandType.SEND, "hi"), "without a destination"),
+        (CommunicationCommand(7, "hi"), "unknown communication command: 7"),
+        (BroadcastMessageCommand(b"hi"), "text only, got a bytes"),
+        (BroadcastMessageCommand({"a": 1}), "text only, got a dict"),
+    ],
+)
+def test_a_command_that_makes_no_sense_is_refused(network, command, text):
+    handler, nodes = network()
+    with pytest.raises(CommunicationException, match=text):
+        handler.handle_command(command, nodes[0])
+
+
+def test_a_stranger_is_refused(world, network):
+    handler, _ = network()
+    with pytest.raises(CommunicationException, match="node 7 is not registered"):
+        handler.handle_command(BroadcastMessageCommand("hi"), world.node(7))
+
+
+def test_nodes_come_after_the_event_loop(world):
+    with pytest.raises(CommunicationException, match="event loop"):
+        world.node(0, handler=CommunicationHandler())
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"transmission_range": -1},
+        {"transmission_range": math.nan},
+        {"delay": -0.1},
+        {"delay": math.inf},
+        {"failure_rate": -0.1},
+        {"failure_rate": 1.1},
+        {"failure_rate": math.nan},
+    ],
+)
+def test_a_wrong_medium_is_refused(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        CommunicationMedium(**wrong)
+
+
+coordinates = st.floats(-100, 100)
+positions = st.tuples(coordinates, coordinates, coordinates)
+
+
+@given(source=positions, destination=positions, reach=st.floats(0, 200))
+def test_the_handler_delivers_what_can_be_transmitted(new_world, source, destination, reach):
+    world = new_world()
+    medium = CommunicationMedium(transmission_range=reach)
+    handler = CommunicationHandler(medium)
+    handler.inject(world.loop)
+    sender = world.node(0, source, handler)
+    world.node(1, destination, handler)
+    handler.handle_command(BroadcastMessageCommand("hi"), sender)
+    assert (world.run() == 1) == can_transmit(source, destination, medium)
+
+
+def test_transmission_draws_only_if_it_can_fail():
+    stream = Random(1)
+    before = stream.getstate()
+    can_transmit((0, 0, 0), (1, 0, 0), CommunicationMedium(), stream)
+    can_transmit((0, 0, 0), (100, 0, 0), CommunicationMedium(failure_rate=0.5), stream)
+    assert stream.getstate() == before
+
+
+@pytest.mark.parametrize(("rate", "expected"), [(1.0, False), (0.0, True)])
+def test_certain_failure_and_certain_success(rate, expected):
+    assert can_transmit((0, 0, 0), (1, 0, 0), CommunicationMedium(failure_rate=rate)) is expected
