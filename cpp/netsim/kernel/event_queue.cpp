@@ -6,7 +6,7 @@
 
 namespace netsim {
 
-EventHandle EventQueue::push(SimTime time, Priority priority, Action action) {
+EventHandle EventQueue::push_at_place(SimTime time, Priority priority, Place place, Action action) {
     std::uint32_t slot;
     if (free_slots_.empty()) {
         slot = static_cast<std::uint32_t>(slots_.size());
@@ -17,7 +17,7 @@ EventHandle EventQueue::push(SimTime time, Priority priority, Action action) {
     }
     slots_[slot].action = action;
     const std::uint32_t generation = slots_[slot].generation;
-    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | next_sequence_++;
+    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | place;
     heap_.push_back(Key{time.ps(), order, slot, generation});
     sift_up(heap_.size() - 1);
     ++live_;

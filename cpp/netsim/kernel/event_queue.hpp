@@ -1,11 +1,13 @@
 // The pending events of one simulation, in the order in which they will run.
 //
-// The order is a contract: by time, then by priority, then by the order of scheduling. Small keys live in a binary
-// heap, what an event does lives in a pool beside it. Cancelling marks the pool's slot; the key is dropped when it
-// reaches the top, or all dead keys together when they outnumber the living.
+// The order is a contract: by time, then by priority, then by the order of scheduling. An event that is scheduled late
+// can keep a place in that order that was reserved before. Small keys live in a binary heap, what an event does lives
+// in a pool beside it. Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
+// together when they outnumber the living.
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "netsim/kernel/action.hpp"
@@ -22,9 +24,18 @@ struct EventHandle {
     std::uint32_t generation = 0;  // 0: no event
 };
 
+// Of events of one time and priority, those with the lower place run first.
+using Place = std::uint64_t;
+
 class EventQueue {
 public:
-    EventHandle push(SimTime time, Priority priority, Action action);
+    EventHandle push(SimTime time, Priority priority, Action action) {
+        return push_at_place(time, priority, next_place_++, action);
+    }
+    // Keeps `count` places in the order of equal times, as if so many events were scheduled now; returns the first.
+    Place reserve_places(std::uint64_t count) { return std::exchange(next_place_, next_place_ + count); }
+    // At a reserved place; each serves once.
+    EventHandle push_at_place(SimTime time, Priority priority, Place place, Action action);
 
     // True if the event was pending. O(1) amortised.
     bool cancel(EventHandle handle);
@@ -41,7 +52,7 @@ public:
 private:
     struct Key {
         std::int64_t time_ps;
-        std::uint64_t order;  // priority in the top bit, sequence number below
+        std::uint64_t order;  // priority in the top bit, place below
         std::uint32_t slot;
         std::uint32_t generation;
 
@@ -65,7 +76,7 @@ private:
     std::vector<Key> heap_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> free_slots_;
-    std::uint64_t next_sequence_ = 0;
+    Place next_place_ = 0;
     std::size_t live_ = 0;
 };
 

@@ -9,6 +9,11 @@ EventHandle Simulator::schedule_at(SimTime time, Action action, Priority priorit
     return queue_.push(time, priority, action);
 }
 
+EventHandle Simulator::schedule_at_place(SimTime time, Place place, Action action) {
+    NETSIM_ASSERT(time >= now_);
+    return queue_.push_at_place(time, Priority::normal, place, action);
+}
+
 bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
     std::uint64_t budget = max_events;
     while (!queue_.empty()) {

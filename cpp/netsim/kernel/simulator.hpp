@@ -23,6 +23,10 @@ public:
     EventHandle schedule_after(SimTime delay, Action action, Priority priority = Priority::normal) {
         return schedule_at(now_ + delay, action, priority);
     }
+    // For events that are scheduled late, or perhaps not at all, but keep the place in the order of equal times that
+    // they would have had if they had been scheduled when it was reserved.
+    Place reserve_places(std::uint64_t count) { return queue_.reserve_places(count); }
+    EventHandle schedule_at_place(SimTime time, Place place, Action action);
     bool cancel(EventHandle handle) { return queue_.cancel(handle); }
     bool is_pending(EventHandle handle) const { return queue_.is_pending(handle); }
 

@@ -68,6 +68,26 @@ TEST(EventQueue, EqualTimesGoInTheOrderOfScheduling) {
     }
 }
 
+TEST(EventQueue, AReservedPlaceIsThatOfItsReservation) {
+    LoggingQueue events;
+    events.push(at(10), Priority::normal, 1);
+    const Place first = events.queue.reserve_places(2);
+    events.push(at(10), Priority::normal, 4);
+    for (const int name : {3, 2}) {
+        events.queue.push_at_place(at(10), Priority::normal, first + static_cast<Place>(name) - 2,
+                                   [&events, name] { events.log.push_back(name); });
+    }
+    EXPECT_EQ(events.drain(), (std::vector{1, 2, 3, 4}));
+}
+
+TEST(EventQueue, TimeGoesBeforePlace) {
+    LoggingQueue events;
+    const Place first = events.queue.reserve_places(1);
+    events.push(at(9), Priority::normal, 1);
+    events.queue.push_at_place(at(10), Priority::normal, first, [&events] { events.log.push_back(2); });
+    EXPECT_EQ(events.drain(), (std::vector{1, 2}));
+}
+
 TEST(EventQueue, NextTimeIsThatOfTheEarliestLivingEvent) {
     LoggingQueue events;
     const EventHandle first = events.push(at(10), Priority::normal, 1);
