@@ -1,0 +1,175 @@
+// A medium and what is needed around it, for tests of single radios and stations without a Network.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "netsim/mac/dcf.hpp"
+#include "netsim/medium/medium.hpp"
+#include "netsim/phy/radio.hpp"
+#include "support/radio_log.hpp"
+
+namespace netsim::test {
+
+// The distance that light covers in a microsecond, so that propagation takes exactly that long.
+inline constexpr double light_microsecond_m = 299.792458;
+
+inline RadioConfig radio_of_power(double tx_power_w) {
+    RadioConfig config;
+    config.tx_power_w = tx_power_w;
+    return config;
+}
+
+// The transmitter power that arrives as `received_w` over free space at 2.412 GHz.
+inline double power_for(double received_w, double distance_m) {
+    return received_w / make_path_loss(MediumConfig()).gain(distance_m, RadioConfig().carrier_hz);
+}
+
+// A copy of a frame as it reached one place.
+struct Heard {
+    SimTime start;
+    SimTime end;
+    FrameKind kind;
+    NodeId sender;
+    double power_w;
+};
+
+// Hears every frame of its band at its place and keeps the instants. Sends nothing, disturbs nothing.
+class Sniffer final : public MediumListener {
+public:
+    explicit Sniffer(Position place) : trajectory(place) {}
+
+    Trajectory trajectory;
+    std::vector<Heard> heard;  // by end
+
+    void arrival_started(const Arrival&) override {}
+    void arrival_ended(const Arrival& arrival) override {
+        const Transmission& transmission = *arrival.transmission;
+        heard.push_back(
+            {arrival.start, arrival.end, transmission.label.kind, transmission.sender, arrival.power_w});
+    }
+};
+
+// A radio without a MAC.
+struct BareRadio {
+    BareRadio(Simulator& simulator, Medium& medium, const RadioConfig& config, Position place,
+              std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint)
+        : trajectory(place),
+          radio(simulator, medium, config, trajectory, seed, fates, fingerprint),
+          log(simulator) {
+        radio.set_listener(log);
+    }
+
+    NodeId id() const { return radio.id(); }
+    // Broadcasts a frame of the slowest OFDM mode.
+    void send(SimTime duration, int psdu_bytes = 100) { send(duration, FrameLabel(), psdu_bytes); }
+    void send(SimTime duration, FrameLabel label, int psdu_bytes = 100) {
+        radio.transmit(nullptr, label, psdu_bytes, mode_set("a").slowest_mandatory(), duration);
+    }
+
+    Trajectory trajectory;
+    Radio radio;
+    RadioLog log;
+};
+
+struct Received {
+    SimTime time;
+    NodeId source;
+    std::string text;
+};
+
+// A radio with a MAC.
+struct Station final : LinkListener {
+    Station(Simulator& simulator_, Medium& medium, const RadioConfig& radio_config,
+            const MacConfig& mac_config, Position place, std::uint64_t seed, FrameFates& frame_fates,
+            MessageFates& message_fates, Fingerprint& fingerprint)
+        : simulator(simulator_),
+          trajectory(place),
+          radio(simulator_, medium, radio_config, trajectory, seed, frame_fates, fingerprint),
+          dcf(simulator_, radio, mac_config, seed, message_fates, *this) {}
+
+    NodeId id() const { return radio.id(); }
+    void send(NodeId destination, const std::string& text) {
+        dcf.send(destination, std::make_shared<const std::string>(text));
+    }
+    void send(NodeId destination, int bytes) {
+        send(destination, std::string(static_cast<std::size_t>(bytes), 'x'));
+    }
+    std::vector<std::string> texts() const {
+        std::vector<std::string> all;
+        for (const Received& message : received) {
+            all.push_back(message.text);
+        }
+        return all;
+    }
+
+    void message_received(NodeId source, const Payload& payload) override {
+        received.push_back({simulator.now(), source, *payload});
+    }
+
+    Simulator& simulator;
+    Trajectory trajectory;
+    Radio radio;
+    Dcf dcf;
+    std::vector<Received> received;
+};
+
+class Air {
+public:
+    explicit Air(const MediumConfig& config = MediumConfig(), Hearing hearing = Hearing::what_matters,
+                 std::uint64_t seed = 1)
+        : medium(simulator, config, frame_fates, fingerprint, hearing), seed_(seed) {}
+
+    BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
+        frame_fates.add_node();
+        return radios_.emplace_back(simulator, medium, config, place, seed_, frame_fates, fingerprint);
+    }
+    Station& add_station(Position place, const MacConfig& mac = MacConfig(),
+                         const RadioConfig& radio = RadioConfig()) {
+        frame_fates.add_node();
+        return stations_.emplace_back(simulator, medium, radio, mac, place, seed_, frame_fates, message_fates,
+                                      fingerprint);
+    }
+    Sniffer& add_sniffer(Position place, const RadioConfig& radio = RadioConfig()) {
+        Sniffer& sniffer = sniffers_.emplace_back(place);
+        frame_fates.add_node();
+        medium.attach(
+            Receiver{&sniffer, &sniffer.trajectory, Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
+        return sniffer;
+    }
+
+    void at(SimTime time, std::function<void()> what) {
+        std::function<void()>* kept = &scheduled_.emplace_back(std::move(what));
+        simulator.schedule_at(time, [kept] { (*kept)(); });
+    }
+    void run(SimTime limit = SimTime::from_seconds(100)) { simulator.run_until(limit); }
+
+    std::uint64_t frame_count(FrameKind kind, FrameFate fate, bool overheard = false) const {
+        return frame_fates.counts(kind, overheard)[static_cast<std::size_t>(fate)];
+    }
+    std::uint64_t broadcast_count_at(const BareRadio& receiver, FrameFate fate) const {
+        return frame_fates.counts_at(receiver.id(), FrameKind::broadcast)[static_cast<std::size_t>(fate)];
+    }
+    std::uint64_t message_count(MessageKind kind, MessageFate fate) const {
+        return message_fates.counts(kind)[static_cast<std::size_t>(fate)];
+    }
+
+    Simulator simulator;
+    FrameFates frame_fates;
+    MessageFates message_fates;
+    Fingerprint fingerprint;
+    Medium medium;
+
+private:
+    std::uint64_t seed_;
+    std::deque<BareRadio> radios_;
+    std::deque<Station> stations_;
+    std::deque<Sniffer> sniffers_;
+    std::deque<std::function<void()>> scheduled_;
+};
+
+}  // namespace netsim::test
