@@ -152,4 +152,5 @@ def _compile(order: int, rank: int, entry: Entry) -> Found:
         pattern = compile_pattern(entry.key)
     except BadValue as error:
         raise ConfigError(f"{entry.key}: {error}", entry.source) from error
-    return Found(order, rank, entry, pattern, pattern.split())
+    parts = pattern.split()
+    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None)

@@ -68,6 +68,9 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
             "**.powr",
             "`**.powr` matches no parameter; expected the name of one; did you mean `**.power`?",
         ),
+        ("n[1..2]", "`n[1..2]` matches no parameter; expected the name of one"),
+        ("*.", "`*.` matches no node; expected one of `groundStation`, `uavs[*]`"),
+        ("*..uavs", f"`*..uavs` matches no node; {NODES}; did you mean `*.numUavs`?"),
         (
             "**.radio.transmiter.power",
             "`**.radio.transmiter.power` matches no parameter; expected the name of one; "
