@@ -1,7 +1,6 @@
 import ast
 from pathlib import Path
 
-import gradysim
 from gradysim.config.keys import GROUP_SIZE, NETWORK_KEYS, NODE_KEYS, OPTIONS
 
 STRUCTS = {
@@ -14,7 +13,7 @@ STRUCTS = {
 
 def fields_of_the_engine() -> set[str]:
     """ "struct.field" of all configurations, from the stub of the compiled part."""
-    stub = Path(next(iter(gradysim.__path__))) / "_netsim.pyi"
+    stub = Path(__file__).parents[3] / "python" / "gradysim" / "_netsim.pyi"
     classes = {node.name: node for node in ast.parse(stub.read_text()).body if isinstance(node, ast.ClassDef)}
     fields = set()
     for struct, name in STRUCTS.items():
