@@ -52,6 +52,8 @@ class EventLoop:
         # The list of the current instant and how many of it were taken; None when it is used up.
         self._current: list[ScheduledEvent] | None = None
         self._taken = 0
+        # How many events are in the lists, with those taken from the current one.
+        self._held = 0
 
     @property
     def current_time(self) -> float:
@@ -59,9 +61,7 @@ class EventLoop:
         return self._current_time
 
     def __len__(self) -> int:
-        # Counted when asked for, which is rare, and not with each event.
-        taken = 0 if self._current is None else self._taken
-        return sum(map(len, self._events.values())) - taken
+        return self._held if self._current is None else self._held - self._taken
 
     def schedule_event(self, timestamp: float, callback: Callback, context: str = "") -> ScheduledEvent:
         """Have `callback()` called at `timestamp`, after all events scheduled for that time so far.
@@ -84,6 +84,7 @@ class EventLoop:
         if events is None:
             events = self._open(timestamp)
         events.append(event)
+        self._held += 1
         return event
 
     def schedule_events(self, timestamp: float, events: Iterable[ScheduledEvent]) -> None:
@@ -91,7 +92,9 @@ class EventLoop:
         pending = self._events.get(timestamp)
         if pending is None:
             pending = self._open(timestamp)
+        before = len(pending)
         pending.extend(events)
+        self._held += len(pending) - before
 
     def cancel_event(self, timestamp: float, event: ScheduledEvent) -> bool:
         """Remove a pending event.
@@ -108,6 +111,7 @@ class EventLoop:
             for index in range(self._taken if events is self._current else 0, len(events)):
                 if events[index] is event:
                     del events[index]
+                    self._held -= 1
                     return True
         return False
 
@@ -132,6 +136,7 @@ class EventLoop:
                 taken = 0
             elif taken == _RAN_AT_MOST:
                 del current[:taken]
+                self._held -= taken
                 taken = 0
             self._taken = taken + 1
             yield current[taken]
@@ -184,6 +189,7 @@ class EventLoop:
         self._events.clear()
         self._instants.clear()
         self._current = None
+        self._held = 0
 
     def _open(self, timestamp: float) -> list[ScheduledEvent]:
         """Make the list of events of an instant that has none yet."""
@@ -206,6 +212,7 @@ class EventLoop:
         if self._current is not None:
             del self._events[self._current_time]
             self._current = None
+            self._held -= self._taken
 
     def _next_instant(self) -> float | None:
         """Find the next instant with events, given that the current one is used up."""

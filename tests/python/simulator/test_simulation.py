@@ -24,7 +24,7 @@ from gradysim.simulator.simulation import (
 
 
 class Protocol(IProtocol):
-    """Does nothing; keeps the callbacks of all instances in the class's `calls`, as (name, id, *arguments)."""
+    """Does nothing; keeps the callbacks of all instances in the class's `calls`: (name, id, *arguments)."""
 
     calls: list
 
