@@ -18,6 +18,7 @@ PythonProtocol::PythonProtocol(py::object protocol, py::object on_failure)
     : protocol_(std::move(protocol)),
       on_failure_(std::move(on_failure)),
       telemetry_class_(py::module_::import("gradysim.protocol.messages.telemetry").attr("Telemetry")),
+      current_position_(interned("current_position")),
       initialize_(interned("initialize")),
       handle_timer_(interned("handle_timer")),
       handle_packet_(interned("handle_packet")),
@@ -33,14 +34,28 @@ void PythonProtocol::handle_packet(const netsim::Payload& message) {
 }
 
 void PythonProtocol::handle_telemetry(const netsim::Position& position) {
-    const auto coordinates = py::make_tuple(position.x, position.y, position.z);
-    PyObject* arguments[] = {nullptr, coordinates.ptr()};
-    const auto telemetry = py::reinterpret_steal<py::object>(PyObject_Vectorcall(
-        telemetry_class_.ptr(), arguments + 1, 1 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr));
-    if (!telemetry) {
-        throw py::error_already_set();
+    // Telemetry(current_position=(x, y, z)), up to a hundred times a second for each node. If the protocol kept no
+    // reference to the last one, nobody can tell whether this is a new one: it is used again, as zip() does with its
+    // tuples.
+    if (!telemetry_ || Py_REFCNT(telemetry_.ptr()) != 1 || Py_REFCNT(coordinates_.ptr()) != 2) {
+        auto* type = reinterpret_cast<PyTypeObject*>(telemetry_class_.ptr());
+        telemetry_ = py::reinterpret_steal<py::object>(type->tp_alloc(type, 0));
+        coordinates_ = py::tuple(3);
+        if (!telemetry_ || PyObject_SetAttr(telemetry_.ptr(), current_position_.ptr(), coordinates_.ptr()) != 0) {
+            throw py::error_already_set();
+        }
     }
-    call(handle_telemetry_, telemetry);
+    const double values[] = {position.x, position.y, position.z};
+    for (Py_ssize_t index = 0; index < 3; ++index) {
+        PyObject* value = PyFloat_FromDouble(values[index]);
+        if (value == nullptr) {
+            throw py::error_already_set();
+        }
+        PyObject* old = PyTuple_GET_ITEM(coordinates_.ptr(), index);
+        PyTuple_SET_ITEM(coordinates_.ptr(), index, value);
+        Py_XDECREF(old);
+    }
+    call(handle_telemetry_, telemetry_);
 }
 
 void PythonProtocol::finish() { call(finish_); }

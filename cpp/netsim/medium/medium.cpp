@@ -1,11 +1,19 @@
 #include "netsim/medium/medium.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "netsim/units.hpp"
 
 namespace netsim {
+
+namespace {
+
+SimTime propagation_delay(double distance_m) { return SimTime::from_seconds(distance_m / speed_of_light_mps); }
+
+}  // namespace
 
 Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
                Hearing hearing)
@@ -17,51 +25,87 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       hearing_(hearing) {}
 
 NodeId Medium::attach(const Receiver& receiver) {
-    receivers_.push_back(receiver);
-    return static_cast<NodeId>(receivers_.size()) - 1;
+    attached_.push_back(Attached{receiver});
+    return static_cast<NodeId>(attached_.size()) - 1;
 }
 
 void Medium::transmit(Transmission transmission) {
     forget_the_past();
     const SimTime now = simulator_.now();
-    const bool others_on_air = !on_air_.empty();
     transmission.id = next_id_++;
     transmission.start = now;
-    transmission.origin = receivers_[transmission.sender].trajectory->position_at(now);
+    transmission.origin = attached_[transmission.sender].receiver.trajectory->position_at(now);
+    const bool overlaps_others = may_overlap(transmission);
     fingerprint_.add(static_cast<std::uint64_t>(now.ps()));
     fingerprint_.add((static_cast<std::uint64_t>(transmission.sender) << 32) ^ transmission.psdu_bytes);
 
     OnAir& entry = on_air_.emplace_back(OnAir{std::move(transmission), now, {}});
     const Transmission& sent = entry.transmission;
-    entry.last_end = now + sent.duration;
     CopyCount addressed;
     CopyCount overheard;
-    for (NodeId node = 0; node < static_cast<NodeId>(receivers_.size()); ++node) {
-        const Receiver& receiver = receivers_[node];
+    double farthest_m2 = 0;
+    for (NodeId node = 0; node < static_cast<NodeId>(attached_.size()); ++node) {
+        Attached& attached = attached_[node];
+        const Receiver& receiver = attached.receiver;
         if (node == sent.sender || !sent.band.fits_in(receiver.band)) {
             continue;
         }
-        const Arrival arrival = arrival_at(sent, receiver);
-        entry.last_end = std::max(entry.last_end, arrival.end);
         CopyCount& count = sent.label.is_for(node) ? addressed : overheard;
         ++count.made;
+        const double distance_m2 = squared_distance(sent.origin, receiver.trajectory->position_at(now));
+        farthest_m2 = std::max(farthest_m2, distance_m2);
+        if (!overlaps_others && is_out_of_reach(attached, sent, distance_m2)) {
+            ++count.too_weak;
+            continue;
+        }
+        const Arrival arrival = arrival_at(sent, receiver);
         if (arrival.power_w < receiver.sensitivity_w) {
             ++count.too_weak;
         }
         if (is_told_alone(receiver, arrival.power_w)) {
             tell(receiver, arrival);
         }
-        if (others_on_air && background_noise_w_ + arrival.power_w < receiver.energy_detection_w) {
+        if (overlaps_others && background_noise_w_ + arrival.power_w < receiver.energy_detection_w) {
             tell_if_energy_adds_up(node, entry, arrival);
         }
     }
+    entry.last_end = now + propagation_delay(std::sqrt(farthest_m2)) + sent.duration;
     fates_.book_transmission(sent.label, addressed, overheard);
+}
+
+bool Medium::may_overlap(const Transmission& newest) const {
+    // At any receiver, the ends of two frames are shifted against each other by at most the distance of their senders
+    // (triangle inequality), and by what the receiver moves in between, for which the slack is ample.
+    constexpr SimTime slack = SimTime::from_us(1);
+    return std::any_of(on_air_.begin(), on_air_.end(), [&newest](const OnAir& other) {
+        const SimTime shift = propagation_delay(distance(other.transmission.origin, newest.origin));
+        return other.transmission.start + other.transmission.duration + shift + slack > newest.start;
+    });
+}
+
+bool Medium::is_out_of_reach(Attached& attached, const Transmission& transmission, double squared_distance_m2) const {
+    if (hearing_ == Hearing::everything) {
+        return false;
+    }
+    if (attached.tx_power_w != transmission.power_w || attached.carrier_hz != transmission.band.carrier_hz) {
+        const Receiver& receiver = attached.receiver;
+        const double least_w = std::min(receiver.sensitivity_w, receiver.energy_detection_w - background_noise_w_);
+        // Out of reach is said only with a margin for rounding; who is in doubt gets the exact calculation.
+        constexpr double margin = 1 + 1e-9;
+        const double reach_m =
+            least_w > 0 ? path_loss_.reach_m(least_w / transmission.power_w, transmission.band.carrier_hz) * margin
+                        : std::numeric_limits<double>::infinity();
+        attached.tx_power_w = transmission.power_w;
+        attached.carrier_hz = transmission.band.carrier_hz;
+        attached.squared_reach_m2 = reach_m * reach_m;
+    }
+    return squared_distance_m2 > attached.squared_reach_m2;
 }
 
 Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& receiver) const {
     const Position there = receiver.trajectory->position_at(transmission.start);
     const double distance_m = distance(transmission.origin, there);
-    const SimTime start = transmission.start + SimTime::from_seconds(distance_m / speed_of_light_mps);
+    const SimTime start = transmission.start + propagation_delay(distance_m);
     return Arrival{&transmission, start, start + transmission.duration,
                    transmission.power_w * path_loss_.gain(distance_m, transmission.band.carrier_hz)};
 }
@@ -90,7 +134,7 @@ void Medium::begin(MediumListener* listener, const Arrival& arrival) {
 }
 
 void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival) {
-    const Receiver& receiver = receivers_[node];
+    const Receiver& receiver = attached_[node].receiver;
     double sum_w = background_noise_w_ + arrival.power_w;
     together_.clear();
     if (!is_told_alone(receiver, arrival.power_w)) {
@@ -127,7 +171,7 @@ const Interference& Medium::interference_with(NodeId receiver, const Arrival& ar
     if (on_air_.size() <= 1) {
         return interference_;
     }
-    const Receiver& here = receivers_[receiver];
+    const Receiver& here = attached_[receiver].receiver;
     overlapping_.clear();
     for (const OnAir& other : on_air_) {
         if (&other.transmission == arrival.transmission || other.transmission.sender == receiver ||

@@ -65,8 +65,18 @@ public:
     const Interference& interference_with(NodeId receiver, const Arrival& arrival);
 
     double background_noise_w() const { return background_noise_w_; }
+    // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests check.
+    std::size_t remembered_count() const { return on_air_.size(); }
 
 private:
+    // A receiver, and how far away it can hear a transmission of the last power and carrier asked for. Kept because
+    // the comparison of squared distances spares the path loss of all who are too far away.
+    struct Attached {
+        Receiver receiver;
+        double tx_power_w = 0;
+        double carrier_hz = 0;
+        double squared_reach_m2 = 0;
+    };
     struct OnAir {
         Transmission transmission;
         SimTime last_end;                // at its most distant receiver
@@ -74,6 +84,9 @@ private:
     };
 
     Arrival arrival_at(const Transmission& transmission, const Receiver& receiver) const;
+    // False only if no receiver gets `newest` while another frame is still arriving there.
+    bool may_overlap(const Transmission& newest) const;
+    bool is_out_of_reach(Attached& attached, const Transmission& transmission, double squared_distance_m2) const;
     void tell(const Receiver& receiver, const Arrival& arrival);
     void begin(MediumListener* listener, const Arrival& arrival);
     void tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival);
@@ -89,7 +102,7 @@ private:
     PathLoss path_loss_;
     double background_noise_w_;
     Hearing hearing_;
-    std::vector<Receiver> receivers_;
+    std::vector<Attached> attached_;
     std::deque<OnAir> on_air_;  // by start; pointers to its elements stay valid until they are forgotten
     std::uint64_t next_id_ = 0;
     Interference interference_;             // the answer of interference_with, reused

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 _COMPARABLE = frozenset({bool, int, float, str, type(None)})
+_NEVER = object()
+_make_tuple = tuple.__new__
 
 
 class TrackedValue(NamedTuple):
@@ -34,9 +36,9 @@ class TrackedHistory:
     def note(self, name: str, value: Any) -> None:
         """Note that the variable `name` now is `value`; None for one that was removed."""
         kind = type(value)
-        if kind in _COMPARABLE and name in self._last:
-            last = self._last[name]
-            if type(last) is kind and last == value:
-                return
+        last = self._last.get(name, _NEVER)
+        if kind in _COMPARABLE and (last is value or (type(last) is kind and last == value)):
+            return
         self._last[name] = value
-        self.values.append(TrackedValue(self._current_time(), name, value))
+        # As TrackedValue(...), at half the time: some protocols change variables at every event.
+        self.values.append(_make_tuple(TrackedValue, (self._current_time(), name, value)))

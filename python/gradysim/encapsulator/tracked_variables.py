@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any, Self
 
+_set_item = dict.__setitem__  # looked up once: this is the hot path
+
 
 class TrackedVariables(dict[str, Any]):
     """Behaves as a dict and reports every item that is set or removed, by whatever method.
@@ -17,7 +19,7 @@ class TrackedVariables(dict[str, Any]):
         self._on_change = on_change
 
     def __setitem__(self, name: str, value: Any) -> None:
-        super().__setitem__(name, value)
+        _set_item(self, name, value)
         self._on_change(name, value)
 
     def __delitem__(self, name: str) -> None:

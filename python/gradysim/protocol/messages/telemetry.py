@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from gradysim.protocol.position import Position
 
 
-@dataclass
+@dataclass(slots=True)
 class Telemetry:
     """State of the vehicle now.
 
