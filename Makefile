@@ -18,7 +18,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python lint format build bench clean distclean system-gtest
+.PHONY: help demo test test-cpp test-python lint format build bench clean distclean system-gtest system-benchmark
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -53,8 +53,11 @@ format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
 
 build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the engine compiled.
 
-bench: build $(STAMPS)/bench  ## Benchmarks, with the distance to their goals.
-	$(BIN)/python -m pytest bench -o addopts= --benchmark-only
+bench: build system-benchmark  ## Benchmarks, with the distance to their goals.
+	cmake -S cpp --preset bench --log-level=WARNING
+	cmake --build build/bench
+	build/bench/netsim_bench
+	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
 
 clean:  ## Remove what was built; .venv stays.
 	rm -rf build dist $(STAMPS)/editable
@@ -79,13 +82,16 @@ endef
 system-gtest:
 	$(call need,echo '#include <gtest/gtest.h>' | $${CXX:-g++} -E -x c++ -,libgtest-dev)
 
+system-benchmark:
+	$(call need,echo '#include <benchmark/benchmark.h>' | $${CXX:-g++} -E -x c++ -,libbenchmark-dev)
+
 $(VENV)/bin/python:
 	$(call need,$(PYTHON) -c 'import venv$(comma) ensurepip',python3-venv)
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and f"gradysim needs Python 3.11 or newer, {sys.executable} is {sys.version}")'
 	$(PYTHON) -m venv $(VENV)
 
 # Which packages, and which version of each: [dependency-groups] of pyproject.toml.
-$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/bench: pyproject.toml | $(VENV)/bin/python
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/python
 	@mkdir -p $(STAMPS)
 	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
 	$(BIN)/pip install --quiet --group $(@F)
