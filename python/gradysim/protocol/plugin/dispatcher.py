@@ -23,6 +23,9 @@ class DispatchReturn(Enum):
     """The next in the chain gets it too. Returning nothing means the same."""
 
 
+_INTERRUPT = DispatchReturn.INTERRUPT  # looking up a member of an enumeration takes longer than a call
+
+
 class _Chain:
     """One callback of a protocol with the handlers in front of it."""
 
@@ -38,7 +41,7 @@ class _Chain:
     def dispatch(self, *arguments: Any) -> None:
         for handler in self._handlers:
             answer = handler(self._protocol, *arguments)
-            if answer is DispatchReturn.INTERRUPT and self._interruptible:
+            if answer is _INTERRUPT and self._interruptible:
                 return
         self._original(*arguments)
 

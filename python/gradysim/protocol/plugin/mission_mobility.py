@@ -10,7 +10,7 @@ from pathlib import Path
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
+from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position, squared_distance
 
 _logger = logging.getLogger(__name__)
@@ -170,13 +170,13 @@ class MissionMobilityPlugin:
         step = -1 if self._reversed else 1
         self._go_to(min(max(self._waypoint + step, 0), len(self._mission) - 1))
 
-    def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> DispatchReturn:
+    def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> None:
         # A handler before this one may have stopped the mission.
         if self._mission:
             target = self._mission[self._waypoint]
-            if squared_distance(telemetry.current_position, target) <= self._configuration.tolerance**2:
+            tolerance = self._configuration.tolerance
+            if squared_distance(telemetry.current_position, target) <= tolerance * tolerance:
                 self._advance()
-        return DispatchReturn.CONTINUE
 
     def _advance(self) -> None:
         last = len(self._mission) - 1
