@@ -50,6 +50,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("bitrate_bps", &MacConfig::bitrate_bps)
         .def_readwrite("multicast_bitrate_bps", &MacConfig::multicast_bitrate_bps)
         .def_readwrite("short_retry_limit", &MacConfig::short_retry_limit)
+        .def_readwrite("long_retry_limit", &MacConfig::long_retry_limit)
         .def_readwrite("cw_min", &MacConfig::cw_min)
         .def_readwrite("cw_max", &MacConfig::cw_max)
         .def_readwrite("queue_capacity", &MacConfig::queue_capacity)

@@ -71,10 +71,12 @@ _TYPES: dict[str, type[Message]] = {
     cls.__name__: cls for cls in (UavHeartbeat, GroundHeartbeat, SensorData, PairRequest, PairConfirmation)
 }
 
+_to_json = json.JSONEncoder(separators=(",", ":")).encode  # without blanks: every byte takes time on the air
+
 
 def encode(message: Message) -> str:
     """The text that is sent, e.g. `{"type":"SensorData","sender":4}`."""
-    return json.dumps({"type": type(message).__name__, **vars(message)}, separators=(",", ":"))
+    return _to_json({"type": type(message).__name__, **vars(message)})
 
 
 def decode(text: str) -> Message:

@@ -7,7 +7,7 @@ class ConfigError(ValueError):
     """A value of a configuration is outside its range; the text names the field, the value and the range."""
 
 class SimulationError(RuntimeError):
-    """A command that cannot be carried out (a timer in the past, an unknown destination, a message over the MTU)."""
+    """A command that cannot be carried out: a timer in the past, an unknown destination, …"""
 
 class MediumConfig:
     """The type chooses the defaults of the other fields, so it is given at the start and stays."""
@@ -42,6 +42,7 @@ class MacConfig:
     bitrate_bps: float
     multicast_bitrate_bps: float
     short_retry_limit: int
+    long_retry_limit: int
     cw_min: int
     cw_max: int
     queue_capacity: int
@@ -92,7 +93,7 @@ class Network:
         """Run the events up to and including `time` (seconds). False when `max_events` came first."""
     def finish(self) -> None: ...
     def release_protocols(self) -> None:
-        """Let go of the protocols, which refer back to the network. Call it when done, also after a failure."""
+        """Let go of the protocols, which refer back to the network. To be called in the end, come what may."""
     @property
     def now(self) -> float:
         """Simulated time in seconds."""
@@ -100,9 +101,12 @@ class Network:
     def event_count(self) -> int: ...
     @property
     def fingerprint(self) -> str:
-        """16 hexadecimal digits: a hash of all that happened on the air, in the queues and in the protocols."""
+        """16 hexadecimal digits: a hash of what happened on the air and in the protocols."""
     def frame_fates(self) -> dict[str, dict[str, int]]:
-        """Copies of frames: {kind: {fate: count}}; kind "broadcast", "unicast", "unicast overheard", "ack", "ack overheard"."""
+        """Copies of frames, {kind: {fate: count}}.
+
+        Kinds: "broadcast", "unicast", "unicast overheard", "ack", "ack overheard".
+        """
     def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
         """The same for the copies at one node that were strong enough to be received."""
     def interferers_at(self, receiver: int) -> dict[int, int]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from gradysim.protocol.position import Position
 
 
-@dataclass(slots=True)
+@dataclass
 class Telemetry:
     """State of the vehicle now.
 

@@ -29,21 +29,26 @@ _INTERRUPT = DispatchReturn.INTERRUPT  # looking up a member of an enumeration t
 class _Chain:
     """One callback of a protocol with the handlers in front of it."""
 
-    def __init__(self, protocol: IProtocol, callback: str, interruptible: bool) -> None:
+    def __init__(self, protocol: IProtocol, callback: str, dispatch: str) -> None:
         self._protocol = protocol
         self._callback = callback
         self._original: Callable[..., None] = getattr(protocol, callback)
-        self._interruptible = interruptible
         # A tuple, replaced on every change: an event under way keeps the chain that it started with.
         self._handlers: tuple[Callable[..., Any], ...] = ()
-        setattr(protocol, callback, self.dispatch)
+        setattr(protocol, callback, getattr(self, dispatch))
 
-    def dispatch(self, *arguments: Any) -> None:
+    def dispatch_event(self, event: Any) -> None:
+        """A timer, a packet or telemetry."""
         for handler in self._handlers:
-            answer = handler(self._protocol, *arguments)
-            if answer is _INTERRUPT and self._interruptible:
+            if handler(self._protocol, event) is _INTERRUPT:
                 return
-        self._original(*arguments)
+        self._original(event)
+
+    def dispatch_to_all(self) -> None:
+        """`initialize` and `finish` have no argument and reach everybody."""
+        for handler in self._handlers:
+            handler(self._protocol)
+        self._original()
 
     def register(self, handler: Callable[..., Any]) -> None:
         if not callable(handler):
@@ -70,11 +75,11 @@ class ProtocolWrapper:
 
     def __init__(self, protocol: IProtocol) -> None:
         self.protocol = protocol
-        self._initialize = _Chain(protocol, "initialize", interruptible=False)
-        self._handle_timer = _Chain(protocol, "handle_timer", interruptible=True)
-        self._handle_telemetry = _Chain(protocol, "handle_telemetry", interruptible=True)
-        self._handle_packet = _Chain(protocol, "handle_packet", interruptible=True)
-        self._finish = _Chain(protocol, "finish", interruptible=False)
+        self._initialize = _Chain(protocol, "initialize", "dispatch_to_all")
+        self._handle_timer = _Chain(protocol, "handle_timer", "dispatch_event")
+        self._handle_telemetry = _Chain(protocol, "handle_telemetry", "dispatch_event")
+        self._handle_packet = _Chain(protocol, "handle_packet", "dispatch_event")
+        self._finish = _Chain(protocol, "finish", "dispatch_to_all")
 
     def register_initialize(self, handler: Callable[[Any], DispatchReturn | None]) -> None:
         """Call `handler(protocol)` before the protocol's `initialize`."""

@@ -11,7 +11,7 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
-from gradysim.protocol.position import Position, squared_distance
+from gradysim.protocol.position import Position
 
 _logger = logging.getLogger(__name__)
 
@@ -173,9 +173,12 @@ class MissionMobilityPlugin:
     def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> None:
         # A handler before this one may have stopped the mission.
         if self._mission:
-            target = self._mission[self._waypoint]
+            # squared_distance, written out: this runs at every telemetry of every vehicle.
+            x, y, z = telemetry.current_position
+            target_x, target_y, target_z = self._mission[self._waypoint]
+            dx, dy, dz = x - target_x, y - target_y, z - target_z
             tolerance = self._configuration.tolerance
-            if squared_distance(telemetry.current_position, target) <= tolerance * tolerance:
+            if dx * dx + dy * dy + dz * dz <= tolerance * tolerance:
                 self._advance()
 
     def _advance(self) -> None:
