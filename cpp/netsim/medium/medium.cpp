@@ -39,7 +39,8 @@ void Medium::transmit(Transmission transmission) {
     fingerprint_.add(static_cast<std::uint64_t>(now.ps()));
     fingerprint_.add((static_cast<std::uint64_t>(transmission.sender) << 32) ^ transmission.psdu_bytes);
 
-    OnAir& entry = on_air_.emplace_back(OnAir{std::move(transmission), now, {}});
+    OnAir& entry = on_air_.emplace_back(
+        OnAir{std::move(transmission), now, simulator_.reserve_places(2 * attached_.size()), {}});
     const Transmission& sent = entry.transmission;
     CopyCount addressed;
     CopyCount overheard;
@@ -63,7 +64,7 @@ void Medium::transmit(Transmission transmission) {
             ++count.too_weak;
         }
         if (is_told_alone(receiver, arrival.power_w)) {
-            tell(receiver, arrival);
+            tell(node, entry, arrival);
         }
         if (overlaps_others && background_noise_w_ + arrival.power_w < receiver.energy_detection_w) {
             tell_if_energy_adds_up(node, entry, arrival);
@@ -110,27 +111,31 @@ Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& rec
                    transmission.power_w * path_loss_.gain(distance_m, transmission.band.carrier_hz)};
 }
 
-void Medium::tell(const Receiver& receiver, const Arrival& arrival) {
-    MediumListener* listener = receiver.listener;
+// The events of an arrival have their places in the order of equal times since its transmission began: the course of
+// a run does not depend on when, or whether, a radio is told.
+void Medium::tell(NodeId node, const OnAir& on_air, const Arrival& arrival) {
     if (arrival.start < simulator_.now()) {
         // It came to matter after it had begun: nothing that the radio could have noticed happened in between.
-        begin(listener, arrival);
+        begin(node, on_air, arrival);
         return;
     }
-    simulator_.schedule_at(arrival.start,
-                           [this, listener, transmission = arrival.transmission, power_w = arrival.power_w] {
-                               const SimTime start = simulator_.now();
-                               begin(listener, Arrival{transmission, start, start + transmission->duration, power_w});
-                           });
+    simulator_.schedule_at_place(arrival.start, on_air.first_place + 2 * static_cast<Place>(node),
+                                 [this, node, &on_air, power_w = arrival.power_w] {
+                                     const SimTime start = simulator_.now();
+                                     const Transmission& transmission = on_air.transmission;
+                                     begin(node, on_air,
+                                           Arrival{&transmission, start, start + transmission.duration, power_w});
+                                 });
 }
 
-void Medium::begin(MediumListener* listener, const Arrival& arrival) {
-    listener->arrival_started(arrival);
-    simulator_.schedule_at(arrival.end,
-                           [this, listener, transmission = arrival.transmission, power_w = arrival.power_w] {
-                               const SimTime end = simulator_.now();
-                               listener->arrival_ended(Arrival{transmission, end - transmission->duration, end, power_w});
-                           });
+void Medium::begin(NodeId node, const OnAir& on_air, const Arrival& arrival) {
+    attached_[node].receiver.listener->arrival_started(arrival);
+    simulator_.schedule_at_place(arrival.end, on_air.first_place + 2 * static_cast<Place>(node) + 1,
+                                 [this, node, transmission = arrival.transmission, power_w = arrival.power_w] {
+                                     const SimTime end = simulator_.now();
+                                     attached_[node].receiver.listener->arrival_ended(
+                                         Arrival{transmission, end - transmission->duration, end, power_w});
+                                 });
 }
 
 void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival) {
@@ -161,7 +166,7 @@ void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& a
     }
     for (auto& [on_air, unnoticed] : together_) {
         on_air->told_later.push_back(node);
-        tell(receiver, unnoticed);
+        tell(node, *on_air, unnoticed);
     }
 }
 

@@ -80,6 +80,7 @@ private:
     struct OnAir {
         Transmission transmission;
         SimTime last_end;                // at its most distant receiver
+        Place first_place;               // of its arrivals' events, two for each receiver
         std::vector<NodeId> told_later;  // receivers to whom it came to matter only with later transmissions
     };
 
@@ -87,8 +88,8 @@ private:
     // False only if no receiver gets `newest` while another frame is still arriving there.
     bool may_overlap(const Transmission& newest) const;
     bool is_out_of_reach(Attached& attached, const Transmission& transmission, double squared_distance_m2) const;
-    void tell(const Receiver& receiver, const Arrival& arrival);
-    void begin(MediumListener* listener, const Arrival& arrival);
+    void tell(NodeId node, const OnAir& on_air, const Arrival& arrival);
+    void begin(NodeId node, const OnAir& on_air, const Arrival& arrival);
     void tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival);
     bool is_told_alone(const Receiver& receiver, double power_w) const {
         return hearing_ == Hearing::everything || power_w >= receiver.sensitivity_w ||
