@@ -68,7 +68,13 @@ struct BareRadio {
     // Broadcasts a frame of the slowest OFDM mode.
     void send(SimTime duration, int psdu_bytes = 100) { send(duration, FrameLabel(), psdu_bytes); }
     void send(SimTime duration, FrameLabel label, int psdu_bytes = 100) {
-        radio.transmit(nullptr, label, psdu_bytes, mode_set("a").slowest_mandatory(), duration);
+        Frame frame;
+        frame.kind = label.kind;
+        frame.transmitter = id();
+        frame.receiver = label.destination;
+        frame.payload = std::make_shared<const std::string>();
+        radio.transmit(std::make_shared<const Frame>(std::move(frame)), label, psdu_bytes,
+                       mode_set("a").slowest_mandatory(), duration);
     }
 
     Trajectory trajectory;

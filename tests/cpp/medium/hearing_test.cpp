@@ -1,0 +1,85 @@
+// The medium tells radios only of what can matter to them. Whatever it leaves out, the course of a run must
+// be that of the plain model, in which every radio hears everything: the same frames in the same instants,
+// the same copies lost for the same reasons.
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/random_scenario.hpp"
+
+namespace netsim {
+namespace {
+
+using test::RandomScenario;
+using test::ScenarioRun;
+
+struct Ledger {
+    std::vector<std::uint64_t> counts;
+    std::vector<std::map<NodeId, std::uint64_t>> interferers;
+
+    bool operator==(const Ledger&) const = default;
+};
+
+template <typename Counts>
+void append(std::vector<std::uint64_t>& all, const Counts& counts) {
+    all.insert(all.end(), counts.begin(), counts.end());
+}
+
+Ledger ledger_of(const Network& network) {
+    Ledger ledger;
+    const FrameFates& frames = network.frame_fates();
+    for (std::size_t i = 0; i < frame_kind_count; ++i) {
+        const auto kind = static_cast<FrameKind>(i);
+        ledger.counts.push_back(frames.frames(kind));
+        append(ledger.counts, frames.counts(kind, false));
+        append(ledger.counts, frames.counts(kind, true));
+        for (NodeId node = 0; node < network.node_count(); ++node) {
+            append(ledger.counts, frames.counts_at(node, kind));
+        }
+    }
+    for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
+        append(ledger.counts, network.message_fates().counts(kind));
+    }
+    for (NodeId node = 0; node < network.node_count(); ++node) {
+        ledger.interferers.push_back(frames.interferers_at(node));
+    }
+    return ledger;
+}
+
+// Runs both models step by step; where they part is found to within a step.
+void expect_same_course(const RandomScenario& scenario) {
+    ScenarioRun shortcut(scenario, Hearing::what_matters);
+    ScenarioRun plain(scenario, Hearing::everything);
+    constexpr int steps = 200;
+    const SimTime end = SimTime::from_seconds(scenario.talk.until.seconds() * 2);
+    for (int step = 1; step <= steps; ++step) {
+        const SimTime limit = SimTime::from_ps(end.ps() / steps * step);
+        shortcut.network.run_until(limit);
+        plain.network.run_until(limit);
+        ASSERT_EQ(shortcut.network.fingerprint(), plain.network.fingerprint())
+            << "scenario " << scenario.seed << ", before " << limit.ps() << " ps";
+        ASSERT_EQ(shortcut.deliveries.size(), plain.deliveries.size()) << "scenario " << scenario.seed;
+    }
+    EXPECT_TRUE(shortcut.deliveries == plain.deliveries) << "scenario " << scenario.seed;
+    EXPECT_EQ(ledger_of(shortcut.network), ledger_of(plain.network)) << "scenario " << scenario.seed;
+    EXPECT_LE(shortcut.network.event_count(), plain.network.event_count()) << "scenario " << scenario.seed;
+}
+
+class RandomScenarios : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
+    constexpr std::uint64_t scenarios = 200;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(test::make_random_scenario(GetParam() * scenarios + i));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Batches, RandomScenarios, testing::Range<std::uint64_t>(0, 10));
+
+}  // namespace
+}  // namespace netsim

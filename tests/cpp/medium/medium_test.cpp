@@ -1,0 +1,296 @@
+#include "netsim/medium/medium.hpp"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/air.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Air;
+using test::BareRadio;
+using test::light_microsecond_m;
+using test::RadioEvent;
+using test::RadioWord;
+using test::Sniffer;
+
+constexpr SimTime us(std::int64_t microseconds) {
+    return SimTime::from_us(microseconds);
+}
+
+TEST(Medium, ArrivesAfterThePropagationDelay) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    Sniffer& sniffer = air.add_sniffer({0, 3 * light_microsecond_m, 4 * light_microsecond_m});
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run();
+    ASSERT_EQ(sniffer.heard.size(), 1U);
+    EXPECT_EQ(sniffer.heard[0].start, us(15));
+    EXPECT_EQ(sniffer.heard[0].end, us(115));
+}
+
+TEST(Medium, ThePropagationDelayIsRoundedToAPicosecond) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    Sniffer& sniffer = air.add_sniffer({100, 0, 0});  // 333 564.095 ps
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run();
+    EXPECT_EQ(sniffer.heard.at(0).start, us(10) + SimTime::from_ps(333'564));
+    EXPECT_EQ(sniffer.heard.at(0).end, us(110) + SimTime::from_ps(333'564));
+}
+
+TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
+    Sniffer& sniffer = air.add_sniffer({50, 0, 0});
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run();
+    EXPECT_NEAR(sniffer.heard.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
+}
+
+TEST(Medium, AtNoDistanceTheFrameArrivesAtOnceAndWhole) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
+    Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run();
+    EXPECT_EQ(sniffer.heard.at(0).start, us(10));
+    EXPECT_DOUBLE_EQ(sniffer.heard.at(0).power_w, 0.02);
+}
+
+TEST(Medium, PositionsAreThoseOfTheStartOfTheTransmission) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    Sniffer& sniffer = air.add_sniffer({light_microsecond_m, 0, 0});
+    sender.trajectory.go_to(us(10), {-10 * light_microsecond_m, 0, 0}, 1e6);
+    sniffer.trajectory.go_to(us(0), {11 * light_microsecond_m, 0, 0}, light_microsecond_m / 10e-6);
+    air.at(us(10), [&] { sender.send(us(1000)); });  // the sniffer is at 2 light microseconds
+    air.run();
+    EXPECT_EQ(sniffer.heard.at(0).start, us(12));
+    EXPECT_EQ(sniffer.heard.at(0).end, us(1012));
+}
+
+TEST(Medium, MakesACopyForEveryOtherRadioOfTheBand) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    air.add_radio({10, 0, 0});
+    air.add_radio({1e6, 0, 0});
+    RadioConfig elsewhere;
+    elsewhere.carrier_hz = 2.437e9;
+    air.add_radio({10, 0, 0}, elsewhere);
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::broadcast), 1U);
+    EXPECT_EQ(air.frame_fates.copies(FrameKind::broadcast, false), 2U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::below_sensitivity), 1U);
+}
+
+TEST(Medium, TellsAddresseesFromOverhearers) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    BareRadio& addressee = air.add_radio({10, 0, 0});
+    air.add_radio({20, 0, 0});
+    air.at(us(10), [&] { sender.send(us(100), FrameLabel{FrameKind::unicast, addressee.id()}); });
+    air.run();
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered, false), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered, true), 1U);
+}
+
+TEST(Medium, ACopyIsInTheAirUntilItEnds) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    air.add_radio({10, 0, 0});
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run(us(60));
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::in_air), 1U);
+    air.run();
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::in_air), 0U);
+}
+
+TEST(Medium, ReceiversThatItDoesNotMatterToCostNoEvent) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    for (int i = 0; i < 100; ++i) {
+        air.add_radio({1e5 + i, 0, 0});
+    }
+    sender.send(us(100));
+    air.run();
+    EXPECT_EQ(air.simulator.event_count(), 1U);  // the end of the transmission
+}
+
+// Two or three signals at one receiver, none of which it would notice alone.
+class EnergyThatAddsUp : public testing::TestWithParam<Hearing> {
+protected:
+    EnergyThatAddsUp() : air(MediumConfig(), GetParam()) {
+        RadioConfig config;
+        config.sensitivity_w = 1e-9;
+        config.energy_detection_w = 1e-10;
+        receiver = &air.add_radio({0, 0, 0}, config);
+    }
+    BareRadio& add_sender(Position direction, double received_w) {
+        return air.add_radio(
+            direction * light_microsecond_m,
+            test::radio_of_power(test::power_for(received_w, distance({}, direction) * light_microsecond_m)));
+    }
+    void sends_at(BareRadio& sender, SimTime start, SimTime duration) {
+        air.at(start, [&sender, duration] { sender.send(duration); });
+    }
+
+    Air air;
+    BareRadio* receiver = nullptr;
+};
+
+TEST_P(EnergyThatAddsUp, IsNotNoticedAlone) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(200), us(100));
+    air.run();
+    EXPECT_TRUE(receiver->log.events.empty());
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedWhereItOverlaps) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(60), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}}));
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedOfSimultaneousTransmissions) {
+    BareRadio& near = add_sender({1, 0, 0}, 6e-11);
+    BareRadio& far = add_sender({2, 0, 0}, 6e-11);
+    sends_at(near, us(10), us(100));
+    sends_at(far, us(10), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(12)}, {RadioWord::free, us(111)}}));
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedWhenTheLaterOneArrivesFirst) {
+    sends_at(add_sender({5, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(12), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(113)}}));
+}
+
+TEST_P(EnergyThatAddsUp, TakesAsManyAsItTakes) {
+    sends_at(add_sender({1, 0, 0}, 4e-11), us(10), us(100));
+    sends_at(add_sender({1, 0, 0}, 4e-11), us(20), us(100));
+    sends_at(add_sender({1, 0, 0}, 4e-11), us(30), us(20));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(31)}, {RadioWord::free, us(51)}}));
+}
+
+TEST_P(EnergyThatAddsUp, IsNotNoticedWhereFramesOnlyTouch) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(110), us(100));
+    air.run();
+    EXPECT_TRUE(receiver->log.events.empty());
+}
+
+TEST_P(EnergyThatAddsUp, TellsOfEachFrameOnce) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(300));
+    for (int i = 0; i < 3; ++i) {
+        sends_at(add_sender({1, 0, 0}, 6e-11), us(50 + 50 * i), us(20));
+    }
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), (std::vector{us(51), us(101), us(151)}));
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(71), us(121), us(171)}));
+}
+
+TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrame) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(20), us(100));
+    sends_at(add_sender({1, 0, 0}, 1e-8), us(50), us(10));
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(22)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
+}
+
+INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp,
+                         testing::Values(Hearing::what_matters, Hearing::everything),
+                         [](const auto& param_info) {
+                             return param_info.param == Hearing::everything ? "everything" : "what_matters";
+                         });
+
+// Notes in which order receivers are told of the end of node 2's frames.
+class EndListener final : public MediumListener {
+public:
+    EndListener(int name, std::vector<int>& order) : name_(name), order_(order) {}
+
+    void arrival_started(const Arrival&) override {}
+    void arrival_ended(const Arrival& arrival) override {
+        if (arrival.transmission->sender == 2) {
+            order_.push_back(name_);
+        }
+    }
+
+private:
+    int name_;
+    std::vector<int>& order_;
+};
+
+TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
+    Air air;
+    std::vector<int> order;
+    const Trajectory place({0, 0, 0});
+    const Band band{RadioConfig().carrier_hz, RadioConfig().bandwidth_hz};
+    EndListener told_later(0, order);
+    EndListener told_alone(1, order);
+    air.medium.attach(Receiver{&told_later, &place, band, 1, 1e-10});
+    air.medium.attach(Receiver{&told_alone, &place, band, 1, 1e-12});
+    air.frame_fates.add_node();
+    air.frame_fates.add_node();
+    BareRadio& first = air.add_radio({light_microsecond_m, 0, 0},
+                                     test::radio_of_power(test::power_for(6e-11, light_microsecond_m)));
+    BareRadio& second = air.add_radio({0, light_microsecond_m, 0},
+                                      test::radio_of_power(test::power_for(6e-11, light_microsecond_m)));
+    ASSERT_EQ(first.id(), 2);
+    air.at(us(10), [&] { first.send(us(100)); });
+    air.at(us(50), [&] { second.send(us(20)); });
+    air.run();
+    EXPECT_EQ(order, (std::vector{0, 1}));
+}
+
+TEST(Medium, ForgetsTransmissionsThatCannotMatterAnyMore) {
+    Air air;
+    BareRadio& one = air.add_radio({0, 0, 0});
+    BareRadio& other = air.add_radio({100, 0, 0});
+    BareRadio& third = air.add_radio({0, 100, 0});
+    std::size_t most = 0;
+    constexpr int rounds = 34'000;  // three frames each; one is always on the air
+    for (int round = 0; round < rounds; ++round) {
+        for (BareRadio* sender : {&one, &other, &third}) {
+            sender->send(us(150));
+            air.run(air.simulator.now() + us(100));
+            most = std::max(most, air.medium.remembered_count());
+        }
+    }
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::broadcast), 3U * rounds);
+    EXPECT_LE(most, 4U);
+}
+
+TEST(Medium, RemembersAFrameForAsLongAsItInterferes) {
+    // The interferer ends just after the signal has begun, and many short frames elsewhere come and go
+    // meanwhile.
+    Air air;
+    BareRadio& receiver = air.add_radio({0, 0, 0});
+    BareRadio& signal = air.add_radio({200, 0, 0}, test::radio_of_power(test::power_for(4e-12, 200)));
+    BareRadio& hidden = air.add_radio({0, 200, 0}, test::radio_of_power(test::power_for(3e-12, 200)));
+    BareRadio& elsewhere = air.add_radio({0, 0, 200}, test::radio_of_power(1e-15));
+    air.at(us(10), [&] { hidden.send(us(100)); });
+    air.at(us(100), [&] { signal.send(us(1000)); });
+    for (int i = 0; i < 50; ++i) {
+        air.at(us(105 + 15 * i), [&] { elsewhere.send(us(10)); });
+    }
+    air.run();
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::interference), 1U);
+    EXPECT_EQ(air.frame_fates.interferers_at(receiver.id()).begin()->first, hidden.id());
+}
+
+}  // namespace
+}  // namespace netsim

@@ -1,0 +1,114 @@
+// Random scenarios: nodes whose links are good, marginal and hopeless, with bursts of messages that collide.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "netsim/node/network.hpp"
+#include "netsim/units.hpp"
+#include "support/talker.hpp"
+
+namespace netsim::test {
+
+struct RandomScenario {
+    std::uint64_t seed = 0;
+    MediumConfig medium;
+    std::vector<NodeConfig> nodes;
+    Talk talk;
+};
+
+inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes = 3, int most_nodes = 40) {
+    RandomStream draws(seed, 0, Purpose{1001});
+    const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
+    const auto log_between = [&](double low, double high) {
+        return low * std::pow(high / low, draws.uniform());
+    };
+    const auto chance = [&draws](double share) { return draws.uniform() < share; };
+
+    RandomScenario scenario;
+    scenario.seed = seed;
+    const bool narrowband = chance(0.4);
+    scenario.medium =
+        MediumConfig(std::string(narrowband ? ieee802154_scalar_medium : ieee80211_scalar_medium));
+    if (!narrowband && chance(0.3)) {
+        scenario.medium.alpha = between(1.8, 3);
+    }
+    const double typical_reach_m = narrowband ? 120 : 700;
+    const double area_m = typical_reach_m * log_between(0.3, 5);
+    const std::string op_mode(op_mode_names[draws.uniform_int(op_mode_names.size())]);
+    const auto modes = mode_set(op_mode).modes();
+    const bool two_channels = chance(0.2);
+    const bool two_bandwidths = chance(0.2);
+    // 0: the same for all nodes.
+    const double sensitivity_spread_db = chance(0.5) ? 0 : 12;
+    const double detection_offset_db = between(-15, 15);
+    const double detection_spread_db = chance(0.5) ? 0 : 10;
+    const double power_spread_db = chance(0.5) ? 0 : 15;
+    const double lattice_m = chance(0.3) ? area_m / 4 : 0;  // equal distances, shared places
+    const bool short_backoffs = chance(0.3);                // many frames in one instant
+
+    const int count = fewest_nodes + static_cast<int>(draws.uniform_int(most_nodes - fewest_nodes + 1));
+    for (int id = 0; id < count; ++id) {
+        NodeConfig node("node " + std::to_string(id));
+        node.initial_position = {between(0, area_m), between(0, area_m),
+                                 chance(0.5) ? 0 : between(0, area_m / 10)};
+        if (lattice_m > 0) {
+            node.initial_position = {std::round(node.initial_position.x / lattice_m) * lattice_m,
+                                     std::round(node.initial_position.y / lattice_m) * lattice_m, 0};
+        }
+        node.radio.tx_power_w *= ratio_from_db(between(-power_spread_db, power_spread_db / 3));
+        node.radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
+        node.radio.energy_detection_w *=
+            ratio_from_db(detection_offset_db + between(-detection_spread_db, detection_spread_db));
+        if (two_channels && chance(0.5)) {
+            node.radio.carrier_hz = 2.437e9;
+        }
+        if (two_bandwidths && chance(0.5)) {
+            node.radio.bandwidth_hz = 20e6;
+        }
+        node.mac.op_mode = op_mode;
+        node.mac.bitrate_bps = static_cast<double>(
+            modes[draws.uniform_int(static_cast<std::uint32_t>(modes.size()))].bitrate_bps);
+        if (short_backoffs) {
+            node.mac.cw_min = 0;
+            node.mac.cw_max = 3;
+        }
+        node.mac.backoff_optimization = chance(0.8);
+        node.mac.queue_capacity = chance(0.8) ? 100 : 2;
+        node.mobility.telemetry_interval_s = 0;
+        scenario.nodes.push_back(node);
+    }
+
+    scenario.talk.seed = seed;
+    scenario.talk.node_count = count;
+    scenario.talk.rounds = 1 + draws.uniform_int(4);
+    scenario.talk.longest_burst = 1 + draws.uniform_int(4);
+    scenario.talk.longest_text = chance(0.5) ? 50 : 1500;
+    scenario.talk.broadcast_share = between(0, 1);
+    scenario.talk.until = SimTime::from_seconds(count * log_between(1e-4, 1e-2));
+    scenario.talk.area_m = area_m;
+    scenario.talk.moves = chance(0.4);
+    scenario.talk.beat = chance(0.5) ? SimTime::from_ps(scenario.talk.until.ps() / 3) : SimTime();
+    return scenario;
+}
+
+// A scenario as it runs, with what it delivered.
+class ScenarioRun {
+public:
+    explicit ScenarioRun(const RandomScenario& scenario, Hearing hearing = Hearing::what_matters)
+        : network(scenario.medium, scenario.seed, hearing) {
+        for (const NodeConfig& config : scenario.nodes) {
+            Node& node = network.add_node(config);
+            node.set_protocol(std::make_unique<Talker>(node, scenario.talk, deliveries));
+        }
+        network.initialize();
+    }
+
+    Network network;
+    std::vector<Delivery> deliveries;
+};
+
+}  // namespace netsim::test

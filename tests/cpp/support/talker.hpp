@@ -1,0 +1,86 @@
+// A protocol that talks at random: bursts of messages at random times and changes of course, from a stream of
+// its own.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "netsim/kernel/random.hpp"
+#include "netsim/node/node.hpp"
+
+namespace netsim::test {
+
+struct Delivery {
+    SimTime time;
+    NodeId receiver;
+    std::string text;
+
+    bool operator==(const Delivery&) const = default;
+};
+
+struct Talk {
+    std::uint64_t seed = 0;
+    std::int32_t node_count = 0;
+    SimTime until;             // nothing is sent from then on
+    std::uint32_t rounds = 1;  // bursts of each node
+    std::uint32_t longest_burst = 1;
+    std::uint32_t longest_text = 100;
+    double broadcast_share = 0.5;
+    double area_m = 0;
+    bool moves = false;
+    SimTime beat;  // if not zero, bursts are at multiples of it, so that nodes start in the same instant
+};
+
+class Talker final : public Protocol {
+public:
+    Talker(Node& node, const Talk& talk, std::vector<Delivery>& deliveries)
+        : node_(node),
+          talk_(talk),
+          deliveries_(deliveries),
+          draws_(talk.seed, static_cast<std::uint32_t>(node.id()), Purpose{1000}) {}
+
+    void initialize() override {
+        for (std::uint32_t round = 0; round < talk_.rounds; ++round) {
+            const double part = draws_.uniform();
+            SimTime time =
+                SimTime::from_ps(static_cast<std::int64_t>(part * static_cast<double>(talk_.until.ps())));
+            if (talk_.beat > SimTime()) {
+                time = SimTime::from_ps(time.ps() / talk_.beat.ps() * talk_.beat.ps());
+            }
+            node_.schedule_timer("talk", time);
+        }
+    }
+    void handle_timer(const std::string&) override {
+        if (talk_.moves) {
+            node_.set_speed(draws_.uniform() * 300);
+            node_.go_to({draws_.uniform() * talk_.area_m, draws_.uniform() * talk_.area_m, 0});
+        }
+        const std::uint32_t messages = 1 + draws_.uniform_int(talk_.longest_burst);
+        for (std::uint32_t i = 0; i < messages; ++i) {
+            std::string text = std::to_string(node_.id()) + ":" + std::to_string(sent_++) + " ";
+            text.resize(text.size() + draws_.uniform_int(talk_.longest_text + 1), '.');
+            auto payload = std::make_shared<const std::string>(std::move(text));
+            if (draws_.uniform() < talk_.broadcast_share) {
+                node_.broadcast(std::move(payload));
+            } else {
+                const auto other = static_cast<NodeId>(draws_.uniform_int(talk_.node_count - 1));
+                node_.send(other < node_.id() ? other : other + 1, std::move(payload));
+            }
+        }
+    }
+    void handle_packet(const Payload& message) override {
+        deliveries_.push_back({node_.now(), node_.id(), *message});
+    }
+    void handle_telemetry(const Position&) override {}
+    void finish() override {}
+
+private:
+    Node& node_;
+    Talk talk_;
+    std::vector<Delivery>& deliveries_;
+    RandomStream draws_;
+    int sent_ = 0;
+};
+
+}  // namespace netsim::test
