@@ -1,0 +1,240 @@
+#include "netsim/mac/contention.hpp"
+
+#include <memory>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace netsim {
+namespace {
+
+constexpr SimTime us(std::int64_t microseconds) {
+    return SimTime::from_us(microseconds);
+}
+
+// Those of g(mixed), written out.
+constexpr SimTime slot = us(20);
+constexpr SimTime difs = us(50);
+constexpr SimTime eifs = us(364);
+
+class GrantLog final : public ContentionListener {
+public:
+    explicit GrantLog(const Simulator& simulator) : simulator_(simulator) {}
+
+    std::vector<SimTime> times;
+    void channel_granted() override { times.push_back(simulator_.now()); }
+
+private:
+    const Simulator& simulator_;
+};
+
+class ContentionTest : public testing::Test {
+protected:
+    Contention& contention(bool backoff_optimization = true, std::uint64_t seed = 1) {
+        if (!contention_) {
+            contention_ =
+                std::make_unique<Contention>(simulator, MacTiming(mode_set("g(mixed)")), backoff_optimization,
+                                             RandomStream(seed, 0, Purpose::backoff), log_);
+        }
+        return *contention_;
+    }
+    // With no slots to wait unless the test says so.
+    void start_at(SimTime time, int contention_window = 0) {
+        simulator.schedule_at(time, [this, contention_window] { contention().start(contention_window); });
+    }
+    void busy_at(SimTime time, SimTime duration) {
+        simulator.schedule_at(time, [this] { contention().channel_busy_changed(true); });
+        simulator.schedule_at(time + duration, [this] { contention().channel_busy_changed(false); });
+    }
+    void corrupted_at(SimTime time) {
+        simulator.schedule_at(time, [this] { contention().frame_corrupted(); });
+    }
+    void run() { simulator.run_until(SimTime::from_seconds(1)); }
+
+    Simulator simulator;
+
+private:
+    GrantLog log_{simulator};
+
+protected:
+    const std::vector<SimTime>& grants = log_.times;
+
+private:
+    std::unique_ptr<Contention> contention_;
+};
+
+TEST_F(ContentionTest, GrantsAtOnceOnAChannelThatWasIdleForLong) {
+    contention();
+    start_at(us(5000), 31);
+    run();
+    EXPECT_EQ(grants, std::vector{us(5000)});
+}
+
+TEST_F(ContentionTest, IsInProgressUntilTheGrant) {
+    busy_at(us(0), us(100));
+    start_at(us(10));
+    simulator.run_until(us(149));
+    EXPECT_TRUE(contention().in_progress());
+    simulator.run_until(us(150));
+    EXPECT_FALSE(contention().in_progress());
+}
+
+TEST_F(ContentionTest, WithoutImmediateAccessItWaitsDifs) {
+    contention(false);
+    start_at(us(5000));
+    run();
+    EXPECT_EQ(grants, std::vector{us(5000) + difs});
+}
+
+TEST_F(ContentionTest, IdleTimeBeforeTheStartCounts) {
+    busy_at(us(900), us(100));
+    start_at(us(1030));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, OfIdleTimeOnlyThatSinceTheLastGrantCounts) {
+    contention();
+    start_at(us(1000));
+    start_at(us(1010));
+    run();
+    EXPECT_EQ(grants, (std::vector{us(1000), us(1000) + difs}));
+}
+
+TEST_F(ContentionTest, DefersToABusyChannel) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, BusyTimeDuringTheSpaceStartsItAgain) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    busy_at(us(1049), us(100));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1149) + difs});
+}
+
+TEST_F(ContentionTest, AGrantIsTheLastEventOfItsInstant) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    busy_at(us(1050), us(100));  // in the instant of the grant
+    run();
+    EXPECT_EQ(grants, std::vector{us(1150) + difs});
+}
+
+TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {
+    std::set<std::int64_t> slots;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        Simulator own;
+        GrantLog log(own);
+        Contention own_contention(own, MacTiming(mode_set("g(mixed)")), false,
+                                  RandomStream(seed, 0, Purpose::backoff), log);
+        own_contention.start(15);
+        own.run_until(us(10'000));
+        const SimTime backoff = log.times.at(0) - difs;
+        ASSERT_EQ(backoff.ps() % slot.ps(), 0);
+        slots.insert(backoff.ps() / slot.ps());
+    }
+    EXPECT_EQ(slots.size(), 16U);
+    EXPECT_EQ(*slots.begin(), 0);
+    EXPECT_EQ(*slots.rbegin(), 15);
+}
+
+// A contention of which the number of slots is known, because it is the same in a run without disturbance.
+class RemainingSlots : public ContentionTest {
+protected:
+    static constexpr std::uint64_t seed = 4;
+    static constexpr int window = 31;
+
+    void SetUp() override {
+        slots = static_cast<std::int64_t>(RandomStream(seed, 0, Purpose::backoff).uniform_int(window + 1));
+        ASSERT_GE(slots, 5);
+        contention(false, seed);
+        start_at(us(0), window);
+    }
+    std::int64_t slots = 0;
+};
+
+TEST_F(RemainingSlots, AreAllWaitedForOnAFreeChannel) {
+    run();
+    EXPECT_EQ(grants, std::vector{difs + slot * slots});
+}
+
+TEST_F(RemainingSlots, AreKeptOverABusyChannel) {
+    const SimTime after_three_slots = difs + slot * 3;
+    busy_at(after_three_slots, us(1000));
+    run();
+    EXPECT_EQ(grants, std::vector{after_three_slots + us(1000) + difs + slot * (slots - 3)});
+}
+
+TEST_F(RemainingSlots, ASlotThatHasOnlyBegunIsWaitedForAgain) {
+    const SimTime within_the_fourth_slot = difs + slot * 3 + us(19);
+    busy_at(within_the_fourth_slot, us(1000));
+    run();
+    EXPECT_EQ(grants, std::vector{within_the_fourth_slot + us(1000) + difs + slot * (slots - 3)});
+}
+
+TEST_F(RemainingSlots, TheSpaceIsNoSlots) {
+    busy_at(us(1), us(1000));
+    busy_at(us(1001 + 49), us(1000));
+    run();
+    EXPECT_EQ(grants, std::vector{us(2050) + difs + slot * slots});
+}
+
+TEST_F(RemainingSlots, AreKeptThroughManyInterruptions) {
+    SimTime free;
+    for (int i = 1; i <= 4; ++i) {  // a slot between any two
+        const SimTime busy = free + difs + slot;
+        busy_at(busy, us(100));
+        free = busy + us(100);
+    }
+    run();
+    EXPECT_EQ(grants, std::vector{free + difs + slot * (slots - 4)});
+}
+
+TEST_F(ContentionTest, ABrokenFrameIsFollowedByEifs) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(1000));
+    run();
+    // The report of the broken frame comes before the channel is free.
+    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
+}
+
+TEST_F(ContentionTest, ABrokenFrameBeforeTheStartIsNoMatter) {
+    busy_at(us(0), us(1000));
+    corrupted_at(us(1000));
+    start_at(us(1010));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, ALongBusyTimeAfterABrokenFrameOutlastsEifs) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(600));  // EIFS would be over at 964 us
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, ABrokenFrameDuringTheWaitBeginsItAnewWithEifs) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(1020));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1020) + eifs});
+}
+
+using ContentionDeathTest = ContentionTest;
+
+TEST_F(ContentionDeathTest, StartingTwiceIsAnInternalError) {
+    contention().channel_busy_changed(true);
+    contention().start(0);
+    EXPECT_DEATH(contention().start(0), "internal error");
+}
+
+}  // namespace
+}  // namespace netsim

@@ -1,0 +1,579 @@
+// The instants are worked out by hand from the durations and intervals of IEEE 802.11, which are written out
+// here.
+#include "netsim/mac/dcf.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netsim/error.hpp"
+#include "support/air.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Air;
+using test::Heard;
+using test::light_microsecond_m;
+using test::Sniffer;
+using test::Station;
+
+constexpr SimTime us(std::int64_t microseconds) {
+    return SimTime::from_us(microseconds);
+}
+
+MacConfig mac_of(const char* op_mode, double bitrate_bps) {
+    MacConfig config;
+    config.op_mode = op_mode;
+    config.bitrate_bps = bitrate_bps;
+    return config;
+}
+
+// No backoff: every wait is an interframe space.
+MacConfig without_backoff() {
+    MacConfig config;
+    config.cw_min = 0;
+    config.cw_max = 0;
+    return config;
+}
+
+// g(mixed) at 24 Mbps, a payload of 100 B.
+constexpr SimTime slot = us(20);
+constexpr SimTime sifs = us(10);
+constexpr SimTime difs = us(50);
+constexpr SimTime eifs = us(364);
+constexpr SimTime data_duration = us(82);
+constexpr SimTime ack_duration = us(34);
+constexpr SimTime ack_timeout = us(55);
+
+std::vector<Heard> of_kind(const Sniffer& sniffer, FrameKind kind) {
+    std::vector<Heard> frames;
+    std::copy_if(sniffer.heard.begin(), sniffer.heard.end(), std::back_inserter(frames),
+                 [kind](const Heard& heard) { return heard.kind == kind; });
+    return frames;
+}
+
+struct Exchange {
+    const char* op_mode;
+    double bitrate_bps;
+    int data_us;  // 100 B of payload, 164 B with all headers
+    int sifs_us;
+    int ack_us;  // 14 B at the same rate if it is mandatory, else at the next slower mandatory one
+};
+
+class UnicastExchange : public testing::TestWithParam<Exchange> {};
+
+TEST_P(UnicastExchange, TakesPlaceInTheInstantsOfTheStandard) {
+    const Exchange& exchange = GetParam();
+    const SimTime flight = us(1);
+    Air air;
+    const MacConfig mac = mac_of(exchange.op_mode, exchange.bitrate_bps);
+    Station& sender = air.add_station({0, 0, 0}, mac);
+    Station& receiver = air.add_station({light_microsecond_m, 0, 0}, mac);
+    Sniffer& at_sender = air.add_sniffer({0, 0, 0});
+    Sniffer& at_receiver = air.add_sniffer({light_microsecond_m, 0, 0});
+    const SimTime start = SimTime::from_ps(1'234'567'890'123);
+    air.at(start, [&] { sender.send(receiver.id(), 100); });
+    air.run();
+
+    const SimTime data_end = start + us(exchange.data_us);
+    const SimTime ack_start = data_end + flight + us(exchange.sifs_us);  // at the receiver
+    const SimTime ack_end = ack_start + us(exchange.ack_us);
+    ASSERT_EQ(at_sender.heard.size(), 2U);
+    ASSERT_EQ(at_receiver.heard.size(), 2U);
+    EXPECT_EQ(at_sender.heard[0].start, start);
+    EXPECT_EQ(at_sender.heard[0].end, data_end);
+    EXPECT_EQ(at_receiver.heard[0].start, start + flight);
+    EXPECT_EQ(at_receiver.heard[0].end, data_end + flight);
+    EXPECT_EQ(at_receiver.heard[1].kind, FrameKind::ack);
+    EXPECT_EQ(at_receiver.heard[1].start, ack_start);
+    EXPECT_EQ(at_receiver.heard[1].end, ack_end);
+    EXPECT_EQ(at_sender.heard[1].start, ack_start + flight);
+    EXPECT_EQ(at_sender.heard[1].end, ack_end + flight);
+    ASSERT_EQ(receiver.received.size(), 1U);
+    EXPECT_EQ(receiver.received[0].time, data_end + flight);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Modes, UnicastExchange,
+    testing::Values(Exchange{"b", 1e6, 1504, 10, 304}, Exchange{"b", 2e6, 848, 10, 248},
+                    Exchange{"b", 5.5e6, 431, 10, 213}, Exchange{"b", 11e6, 312, 10, 203},
+                    Exchange{"g(erp)", 6e6, 250, 10, 50}, Exchange{"g(erp)", 9e6, 178, 10, 50},
+                    Exchange{"g(erp)", 12e6, 138, 10, 38}, Exchange{"g(erp)", 18e6, 102, 10, 38},
+                    Exchange{"g(erp)", 24e6, 82, 10, 34}, Exchange{"g(erp)", 36e6, 66, 10, 34},
+                    Exchange{"g(erp)", 48e6, 54, 10, 34}, Exchange{"g(erp)", 54e6, 54, 10, 34},
+                    Exchange{"g(mixed)", 1e6, 1504, 10, 304}, Exchange{"g(mixed)", 2e6, 848, 10, 248},
+                    Exchange{"g(mixed)", 5.5e6, 431, 10, 213}, Exchange{"g(mixed)", 6e6, 250, 10, 50},
+                    Exchange{"g(mixed)", 9e6, 178, 10, 50}, Exchange{"g(mixed)", 11e6, 312, 10, 203},
+                    Exchange{"g(mixed)", 12e6, 138, 10, 38}, Exchange{"g(mixed)", 18e6, 102, 10, 38},
+                    Exchange{"g(mixed)", 24e6, 82, 10, 34}, Exchange{"g(mixed)", 36e6, 66, 10, 34},
+                    Exchange{"g(mixed)", 48e6, 54, 10, 34}, Exchange{"g(mixed)", 54e6, 54, 10, 34},
+                    Exchange{"a", 6e6, 244, 16, 44}, Exchange{"a", 9e6, 172, 16, 44},
+                    Exchange{"a", 12e6, 132, 16, 32}, Exchange{"a", 18e6, 96, 16, 32},
+                    Exchange{"a", 24e6, 76, 16, 28}, Exchange{"a", 36e6, 60, 16, 28},
+                    Exchange{"a", 48e6, 48, 16, 28}, Exchange{"a", 54e6, 48, 16, 28}),
+    [](const auto& param_info) {
+        std::string name = std::string(param_info.param.op_mode) + "_" +
+                           std::to_string(static_cast<int>(param_info.param.bitrate_bps / 1e5));
+        std::erase_if(name, [](char character) { return character == '(' || character == ')'; });
+        return name;
+    });
+
+// Two stations a light microsecond apart, and a sniffer at the first.
+class DcfTest : public testing::Test {
+protected:
+    void add_pair(const MacConfig& mac) {
+        a = &air.add_station({0, 0, 0}, mac);
+        b = &air.add_station({light_microsecond_m, 0, 0}, mac);
+        at_a = &air.add_sniffer({0, 0, 0});
+    }
+    // Station b gets what a sends, but its answers are too weak for a.
+    void add_pair_without_way_back(const MacConfig& mac) {
+        a = &air.add_station({0, 0, 0}, mac);
+        b = &air.add_station({light_microsecond_m, 0, 0}, mac, test::radio_of_power(1e-6));
+        at_a = &air.add_sniffer({0, 0, 0});
+    }
+    std::vector<SimTime> starts(FrameKind kind) const {
+        std::vector<SimTime> times;
+        for (const Heard& frame : of_kind(*at_a, kind)) {
+            times.push_back(frame.start);
+        }
+        return times;
+    }
+
+    Air air;
+    Station* a = nullptr;
+    Station* b = nullptr;
+    Sniffer* at_a = nullptr;
+};
+
+TEST_F(DcfTest, AMessageIsDeliveredWithItsTextAndItsSource) {
+    add_pair(MacConfig());
+    a->send(b->id(), "hello, wörld");
+    air.run();
+    EXPECT_EQ(b->texts(), std::vector<std::string>{"hello, wörld"});
+    EXPECT_EQ(b->received[0].source, a->id());
+}
+
+TEST_F(DcfTest, AnEmptyMessageIsDelivered) {
+    add_pair(MacConfig());
+    a->send(b->id(), "");
+    air.run();
+    EXPECT_EQ(b->texts(), std::vector<std::string>{""});
+}
+
+TEST_F(DcfTest, AUnicastIsOnlyForItsReceiver) {
+    add_pair(MacConfig());
+    Station& c = air.add_station({0, 100, 0});
+    a->send(b->id(), 100);
+    air.run();
+    EXPECT_TRUE(c.received.empty());
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered, true), 1U);
+}
+
+TEST_F(DcfTest, ABroadcastIsForAll) {
+    add_pair(MacConfig());
+    Station& c = air.add_station({0, 100, 0});
+    a->send(broadcast_id, "to all");
+    air.run();
+    EXPECT_EQ(b->texts(), std::vector<std::string>{"to all"});
+    EXPECT_EQ(c.texts(), std::vector<std::string>{"to all"});
+    EXPECT_TRUE(a->received.empty());
+}
+
+TEST_F(DcfTest, ABroadcastIsNotAcknowledged) {
+    add_pair(MacConfig());
+    a->send(broadcast_id, 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 0U);
+    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageFate::sent), 1U);
+}
+
+TEST_F(DcfTest, ABroadcastThatNobodyHearsIsNotRepeated) {
+    Station& alone = air.add_station({0, 0, 0});
+    alone.send(broadcast_id, 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::broadcast), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageFate::sent), 1U);
+}
+
+TEST_F(DcfTest, BroadcastsHaveTheirOwnBitrateIfTheyAreGivenOne) {
+    MacConfig mac;
+    mac.multicast_bitrate_bps = 6e6;
+    add_pair(mac);
+    a->send(broadcast_id, 100);
+    air.run();
+    EXPECT_EQ(at_a->heard.at(0).end - at_a->heard.at(0).start, us(250));
+}
+
+TEST_F(DcfTest, BroadcastsAreSentAsDataOtherwise) {
+    add_pair(MacConfig());
+    a->send(broadcast_id, 100);
+    air.run();
+    EXPECT_EQ(at_a->heard.at(0).end - at_a->heard.at(0).start, data_duration);
+}
+
+TEST_F(DcfTest, TheNextFrameFollowsTheAckAfterDifsAndABackoff) {
+    add_pair(MacConfig());
+    a->send(b->id(), 100);
+    a->send(b->id(), 100);
+    air.run();
+    const SimTime ack_end = of_kind(*at_a, FrameKind::ack).at(0).end;
+    const SimTime backoff = starts(FrameKind::unicast).at(1) - ack_end - difs;
+    EXPECT_EQ(backoff.ps() % slot.ps(), 0);
+    EXPECT_GE(backoff, SimTime());
+    EXPECT_LE(backoff, slot * 31);
+}
+
+TEST_F(DcfTest, WithoutBackoffTheNextFrameFollowsTheAckAfterDifs) {
+    add_pair(without_backoff());
+    a->send(b->id(), 100);
+    a->send(b->id(), 100);
+    air.run();
+    const SimTime exchange = data_duration + us(1) + sifs + ack_duration + us(1);
+    EXPECT_EQ(starts(FrameKind::unicast), (std::vector{us(0), exchange + difs}));
+}
+
+TEST_F(DcfTest, BroadcastsFollowEachOtherAfterDifs) {
+    add_pair(without_backoff());
+    a->send(broadcast_id, 100);
+    a->send(broadcast_id, 100);
+    air.run();
+    EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(0), data_duration + difs}));
+}
+
+TEST_F(DcfTest, MessagesGoOutInTheOrderTheyCameIn) {
+    add_pair(MacConfig());
+    std::vector<std::string> texts;
+    for (int i = 0; i < 50; ++i) {
+        texts.push_back("number " + std::to_string(i));
+        a->send(i % 3 == 0 ? broadcast_id : b->id(), texts.back());
+    }
+    air.run();
+    EXPECT_EQ(b->texts(), texts);
+}
+
+TEST_F(DcfTest, DefersToAFrameThatItHears) {
+    add_pair(without_backoff());
+    Station& c = air.add_station({0, 0, 0}, without_backoff());
+    c.send(broadcast_id, 100);
+    air.at(us(40), [&] { a->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(0), data_duration + difs}));
+}
+
+TEST_F(DcfTest, FramesOfOneInstantCollide) {
+    add_pair(MacConfig());
+    Station& c = air.add_station({0, light_microsecond_m, 0});
+    air.at(us(1000), [&] {
+        a->send(broadcast_id, 100);
+        c.send(broadcast_id, 100);
+    });
+    air.run();
+    EXPECT_TRUE(a->received.empty());  // a radio that transmits hears nothing
+    EXPECT_TRUE(c.received.empty());
+    EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(1000), us(1001)}));
+}
+
+TEST_F(DcfTest, ABrokenFrameIsFollowedByEifs) {
+    RadioConfig picky;
+    picky.snir_threshold = 1e12;  // decodes nothing
+    Station& station = air.add_station({0, 0, 0}, without_backoff(), picky);
+    Station& other = air.add_station({light_microsecond_m, 0, 0}, without_backoff());
+    at_a = &air.add_sniffer({0, 0, 0});
+    other.send(broadcast_id, 100);
+    air.at(us(40), [&] { station.send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(1), us(1) + data_duration + eifs}));
+}
+
+// Without an ACK, the sender's own NAV runs until the ACK would be over; the next attempt comes DIFS after
+// that.
+TEST_F(DcfTest, AFrameWithoutAckIsRepeated) {
+    add_pair_without_way_back(without_backoff());
+    a->send(b->id(), 100);
+    air.run();
+    const SimTime attempt = data_duration + sifs + ack_duration + difs;
+    std::vector<SimTime> expected;
+    for (int i = 0; i < 7; ++i) {
+        expected.push_back(attempt * i);
+    }
+    EXPECT_EQ(starts(FrameKind::unicast), expected);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+}
+
+// Where the ACK would last longer than the timeout waits for its beginning, the medium is free only after the
+// NAV.
+TEST_F(DcfTest, ASlowAckIsWaitedForByTheNav) {
+    MacConfig mac = without_backoff();
+    mac.bitrate_bps = 1e6;
+    mac.short_retry_limit = 2;
+    Station& alone = air.add_station({0, 0, 0}, mac);
+    Station& deaf = air.add_station({1e7, 0, 0}, mac);
+    at_a = &air.add_sniffer({0, 0, 0});
+    alone.send(deaf.id(), 100);
+    air.run();
+    EXPECT_EQ(starts(FrameKind::unicast), (std::vector{us(0), us(1504 + 10 + 304 + 50)}));
+}
+
+TEST_F(DcfTest, GivesUpWhenTheAckTimeoutOfTheLastAttemptIsOver) {
+    MacConfig mac = without_backoff();
+    mac.short_retry_limit = 1;
+    add_pair_without_way_back(mac);
+    a->send(b->id(), 100);
+    const auto given_up = [this] {
+        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
+    };
+    air.run(data_duration + ack_timeout - SimTime::from_ps(1));
+    EXPECT_EQ(given_up(), 0U);
+    air.run(data_duration + ack_timeout);
+    EXPECT_EQ(given_up(), 1U);
+}
+
+TEST_F(DcfTest, AnAckThatHasBegunByTheTimeoutIsWaitedFor) {
+    // At 44 light microseconds to and fro, the ACK begins 54 us after the end of the data and ends at 88 us.
+    MacConfig mac;
+    a = &air.add_station({0, 0, 0}, mac, test::radio_of_power(100));
+    b = &air.add_station({22 * light_microsecond_m, 0, 0}, mac, test::radio_of_power(100));
+    a->send(b->id(), 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+TEST_F(DcfTest, AnAckThatBeginsAfterTheTimeoutIsTooLate) {
+    MacConfig mac;
+    mac.short_retry_limit = 1;
+    a = &air.add_station({0, 0, 0}, mac, test::radio_of_power(100));
+    b = &air.add_station({23 * light_microsecond_m, 0, 0}, mac, test::radio_of_power(100));
+    a->send(b->id(), 100);
+    air.run();
+    EXPECT_EQ(b->received.size(), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+}
+
+TEST_F(DcfTest, AnotherFrameInsteadOfTheAckIsAFailure) {
+    MacConfig mac = without_backoff();
+    mac.short_retry_limit = 1;
+    add_pair_without_way_back(mac);
+    a->send(b->id(), 100);
+    test::BareRadio& rude = air.add_radio({0, 10, 0});
+    air.at(data_duration + us(20), [&] { rude.send(us(50)); });
+    const auto given_up = [this] {
+        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
+    };
+    air.run(data_duration + ack_timeout);
+    EXPECT_EQ(given_up(), 0U);  // it may be the ACK
+    air.run(data_duration + us(71));
+    EXPECT_EQ(given_up(), 1U);
+}
+
+TEST_F(DcfTest, ADuplicateIsAcknowledgedButNotDeliveredAgain) {
+    add_pair_without_way_back(MacConfig());
+    a->send(b->id(), "once");
+    a->send(b->id(), "twice");
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 14U);
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 14U);
+    EXPECT_EQ(b->texts(), (std::vector<std::string>{"once", "twice"}));
+}
+
+TEST_F(DcfTest, AfterGivingUpTheNextMessageHasItsTurn) {
+    add_pair(MacConfig());
+    Station& gone = air.add_station({1e7, 0, 0});
+    a->send(gone.id(), "lost");
+    a->send(b->id(), "next");
+    air.run();
+    EXPECT_EQ(b->texts(), std::vector<std::string>{"next"});
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+// The slots before each attempt of a message that is never acknowledged, and before the next message.
+class ContentionWindow : public testing::Test {
+protected:
+    static constexpr int seeds = 150;
+
+    // slots[attempt] of all seeds; the last one belongs to the next message.
+    static std::vector<std::vector<std::int64_t>> slots_of_attempts(const MacConfig& mac) {
+        std::vector<std::vector<std::int64_t>> slots(8);
+        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+            Air air(MediumConfig(), Hearing::what_matters, seed);
+            Station& sender = air.add_station({0, 0, 0}, mac);
+            Station& gone = air.add_station({1e7, 0, 0}, mac);
+            Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+            sender.send(gone.id(), 100);
+            sender.send(gone.id(), 100);
+            air.run(SimTime::from_seconds(1));
+            const std::vector<Heard> frames = of_kind(sniffer, FrameKind::unicast);
+            EXPECT_EQ(frames.size(), 14U);
+            for (std::size_t attempt = 1; attempt < slots.size(); ++attempt) {
+                const SimTime waited =
+                    frames[attempt].start - frames[attempt - 1].end - sifs - ack_duration - difs;
+                EXPECT_EQ(waited.ps() % slot.ps(), 0);
+                slots[attempt].push_back(waited.ps() / slot.ps());
+            }
+        }
+        return slots;
+    }
+    static void expect_draws_up_to(const std::vector<std::int64_t>& slots, std::int64_t window) {
+        const auto [least, most] = std::minmax_element(slots.begin(), slots.end());
+        EXPECT_GE(*least, 0);
+        EXPECT_LE(*most, window);
+        EXPECT_GT(*most, window * 9 / 10);  // misses with a chance of 0.9^150
+    }
+};
+
+TEST_F(ContentionWindow, DoublesWithEveryFailureUpToItsMaximum) {
+    const auto slots = slots_of_attempts(MacConfig());
+    const std::vector<std::int64_t> windows{63, 127, 255, 511, 1023, 1023};
+    for (std::size_t retry = 1; retry <= windows.size(); ++retry) {
+        SCOPED_TRACE("retry " + std::to_string(retry));
+        expect_draws_up_to(slots[retry], windows[retry - 1]);
+    }
+}
+
+TEST_F(ContentionWindow, IsItsMinimumAgainForTheNextMessage) {
+    expect_draws_up_to(slots_of_attempts(MacConfig())[7], 31);
+}
+
+TEST_F(ContentionWindow, HasTheBoundsThatItIsGiven) {
+    MacConfig mac;
+    mac.cw_min = 7;
+    mac.cw_max = 20;
+    const auto slots = slots_of_attempts(mac);
+    expect_draws_up_to(slots[1], 15);
+    expect_draws_up_to(slots[2], 20);
+    expect_draws_up_to(slots[6], 20);
+    expect_draws_up_to(slots[7], 7);
+}
+
+// Station c hears a, but not b's answer to it.
+class HiddenResponder : public testing::Test {
+protected:
+    static constexpr double hop_m = light_microsecond_m;
+
+    void SetUp() override {
+        RadioConfig radio;
+        radio.sensitivity_w = 1.5 * at(2 * hop_m);
+        radio.energy_detection_w = radio.sensitivity_w;
+        b = &air.add_station({0, 0, 0}, without_backoff(), radio);
+        a = &air.add_station({hop_m, 0, 0}, without_backoff(), radio);
+        c = &air.add_station({2 * hop_m, 0, 0}, without_backoff(), radio);
+        at_c = &air.add_sniffer({2 * hop_m, 0, 0});
+    }
+    static double at(double distance_m) {
+        return RadioConfig().tx_power_w *
+               make_path_loss(MediumConfig()).gain(distance_m, RadioConfig().carrier_hz);
+    }
+
+    Air air;
+    Station* a = nullptr;
+    Station* b = nullptr;
+    Station* c = nullptr;
+    Sniffer* at_c = nullptr;
+};
+
+TEST_F(HiddenResponder, TheNavKeepsTheThirdStationSilentUntilTheAckIsOver) {
+    a->send(b->id(), 100);
+    air.at(us(40), [&] { c->send(broadcast_id, 100); });
+    air.run();
+    const SimTime data_end_at_c = data_duration + us(1);
+    ASSERT_EQ(of_kind(*at_c, FrameKind::broadcast).size(), 1U);
+    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast)[0].start, data_end_at_c + sifs + ack_duration + difs);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+TEST_F(HiddenResponder, TheNavCountsAsBusyForImmediateAccess) {
+    a->send(b->id(), 100);
+    const SimTime data_end_at_c = data_duration + us(1);
+    air.at(data_end_at_c + us(5), [&] { c->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(0).start, data_end_at_c + sifs + ack_duration + difs);
+}
+
+TEST_F(HiddenResponder, ABroadcastLeavesNoNav) {
+    a->send(broadcast_id, 100);
+    air.at(us(40), [&] { c->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(1).start, data_duration + us(1) + difs);
+}
+
+TEST_F(DcfTest, TheQueueHoldsAHundredAndTheOneInProgress) {
+    add_pair(MacConfig());
+    a->send(b->id(), 100);
+    air.run(us(10));  // in the air
+    for (int i = 0; i < 101; ++i) {
+        a->send(b->id(), 100);
+    }
+    EXPECT_EQ(a->dcf.queued_messages(), 101U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::queue_overflow), 1U);
+    air.run();
+    EXPECT_EQ(b->received.size(), 101U);
+}
+
+TEST_F(DcfTest, AFrameWaitsInTheQueueUntilTheChannelIsGranted) {
+    add_pair(MacConfig());
+    for (int i = 0; i < 101; ++i) {
+        a->send(broadcast_id, 100);
+    }
+    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
+}
+
+TEST_F(DcfTest, QueuedMessagesCountsThoseWithoutAFate) {
+    add_pair(MacConfig());
+    EXPECT_EQ(a->dcf.queued_messages(), 0U);
+    a->send(b->id(), 100);
+    a->send(b->id(), 100);
+    EXPECT_EQ(a->dcf.queued_messages(), 2U);
+    air.run(us(300));
+    EXPECT_EQ(a->dcf.queued_messages(), 1U);
+    air.run();
+    EXPECT_EQ(a->dcf.queued_messages(), 0U);
+}
+
+TEST_F(DcfTest, TheLongestMessageFits) {
+    add_pair(MacConfig());
+    a->send(b->id(), 2276);
+    air.run();
+    EXPECT_EQ(b->received.size(), 1U);
+}
+
+TEST_F(DcfTest, AMessageThatIsTooLongIsAnErrorThatSaysHowLongItMayBe) {
+    add_pair(MacConfig());
+    try {
+        a->send(b->id(), 2277);
+        FAIL() << "no error";
+    } catch (const SimulationError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "a message of 2277 bytes does not fit: the longest is 2276 bytes (an MTU of 2304 bytes "
+                  "less IPv4 and "
+                  "UDP headers)");
+    }
+    EXPECT_EQ(air.message_fates.accepted(MessageKind::unicast), 0U);
+}
+
+TEST_F(DcfTest, ABitrateThatTheModeHasNotIsAnError) {
+    EXPECT_THROW(add_pair(mac_of("b", 24e6)), ConfigError);
+    MacConfig mac;
+    mac.multicast_bitrate_bps = 7e6;
+    EXPECT_THROW(add_pair(mac), ConfigError);
+}
+
+TEST_F(DcfTest, OnePairSharesTheChannelBothWays) {
+    add_pair(MacConfig());
+    for (int i = 0; i < 40; ++i) {
+        a->send(b->id(), 100);
+        b->send(a->id(), 100);
+    }
+    air.run();
+    EXPECT_EQ(a->received.size(), 40U);
+    EXPECT_EQ(b->received.size(), 40U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 80U);
+}
+
+}  // namespace
+}  // namespace netsim
