@@ -18,7 +18,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python lint format build bench clean distclean system-gtest system-benchmark
+.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build bench clean distclean system-gtest system-benchmark
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -36,14 +36,18 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 test-python: build $(STAMPS)/test  ## Python tests, in parallel.
 	$(BIN)/python -m pytest --numprocesses=auto
 
-lint: build $(STAMPS)/test $(STAMPS)/lint system-gtest  ## ruff, mypy --strict, lint-imports, clang-format, clang-tidy.
+lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
+
+lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
 	ruff check $(python_checked)
 	ruff format --check $(python_checked)
 	mypy
 	lint-imports
+
+lint-cpp: $(STAMPS)/build $(STAMPS)/lint system-gtest  ## clang-format, clang-tidy.
 	clang-format --dry-run -Werror $(cpp_checked)
 	cmake -S cpp --preset lint --log-level=WARNING \
-	  -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
+	  -DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@$(MAKE) --no-print-directory --jobs=$$(nproc) -f cpp/clang-tidy.mk
 
 format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
@@ -75,7 +79,8 @@ define need
   if ! command -v apt-get >/dev/null || { [ -n "$$root" ] && ! command -v sudo >/dev/null; }; then \
     echo "Please install $(2) (the name of the Debian package) and run make again." >&2; exit 1; fi; \
   get() { $$root env DEBIAN_FRONTEND=noninteractive apt-get -qq "$$@" </dev/null; }; \
-  { get update && get install -y --no-install-recommends $(2) >/dev/null; } || { \
+  get update || true; \
+  get install -y --no-install-recommends $(2) >/dev/null || { \
     echo "apt-get could not install $(2): please install it and run make again." >&2; exit 1; }; }
 endef
 

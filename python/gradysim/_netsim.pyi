@@ -7,7 +7,7 @@ class ConfigError(ValueError):
     """A value of a configuration is outside its range; the text names the field, the value and the range."""
 
 class SimulationError(RuntimeError):
-    """A command that cannot be carried out: a timer in the past, an unknown destination, …"""
+    """A command that cannot be carried out: a timer in the past, an unknown destination."""
 
 class MediumConfig:
     """The type chooses the defaults of the other fields, so it is given at the start and stays."""
@@ -93,7 +93,7 @@ class Network:
         """Run the events up to and including `time` (seconds). False when `max_events` came first."""
     def finish(self) -> None: ...
     def release_protocols(self) -> None:
-        """Let go of the protocols, which refer back to the network. To be called in the end, come what may."""
+        """Let go of the protocols, which refer back to the network. To be called in the end, in any case."""
     @property
     def now(self) -> float:
         """Simulated time in seconds."""
