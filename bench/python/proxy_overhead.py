@@ -9,6 +9,7 @@ Two goals, each a ratio of CPU times taken in turn in one process:
   the event itself (a node without a protocol) is subtracted.
 """
 
+import gc
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -125,6 +126,7 @@ def whole_run(hours: float, rounds: int) -> None:
     """Compare whole runs with their callbacks."""
     (scenario,) = load_scenarios(CONFIG, "ZigZag25", overrides=[f"sim-time-limit={hours}h"])
     calls = record(scenario)
+    gc.freeze()  # or the garbage collector would go through the recorded calls during the runs
     ratios = []
     for _ in range(rounds):
         callbacks_s = replay(scenario, calls)

@@ -2,21 +2,15 @@
 
 namespace netsim {
 
-Position Trajectory::position_at(SimTime time) const {
-    auto leg = legs_.rbegin();
-    while (time < leg->start && leg + 1 != legs_.rend()) {
+const Trajectory::Leg& Trajectory::past_leg_at(SimTime time) const {
+    if (past_.empty()) {
+        return current_;
+    }
+    auto leg = past_.rbegin();
+    while (time < leg->start && leg + 1 != past_.rend()) {
         ++leg;
     }
-    return position_on(*leg, time);
-}
-
-Position Trajectory::position_on(const Leg& leg, SimTime time) {
-    if (time >= leg.arrival) {
-        return leg.target;
-    }
-    const double fraction =
-        static_cast<double>((time - leg.start).ps()) / static_cast<double>((leg.arrival - leg.start).ps());
-    return leg.origin + (leg.target - leg.origin) * fraction;
+    return *leg;
 }
 
 void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
@@ -43,13 +37,13 @@ void Trajectory::stop(SimTime now) {
 }
 
 void Trajectory::add(const Leg& leg) {
-    if (legs_.back().start == leg.start) {
-        legs_.back() = leg;  // commands of one instant: the last one counts
-    } else {
-        legs_.push_back(leg);
+    if (current_.start != leg.start) {  // else: commands of one instant, of which the last one counts
+        past_.push_back(current_);
     }
-    while (legs_.size() > 1 && legs_[1].start < leg.start - memory) {
-        legs_.pop_front();
+    current_ = leg;
+    // A past leg ends where the next one starts.
+    while (past_.size() > 1 && past_[1].start < current_.start - memory) {
+        past_.pop_front();
     }
 }
 

@@ -16,9 +16,11 @@ public:
     // How far before the newest leg position_at may ask. Longer than any frame with its propagation.
     static constexpr SimTime memory = SimTime::from_us(1'000'000);
 
-    explicit Trajectory(Position initial) { legs_.push_back(Leg{SimTime::long_ago(), SimTime::long_ago(), initial, initial}); }
+    explicit Trajectory(Position initial) : current_{SimTime::long_ago(), SimTime::long_ago(), initial, initial} {}
 
-    Position position_at(SimTime time) const;
+    Position position_at(SimTime time) const {
+        return position_on(time >= current_.start ? current_ : past_leg_at(time), time);
+    }
 
     // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is.
     void go_to(SimTime now, Position target, double speed_mps);
@@ -33,10 +35,19 @@ private:
         Position target;
     };
 
-    static Position position_on(const Leg& leg, SimTime time);
+    static Position position_on(const Leg& leg, SimTime time) {
+        if (time >= leg.arrival) {
+            return leg.target;
+        }
+        const double fraction =
+            static_cast<double>((time - leg.start).ps()) / static_cast<double>((leg.arrival - leg.start).ps());
+        return leg.origin + (leg.target - leg.origin) * fraction;
+    }
+    const Leg& past_leg_at(SimTime time) const;
     void add(const Leg& leg);
 
-    std::deque<Leg> legs_;  // by start; the last one holds from its start on
+    Leg current_;           // from its start on
+    std::deque<Leg> past_;  // those before, by start
 };
 
 }  // namespace netsim
