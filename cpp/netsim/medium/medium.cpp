@@ -11,7 +11,9 @@ namespace netsim {
 
 namespace {
 
-SimTime propagation_delay(double distance_m) { return SimTime::from_seconds(distance_m / speed_of_light_mps); }
+SimTime propagation_delay(double distance_m) {
+    return SimTime::from_seconds(distance_m / speed_of_light_mps);
+}
 
 }  // namespace
 
@@ -55,7 +57,7 @@ void Medium::transmit(Transmission transmission) {
         ++count.made;
         const double distance_m2 = squared_distance(sent.origin, receiver.trajectory->position_at(now));
         farthest_m2 = std::max(farthest_m2, distance_m2);
-        if (!overlaps_others && is_out_of_reach(attached, sent, distance_m2)) {
+        if (!overlaps_others && distance_m2 > squared_reach_m2(attached, sent)) {
             ++count.too_weak;
             continue;
         }
@@ -75,8 +77,8 @@ void Medium::transmit(Transmission transmission) {
 }
 
 bool Medium::may_overlap(const Transmission& newest) const {
-    // At any receiver, the ends of two frames are shifted against each other by at most the distance of their senders
-    // (triangle inequality), and by what the receiver moves in between, for which the slack is ample.
+    // At any receiver, the ends of two frames are shifted against each other by at most the distance of their
+    // senders (triangle inequality), and by what the receiver moves in between, for which the slack is ample.
     constexpr SimTime slack = SimTime::from_us(1);
     return std::any_of(on_air_.begin(), on_air_.end(), [&newest](const OnAir& other) {
         const SimTime shift = propagation_delay(distance(other.transmission.origin, newest.origin));
@@ -84,23 +86,22 @@ bool Medium::may_overlap(const Transmission& newest) const {
     });
 }
 
-bool Medium::is_out_of_reach(Attached& attached, const Transmission& transmission, double squared_distance_m2) const {
-    if (hearing_ == Hearing::everything) {
-        return false;
-    }
+double Medium::squared_reach_m2(Attached& attached, const Transmission& transmission) const {
     if (attached.tx_power_w != transmission.power_w || attached.carrier_hz != transmission.band.carrier_hz) {
         const Receiver& receiver = attached.receiver;
-        const double least_w = std::min(receiver.sensitivity_w, receiver.energy_detection_w - background_noise_w_);
+        const double least_w =
+            std::min(receiver.sensitivity_w, receiver.energy_detection_w - background_noise_w_);
         // Out of reach is said only with a margin for rounding; who is in doubt gets the exact calculation.
         constexpr double margin = 1 + 1e-9;
         const double reach_m =
-            least_w > 0 ? path_loss_.reach_m(least_w / transmission.power_w, transmission.band.carrier_hz) * margin
-                        : std::numeric_limits<double>::infinity();
+            least_w > 0 && hearing_ == Hearing::what_matters
+                ? path_loss_.reach_m(least_w / transmission.power_w, transmission.band.carrier_hz) * margin
+                : std::numeric_limits<double>::infinity();
         attached.tx_power_w = transmission.power_w;
         attached.carrier_hz = transmission.band.carrier_hz;
         attached.squared_reach_m2 = reach_m * reach_m;
     }
-    return squared_distance_m2 > attached.squared_reach_m2;
+    return attached.squared_reach_m2;
 }
 
 Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& receiver) const {
@@ -111,31 +112,33 @@ Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& rec
                    transmission.power_w * path_loss_.gain(distance_m, transmission.band.carrier_hz)};
 }
 
-// The events of an arrival have their places in the order of equal times since its transmission began: the course of
-// a run does not depend on when, or whether, a radio is told.
+// The events of an arrival have their places in the order of equal times since its transmission began: the
+// course of a run does not depend on when, or whether, a radio is told.
 void Medium::tell(NodeId node, const OnAir& on_air, const Arrival& arrival) {
     if (arrival.start < simulator_.now()) {
-        // It came to matter after it had begun: nothing that the radio could have noticed happened in between.
+        // It came to matter after it had begun: nothing that the radio could have noticed happened in
+        // between.
         begin(node, on_air, arrival);
         return;
     }
-    simulator_.schedule_at_place(arrival.start, on_air.first_place + 2 * static_cast<Place>(node),
-                                 [this, node, &on_air, power_w = arrival.power_w] {
-                                     const SimTime start = simulator_.now();
-                                     const Transmission& transmission = on_air.transmission;
-                                     begin(node, on_air,
-                                           Arrival{&transmission, start, start + transmission.duration, power_w});
-                                 });
+    simulator_.schedule_at_place(
+        arrival.start, on_air.first_place + 2 * static_cast<Place>(node),
+        [this, node, &on_air, power_w = arrival.power_w] {
+            const SimTime start = simulator_.now();
+            const Transmission& transmission = on_air.transmission;
+            begin(node, on_air, Arrival{&transmission, start, start + transmission.duration, power_w});
+        });
 }
 
 void Medium::begin(NodeId node, const OnAir& on_air, const Arrival& arrival) {
     attached_[node].receiver.listener->arrival_started(arrival);
-    simulator_.schedule_at_place(arrival.end, on_air.first_place + 2 * static_cast<Place>(node) + 1,
-                                 [this, node, transmission = arrival.transmission, power_w = arrival.power_w] {
-                                     const SimTime end = simulator_.now();
-                                     attached_[node].receiver.listener->arrival_ended(
-                                         Arrival{transmission, end - transmission->duration, end, power_w});
-                                 });
+    simulator_.schedule_at_place(
+        arrival.end, on_air.first_place + 2 * static_cast<Place>(node) + 1,
+        [this, node, transmission = arrival.transmission, power_w = arrival.power_w] {
+            const SimTime end = simulator_.now();
+            attached_[node].receiver.listener->arrival_ended(
+                Arrival{transmission, end - transmission->duration, end, power_w});
+        });
 }
 
 void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival) {

@@ -9,8 +9,8 @@ namespace netsim {
 
 void MasslessMobility::go_to(SimTime now, Position target) {
     if (!std::isfinite(target.x) || !std::isfinite(target.y) || !std::isfinite(target.z)) {
-        throw SimulationError("cannot go to (" + std::to_string(target.x) + ", " + std::to_string(target.y) + ", " +
-                              std::to_string(target.z) + "): expected three finite numbers of metres");
+        throw SimulationError("cannot go to (" + std::to_string(target.x) + ", " + std::to_string(target.y) +
+                              ", " + std::to_string(target.z) + "): expected three finite numbers of metres");
     }
     target_ = target;
     trajectory_.go_to(now, target, speed_mps_);

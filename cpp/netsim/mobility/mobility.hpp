@@ -1,7 +1,7 @@
 // How a node obeys mobility commands.
 //
-// A model turns commands into legs of a Trajectory. Models are chosen by name in make_mobility; adding one is one
-// file, one line in that table, one test and one row in the reference of configuration keys.
+// A model turns commands into legs of a Trajectory. Models are chosen by name in make_mobility; adding one is
+// one file, one line in that table, one test and one row in the reference of configuration keys.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ class Mobility {
 public:
     virtual ~Mobility() = default;
 
-    // Fly to `target` (metres). Throws SimulationError if the model cannot, or for numbers that are not finite.
+    // Fly to `target` (metres). Throws SimulationError if the model cannot, or for numbers that are not
+    // finite.
     virtual void go_to(SimTime now, Position target) = 0;
     // From now on, also on the present leg, fly at `speed_mps` ≥ 0.
     virtual void set_speed(SimTime now, double speed_mps) = 0;

@@ -15,7 +15,8 @@ public:
 
 private:
     [[noreturn]] static void refuse() {
-        throw SimulationError("a node with StationaryMobility cannot be moved: give it a mobility.typename that can move");
+        throw SimulationError(
+            "a node with StationaryMobility cannot be moved: give it a mobility.typename that can move");
     }
 };
 

@@ -1,5 +1,6 @@
 #include "netsim/node/network.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "netsim/error.hpp"
@@ -24,28 +25,47 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
     if (perfect_channel_ && !(config.radio.communication_range_m > 0)) {
-        throw ConfigError("radio.communication_range_m = " + std::to_string(config.radio.communication_range_m) +
-                          " m: UnitDiskRadioMedium needs the range of each radio, greater than 0 m");
+        throw ConfigError(
+            "radio.communication_range_m = " + std::to_string(config.radio.communication_range_m) +
+            " m: UnitDiskRadioMedium needs the range of each radio, greater than 0 m");
     }
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
     if (perfect_channel_) {
-        node.set_link(std::make_unique<UnitDiskLink>(simulator_, unit_disk_, config.radio.communication_range_m,
-                                                     node.trajectory(), frame_fates_, message_fates_, fingerprint_,
-                                                     node.link_listener()));
+        node.set_link(std::make_unique<UnitDiskLink>(
+            simulator_, unit_disk_, config.radio.communication_range_m, node.trajectory(), frame_fates_,
+            message_fates_, fingerprint_, node.link_listener()));
     } else {
-        Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_, frame_fates_,
-                                            fingerprint_);
-        node.set_link(
-            std::make_unique<Dcf>(simulator_, radio, config.mac, seed_, message_fates_, node.link_listener()));
+        Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_,
+                                            frame_fates_, fingerprint_);
+        node.set_link(std::make_unique<Dcf>(simulator_, radio, config.mac, seed_, message_fates_,
+                                            node.link_listener()));
+    }
+    const SimTime telemetry_interval = SimTime::from_seconds(config.mobility.telemetry_interval_s);
+    if (telemetry_interval > SimTime{}) {
+        add_to_telemetry_clock(node, telemetry_interval);
     }
     return node;
+}
+
+void Network::add_to_telemetry_clock(Node& node, SimTime interval) {
+    auto clock =
+        std::find_if(telemetry_clocks_.begin(), telemetry_clocks_.end(),
+                     [interval](const TelemetryClock& other) { return other.interval() == interval; });
+    if (clock == telemetry_clocks_.end()) {
+        telemetry_clocks_.emplace_back(simulator_, interval);
+        clock = telemetry_clocks_.end() - 1;
+    }
+    clock->add(node);
 }
 
 void Network::initialize() {
     for (Node& node : nodes_) {
         node.initialize();
+    }
+    for (TelemetryClock& clock : telemetry_clocks_) {
+        clock.start();
     }
 }
 

@@ -1,7 +1,7 @@
 // A whole simulation: the clock, the medium, the nodes and the ledgers. Owns everything, shares nothing.
 //
-// Two networks may run interleaved, step by step, in one process. Use: add_node and set_protocol for each node,
-// initialize(), run_until() as often as wanted, finish(), then read the ledgers.
+// Two networks may run interleaved, step by step, in one process. Use: add_node and set_protocol for each
+// node, initialize(), run_until() as often as wanted, finish(), then read the ledgers.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 #include "netsim/mac/unit_disk_link.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/node/node.hpp"
+#include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
 #include "netsim/trace/frame_fates.hpp"
 #include "netsim/trace/message_fates.hpp"
@@ -42,7 +43,8 @@ public:
     }
     // Calls the protocols' finish, in the order of ids.
     void finish();
-    // Drops the protocols, which may own more than their memory (a Python object that refers back to its node).
+    // Drops the protocols, which may own more than their memory (a Python object that refers back to its
+    // node).
     void release_protocols();
 
     SimTime now() const { return simulator_.now(); }
@@ -52,6 +54,8 @@ public:
     const MessageFates& message_fates() const { return message_fates_; }
 
 private:
+    void add_to_telemetry_clock(Node& node, SimTime interval);
+
     Simulator simulator_;
     std::uint64_t seed_;
     Fingerprint fingerprint_;
@@ -62,6 +66,7 @@ private:
     UnitDiskChannel unit_disk_;
     std::deque<Radio> radios_;
     std::deque<Node> nodes_;
+    std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
     std::int32_t node_count_ = 0;
 };
 

@@ -17,16 +17,11 @@ Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, Fingerprin
       fingerprint_(fingerprint),
       id_(id),
       name_(config.name),
-      telemetry_interval_(SimTime::from_seconds(config.mobility.telemetry_interval_s)),
       mobility_(make_mobility(config.mobility, config.initial_position)) {}
 
 void Node::initialize() {
-    if (!protocol_) {
-        return;
-    }
-    protocol_->initialize();
-    if (telemetry_interval_ > SimTime{}) {
-        simulator_.schedule_after(telemetry_interval_, [this] { telemetry_due(); });
+    if (protocol_) {
+        protocol_->initialize();
     }
 }
 
@@ -36,7 +31,9 @@ void Node::finish() {
     }
 }
 
-void Node::broadcast(Payload payload) { link_->send(broadcast_id, std::move(payload)); }
+void Node::broadcast(Payload payload) {
+    link_->send(broadcast_id, std::move(payload));
+}
 
 void Node::send(NodeId destination, Payload payload) {
     if (destination < 0 || destination >= *node_count_) {
@@ -67,7 +64,8 @@ void Node::message_received(NodeId source, const Payload& payload) {
     if (!protocol_) {
         return;
     }
-    fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(source) << 40) ^ static_cast<std::uint64_t>(id_));
+    fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(source) << 40) ^
+                     static_cast<std::uint64_t>(id_));
     fingerprint_.add_text(*payload);
     protocol_->handle_packet(payload);
 }
@@ -82,9 +80,8 @@ void Node::timer_due(std::size_t number) {
     }
 }
 
-void Node::telemetry_due() {
+void Node::report_position() {
     if (protocol_) {
-        simulator_.schedule_after(telemetry_interval_, [this] { telemetry_due(); });
         protocol_->handle_telemetry(position());
     }
 }

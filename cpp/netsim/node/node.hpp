@@ -37,6 +37,7 @@ public:
 
     // Life cycle, driven by the Network.
     void initialize();
+    void report_position();
     void finish();
 
     // What a protocol may ask for. All throw SimulationError for what cannot be done.
@@ -53,14 +54,12 @@ public:
 private:
     void message_received(NodeId source, const Payload& payload) override;
     void timer_due(std::size_t number);
-    void telemetry_due();
 
     Simulator& simulator_;
     Fingerprint& fingerprint_;
     NodeId id_;
     std::string name_;
     const std::int32_t* node_count_ = nullptr;
-    SimTime telemetry_interval_;  // zero: none
     std::unique_ptr<Mobility> mobility_;
     std::unique_ptr<Link> link_;
     std::unique_ptr<Protocol> protocol_;

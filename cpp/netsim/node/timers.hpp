@@ -11,7 +11,8 @@ namespace netsim {
 
 class Timers {
 public:
-    // Keeps a timer and returns its number; the caller schedules the event and tells its handle with set_event.
+    // Keeps a timer and returns its number; the caller schedules the event and tells its handle with
+    // set_event.
     std::size_t add(std::string name) {
         std::size_t number = timers_.size();
         if (free_.empty()) {

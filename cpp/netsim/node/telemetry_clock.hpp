@@ -1,0 +1,40 @@
+// The periodic telemetry of all nodes that have it at the same interval: one event for all of them.
+//
+// Ticks at every multiple of the interval after its start, and hands each node its position, in the order of
+// ids.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/node/node.hpp"
+
+namespace netsim {
+
+class TelemetryClock {
+public:
+    TelemetryClock(Simulator& simulator, SimTime interval) : simulator_(simulator), interval_(interval) {}
+    TelemetryClock(const TelemetryClock&) = delete;
+    TelemetryClock& operator=(const TelemetryClock&) = delete;
+
+    SimTime interval() const { return interval_; }
+    void add(Node& node) { nodes_.push_back(&node); }
+    void start() {
+        simulator_.schedule_after(interval_, [this] { tick(); });
+    }
+
+private:
+    void tick() {
+        start();
+        for (Node* node : nodes_) {
+            node->report_position();
+        }
+    }
+
+    Simulator& simulator_;
+    SimTime interval_;
+    std::vector<Node*> nodes_;
+};
+
+}  // namespace netsim
