@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
 #include "netsim/mac/dcf.hpp"
 
@@ -24,11 +25,7 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
-    if (perfect_channel_ && !(config.radio.communication_range_m > 0)) {
-        throw ConfigError(
-            "radio.communication_range_m = " + std::to_string(config.radio.communication_range_m) +
-            " m: UnitDiskRadioMedium needs the range of each radio, greater than 0 m");
-    }
+    check_with_medium(config.radio);
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
@@ -47,6 +44,17 @@ Node& Network::add_node(const NodeConfig& config) {
         add_to_telemetry_clock(node, telemetry_interval);
     }
     return node;
+}
+
+void Network::check_with_medium(const RadioConfig& radio) const {
+    if (perfect_channel_) {
+        check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
+    } else if (radio.energy_detection_w <= medium_.background_noise_w()) {
+        throw ConfigError("radio.energy_detection_w = " + text_of(radio.energy_detection_w) +
+                          " W: expected more than the background noise of " +
+                          text_of(medium_.background_noise_w()) +
+                          " W, which would keep the channel busy for ever");
+    }
 }
 
 void Network::add_to_telemetry_clock(Node& node, SimTime interval) {

@@ -54,6 +54,7 @@ public:
     const MessageFates& message_fates() const { return message_fates_; }
 
 private:
+    void check_with_medium(const RadioConfig& radio) const;
     void add_to_telemetry_clock(Node& node, SimTime interval);
 
     Simulator simulator_;

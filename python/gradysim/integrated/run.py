@@ -33,6 +33,14 @@ class IntegratedRun:
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
         self._encapsulators: list[NetsimEncapsulator[IProtocol]] = []
+        try:
+            self._make_protocols()
+        except BaseException:
+            self._network.release_protocols()
+            raise
+
+    def _make_protocols(self) -> None:
+        scenario = self._scenario
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
             encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(
                 node, seed=scenario.seed, reference_coordinates=scenario.reference_coordinates
