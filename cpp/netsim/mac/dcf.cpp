@@ -10,6 +10,20 @@ namespace netsim {
 
 namespace {
 
+const Mode& multicast_mode(const MacConfig& config, const ModeSet& modes, const Mode& data_mode) {
+    return config.multicast_bitrate_bps < 0
+               ? data_mode
+               : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
+}
+
+int cw_min(const MacConfig& config, const ModeSet& modes) {
+    return config.cw_min < 0 ? modes.cw_min() : config.cw_min;
+}
+
+int cw_max(const MacConfig& config, const ModeSet& modes) {
+    return config.cw_max < 0 ? modes.cw_max() : config.cw_max;
+}
+
 MessageKind message_kind(const Frame& frame) {
     return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
 }
@@ -25,18 +39,26 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       modes_(mode_set(config.op_mode)),
       timing_(modes_),
       data_mode_(modes_.mode_for_bitrate(config.bitrate_bps)),
-      multicast_mode_(config.multicast_bitrate_bps < 0
-                          ? data_mode_
-                          : modes_.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps")),
+      multicast_mode_(multicast_mode(config, modes_, data_mode_)),
       retry_limit_(config.short_retry_limit),
       mtu_bytes_(config.mtu_bytes),
-      cw_min_(config.cw_min < 0 ? modes_.cw_min() : config.cw_min),
-      cw_max_(config.cw_max < 0 ? modes_.cw_max() : config.cw_max),
+      cw_min_(cw_min(config, modes_)),
+      cw_max_(cw_max(config, modes_)),
       queue_(config.queue_capacity),
       contention_(simulator, timing_, config.backoff_optimization,
                   RandomStream(seed, static_cast<std::uint32_t>(radio.id()), Purpose::backoff), *this),
       cw_(cw_min_) {
     radio_.set_listener(*this);
+}
+
+void Dcf::check(const MacConfig& config) {
+    const ModeSet& modes = mode_set(config.op_mode);
+    multicast_mode(config, modes, modes.mode_for_bitrate(config.bitrate_bps));
+    if (cw_max(config, modes) < cw_min(config, modes)) {
+        throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) + " and mac.cw_max = " +
+                          std::to_string(cw_max(config, modes)) + " slots: expected a cw_max of at least cw_min (what " +
+                          "is not set is that of the operation mode, " + config.op_mode + ")");
+    }
 }
 
 void Dcf::send(NodeId destination, Payload payload) {

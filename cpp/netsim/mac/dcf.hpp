@@ -33,6 +33,9 @@ public:
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
+    // Throws ConfigError for what MacConfig::validate cannot know: bitrates and windows that the operation mode has not.
+    static void check(const MacConfig& config);
+
     void send(NodeId destination, Payload payload) override;
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
 

@@ -556,11 +556,39 @@ TEST_F(DcfTest, AMessageThatIsTooLongIsAnErrorThatSaysHowLongItMayBe) {
     EXPECT_EQ(air.message_fates.accepted(MessageKind::unicast), 0U);
 }
 
-TEST_F(DcfTest, ABitrateThatTheModeHasNotIsAnError) {
-    EXPECT_THROW(add_pair(mac_of("b", 24e6)), ConfigError);
+TEST(DcfCheck, TheDefaultsArePossibleInEveryMode) {
+    for (const std::string_view op_mode : op_mode_names) {
+        EXPECT_NO_THROW(Dcf::check(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
+    }
+}
+
+TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnError) {
+    EXPECT_THROW(Dcf::check(mac_of("b", 24e6)), ConfigError);
     MacConfig mac;
     mac.multicast_bitrate_bps = 7e6;
-    EXPECT_THROW(add_pair(mac), ConfigError);
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+}
+
+TEST(DcfCheck, AWindowBeyondThatOfTheModeIsAnError) {
+    MacConfig mac;
+    mac.cw_min = 2000;  // the mode's largest is 1023
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    mac.cw_max = 4000;
+    EXPECT_NO_THROW(Dcf::check(mac));
+}
+
+TEST(DcfCheck, TheErrorNamesBothWindows) {
+    MacConfig mac;
+    mac.cw_max = 5;
+    try {
+        Dcf::check(mac);
+        FAIL() << "no error";
+    } catch (const ConfigError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "mac.cw_min = 31 and mac.cw_max = 5 slots: expected a cw_max of at least cw_min (what is "
+                  "not set is "
+                  "that of the operation mode, g(mixed))");
+    }
 }
 
 TEST_F(DcfTest, OnePairSharesTheChannelBothWays) {
