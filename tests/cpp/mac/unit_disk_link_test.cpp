@@ -1,0 +1,165 @@
+#include "netsim/mac/unit_disk_link.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netsim/error.hpp"
+#include "support/recorder.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Recorder;
+
+SimTime s(double seconds) {
+    return SimTime::from_seconds(seconds);
+}
+
+class UnitDisk : public testing::Test {
+protected:
+    Recorder& add_node(Position position, double range_m = 100) {
+        NodeConfig config("node");
+        config.initial_position = position;
+        config.radio.communication_range_m = range_m;
+        config.mobility.telemetry_interval_s = 0;
+        return test::add_recorder(network, config);
+    }
+    void run(double seconds = 1) {
+        network.initialize();
+        network.run_until(s(seconds));
+    }
+    std::uint64_t message_count(MessageKind kind, MessageFate fate) const {
+        return network.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
+    }
+
+    Network network{MediumConfig(std::string(unit_disk_medium)), 1};
+};
+
+TEST_F(UnitDisk, DeliversInTheInstantOfSending) {
+    Recorder& sender = add_node({0, 0, 0});
+    const Recorder& receiver = add_node({50, 0, 0});
+    sender.on_initialize = [](Recorder& self) { self.node.schedule_timer("send", s(0.25)); };
+    sender.on_timer = [](Recorder& self, const std::string&) { self.broadcast("text"); };
+    run();
+    EXPECT_EQ(receiver.packets, (std::vector<Recorder::Told>{{s(0.25), "text"}}));
+}
+
+TEST_F(UnitDisk, TheRangeIsInclusive) {
+    Recorder& sender = add_node({0, 0, 0});
+    const Recorder& at_range = add_node({0, 60, 80});
+    const Recorder& beyond = add_node({100.000001, 0, 0});
+    sender.on_initialize = [](Recorder& self) { self.broadcast("text"); };
+    run();
+    EXPECT_EQ(at_range.packets.size(), 1U);
+    EXPECT_TRUE(beyond.packets.empty());
+}
+
+TEST_F(UnitDisk, TheRangeIsThatOfTheSender) {
+    Recorder& far_reaching = add_node({0, 0, 0}, 1000);
+    Recorder& near_reaching = add_node({500, 0, 0}, 10);
+    far_reaching.on_initialize = [](Recorder& self) { self.broadcast("from afar"); };
+    near_reaching.on_initialize = [](Recorder& self) { self.broadcast("whisper"); };
+    run();
+    EXPECT_EQ(near_reaching.packet_texts(), std::vector<std::string>{"from afar"});
+    EXPECT_TRUE(far_reaching.packets.empty());
+}
+
+TEST_F(UnitDisk, TheRangeIsJudgedAtSending) {
+    Recorder& sender = add_node({0, 0, 0});
+    Recorder& leaving = add_node({99, 0, 0});
+    leaving.on_initialize = [](Recorder& self) {
+        self.node.set_speed(10);
+        self.node.go_to({1000, 0, 0});
+    };
+    sender.on_initialize = [](Recorder& self) {
+        self.node.schedule_timer("in reach", s(0.1));
+        self.node.schedule_timer("out of reach", s(0.2));
+    };
+    sender.on_timer = [](Recorder& self, const std::string& timer) { self.broadcast(timer); };
+    run();
+    EXPECT_EQ(leaving.packet_texts(), std::vector<std::string>{"in reach"});
+}
+
+TEST_F(UnitDisk, DeliversInTheOrderOfNodeIds) {
+    std::vector<NodeId> order;
+    Recorder& sender = add_node({0, 0, 0});
+    for (const double x : {50.0, 10.0, 30.0}) {
+        add_node({x, 0, 0}).on_packet = [&order](Recorder& self, const std::string&) {
+            order.push_back(self.node.id());
+        };
+    }
+    sender.on_initialize = [](Recorder& self) { self.broadcast("text"); };
+    run();
+    EXPECT_EQ(order, (std::vector<NodeId>{1, 2, 3}));
+}
+
+TEST_F(UnitDisk, DeliversMessagesInTheOrderOfSending) {
+    Recorder& sender = add_node({0, 0, 0});
+    const Recorder& receiver = add_node({10, 0, 0});
+    sender.on_initialize = [](Recorder& self) {
+        self.broadcast("one");
+        self.send(1, "two");
+        self.broadcast("three");
+    };
+    run();
+    EXPECT_EQ(receiver.packet_texts(), (std::vector<std::string>{"one", "two", "three"}));
+}
+
+TEST_F(UnitDisk, AUnicastIsOnlyForItsReceiver) {
+    Recorder& sender = add_node({0, 0, 0});
+    const Recorder& other = add_node({10, 0, 0});
+    const Recorder& receiver = add_node({20, 0, 0});
+    sender.on_initialize = [](Recorder& self) { self.send(2, "text"); };
+    run();
+    EXPECT_TRUE(other.packets.empty());
+    EXPECT_EQ(receiver.packet_texts(), std::vector<std::string>{"text"});
+    EXPECT_EQ(message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+TEST_F(UnitDisk, AUnicastThatDoesNotReachIsOutOfRange) {
+    Recorder& sender = add_node({0, 0, 0});
+    add_node({1000, 0, 0});
+    sender.on_initialize = [](Recorder& self) { self.send(1, "text"); };
+    run();
+    EXPECT_EQ(message_count(MessageKind::unicast, MessageFate::out_of_range), 1U);
+}
+
+TEST_F(UnitDisk, AnswersWithinAnInstantComeAfterTheDeliveriesThatWereDue) {
+    std::vector<std::string> order;
+    const auto note = [&order](Recorder& self, const std::string& text) {
+        order.push_back(std::to_string(self.node.id()) + " got " + text);
+        if (text == "question") {
+            self.send(0, "answer of " + std::to_string(self.node.id()));
+        }
+    };
+    Recorder& sender = add_node({0, 0, 0});
+    sender.on_packet = note;
+    add_node({10, 0, 0}).on_packet = note;
+    add_node({20, 0, 0}).on_packet = note;
+    sender.on_initialize = [](Recorder& self) { self.broadcast("question"); };
+    run();
+    EXPECT_EQ(order, (std::vector<std::string>{"1 got question", "2 got question", "0 got answer of 1",
+                                               "0 got answer of 2"}));
+}
+
+TEST_F(UnitDisk, KeepsBooks) {
+    Recorder& sender = add_node({0, 0, 0});
+    add_node({10, 0, 0});
+    add_node({1000, 0, 0});
+    sender.on_initialize = [](Recorder& self) { self.broadcast("text"); };
+    run();
+    const auto counts = network.frame_fates().counts(FrameKind::broadcast, false);
+    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 2U);
+    EXPECT_EQ(counts[static_cast<std::size_t>(FrameFate::delivered)], 1U);
+    EXPECT_EQ(counts[static_cast<std::size_t>(FrameFate::below_sensitivity)], 1U);
+    EXPECT_EQ(message_count(MessageKind::broadcast, MessageFate::sent), 1U);
+}
+
+TEST_F(UnitDisk, NeedsARange) {
+    EXPECT_THROW(add_node({0, 0, 0}, 0), ConfigError);
+}
+
+}  // namespace
+}  // namespace netsim
