@@ -26,6 +26,9 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
     check_with_medium(config.radio);
+    if (!perfect_channel_) {
+        Dcf::check(config.mac);  // before anything is built, so that a refused node leaves no trace
+    }
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
