@@ -6,7 +6,7 @@ stamps := $(sources:%=build/lint/tidy/%)
 .PHONY: all
 all: $(stamps)
 
-build/lint/tidy/%: % $(headers) .clang-tidy cpp/CMakeLists.txt
+build/lint/tidy/%: % $(headers) .clang-tidy cpp/CMakeLists.txt tests/cpp/.clang-tidy
 	@echo "clang-tidy $<"
 	@clang-tidy --quiet -p build/lint $<
 	@mkdir -p $(@D) && touch $@

@@ -79,7 +79,7 @@ void Medium::transmit(Transmission transmission) {
 bool Medium::may_overlap(const Transmission& newest) const {
     // At any receiver, the ends of two frames are shifted against each other by at most the distance of their
     // senders (triangle inequality), and by what the receiver moves in between, for which the slack is ample.
-    constexpr SimTime slack = SimTime::from_us(1);
+    static constexpr SimTime slack = SimTime::from_us(1);
     return std::any_of(on_air_.begin(), on_air_.end(), [&newest](const OnAir& other) {
         const SimTime shift = propagation_delay(distance(other.transmission.origin, newest.origin));
         return other.transmission.start + other.transmission.duration + shift + slack > newest.start;

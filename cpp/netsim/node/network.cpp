@@ -11,7 +11,7 @@ namespace netsim {
 
 namespace {
 
-const MediumConfig& validated(const MediumConfig& config) {
+MediumConfig validated(MediumConfig config) {
     config.validate();
     return config;
 }
