@@ -1,6 +1,8 @@
 // The medium tells radios only of what can matter to them. Whatever it leaves out, the course of a run must
 // be that of the plain model, in which every radio hears everything: the same frames in the same instants,
 // the same copies lost for the same reasons.
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,6 +27,11 @@ struct Ledger {
 template <typename Counts>
 void append(std::vector<std::uint64_t>& all, const Counts& counts) {
     all.insert(all.end(), counts.begin(), counts.end());
+}
+
+template <typename Counts>
+void add(Counts& sums, const Counts& counts) {
+    std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::plus<>());
 }
 
 Ledger ledger_of(const Network& network) {
@@ -75,6 +82,31 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
         expect_same_course(test::make_random_scenario(GetParam() * scenarios + i));
         if (HasFatalFailure()) {
             return;
+        }
+    }
+}
+
+TEST(RandomScenario, MeetsEveryFateOften) {
+    FrameFates::Counts frames{};
+    MessageFates::Counts messages{};
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        const RandomScenario scenario = test::make_random_scenario(seed);
+        ScenarioRun run(scenario);
+        run.network.run_until(SimTime::from_ps(scenario.talk.until.ps() / 2));
+        for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
+            add(frames, run.network.frame_fates().counts(kind, false));
+            add(frames, run.network.frame_fates().counts(kind, true));
+        }
+        for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
+            add(messages, run.network.message_fates().counts(kind));
+        }
+    }
+    for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
+        EXPECT_GE(frames[fate], 30U) << frame_fate_names[fate];
+    }
+    for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
+        if (static_cast<MessageFate>(fate) != MessageFate::out_of_range) {  // of perfect channels only
+            EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];
         }
     }
 }

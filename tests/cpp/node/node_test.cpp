@@ -179,45 +179,5 @@ TEST_F(NodeTest, GoesWhereItIsSent) {
     EXPECT_NEAR(first->node.position().y, 20, 1e-9);
 }
 
-class Telemetry : public testing::Test {
-protected:
-    static Recorder& add_node(Network& network, double interval_s) {
-        NodeConfig config("node");
-        config.mobility.telemetry_interval_s = interval_s;
-        return test::add_recorder(network, config);
-    }
-    static std::vector<SimTime> times(double interval_s, double until_s) {
-        Network network(MediumConfig(), 1);
-        const Recorder& recorder = add_node(network, interval_s);
-        network.initialize();
-        network.run_until(s(until_s));
-        return recorder.telemetry_times;
-    }
-};
-
-TEST_F(Telemetry, ComesEveryIntervalFromTheFirstOn) {
-    EXPECT_EQ(times(0.5, 2), (std::vector{s(0.5), s(1), s(1.5), s(2)}));
-}
-
-TEST_F(Telemetry, DoesNotDrift) {
-    EXPECT_EQ(times(0.1, 100).back(), s(100));
-}
-
-TEST_F(Telemetry, OfNoIntervalThereIsNone) {
-    EXPECT_TRUE(times(0, 10).empty());
-}
-
-TEST_F(Telemetry, IsWhereTheNodeIs) {
-    Network network(MediumConfig(), 1);
-    Recorder& recorder = add_node(network, 1);
-    recorder.node.set_speed(3);
-    recorder.node.go_to({100, 0, 0});
-    network.initialize();
-    network.run_until(s(2));
-    ASSERT_EQ(recorder.telemetry.size(), 2U);
-    EXPECT_NEAR(recorder.telemetry[0].x, 3, 1e-9);
-    EXPECT_NEAR(recorder.telemetry[1].x, 6, 1e-9);
-}
-
 }  // namespace
 }  // namespace netsim

@@ -1,6 +1,7 @@
 // Random scenarios: nodes whose links are good, marginal and hopeless, with bursts of messages that collide.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <ostream>
@@ -63,6 +64,8 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         node.radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
         node.radio.energy_detection_w *=
             ratio_from_db(detection_offset_db + between(-detection_spread_db, detection_spread_db));
+        node.radio.energy_detection_w =
+            std::max(node.radio.energy_detection_w, 1.01 * scenario.medium.background_noise_w);
         if (two_channels && chance(0.5)) {
             node.radio.carrier_hz = 2.437e9;
         }

@@ -25,7 +25,7 @@ public:
     std::vector<Told> initialized, timers, packets, finished;
     std::vector<Position> telemetry;
     std::vector<SimTime> telemetry_times;
-    std::function<void(Recorder&)> on_initialize, on_finish;
+    std::function<void(Recorder&)> on_initialize, on_telemetry, on_finish;
     std::function<void(Recorder&, const std::string&)> on_timer, on_packet;
 
     std::vector<std::string> timer_names() const { return texts_of(timers); }
@@ -50,6 +50,7 @@ public:
     void handle_telemetry(const Position& position) override {
         telemetry.push_back(position);
         telemetry_times.push_back(node.now());
+        if (on_telemetry) on_telemetry(*this);
     }
     void finish() override {
         finished.push_back({node.now(), ""});
