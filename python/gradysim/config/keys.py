@@ -80,6 +80,7 @@ NODE_KEYS: tuple[Key, ...] = (
         quantity("bps", above=0, special=-1),
     ),
     Key(f"{_DCF}.recoveryProcedure.shortRetryLimit", "mac.short_retry_limit", integer(1)),
+    Key(f"{_DCF}.recoveryProcedure.longRetryLimit", "mac.long_retry_limit", integer(1)),
     Key(f"{_DCF}.channelAccess.cwMin", "mac.cw_min", integer(-1)),
     Key(f"{_DCF}.channelAccess.cwMax", "mac.cw_max", integer(-1)),
     Key(f"{_DCF}.channelAccess.pendingQueue.packetCapacity", "mac.queue_capacity", integer(1)),
