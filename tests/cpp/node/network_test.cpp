@@ -298,7 +298,7 @@ TEST(Fingerprints, AFurtherNodeLeavesTheDrawsOfTheOthersUnchanged) {
     for (std::uint64_t seed = 20; seed < 30; ++seed) {
         const RandomScenario scenario = test::make_random_scenario(seed);
         RandomScenario with_guest = scenario;
-        with_guest.nodes.push_back(silent_node({1e9, 0, 0}));
+        with_guest.nodes.push_back(silent_node({1e6, 0, 0}));
         ScenarioRun alone(scenario);
         ScenarioRun with(with_guest);
         with.network.node(static_cast<NodeId>(scenario.nodes.size())).set_protocol(nullptr);
