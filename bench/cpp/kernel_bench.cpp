@@ -1,9 +1,9 @@
 // Events per second of the kernel: schedule and run, at several numbers of pending events.
 //
 // Goal: 10 million events per second with 1,000 pending.
-#include <benchmark/benchmark.h>
-
 #include <cstdint>
+
+#include <benchmark/benchmark.h>
 
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"

@@ -1,8 +1,8 @@
 // The config structs, field by field under their own names (C++'s type_name is Python's typename).
+#include <array>
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
-#include <array>
 
 #include "netsim/config/mac_config.hpp"
 #include "netsim/config/medium_config.hpp"

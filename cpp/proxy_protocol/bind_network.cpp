@@ -1,9 +1,9 @@
 // The network: building it, running it, reading its ledgers.
-#include <pybind11/pybind11.h>
-
 #include <cstdint>
 #include <cstdio>
 #include <string>
+
+#include <pybind11/pybind11.h>
 
 #include "netsim/node/network.hpp"
 #include "proxy_protocol/bindings.hpp"
@@ -31,7 +31,8 @@ py::dict frame_fates(const Network& network) {
         const std::string name = frame_kind_names[index];
         result[py::str(name)] = named_counts(network.frame_fates().counts(kind, false), frame_fate_names);
         if (kind != FrameKind::broadcast) {
-            result[py::str(name + " overheard")] = named_counts(network.frame_fates().counts(kind, true), frame_fate_names);
+            result[py::str(name + " overheard")] =
+                named_counts(network.frame_fates().counts(kind, true), frame_fate_names);
         }
     }
     return result;
@@ -40,15 +41,17 @@ py::dict frame_fates(const Network& network) {
 py::dict frame_fates_at(const Network& network, NodeId receiver) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
-        result[frame_kind_names[index]] =
-            named_counts(network.frame_fates().counts_at(network.node(receiver).id(), static_cast<FrameKind>(index)), frame_fate_names);
+        result[frame_kind_names[index]] = named_counts(
+            network.frame_fates().counts_at(network.node(receiver).id(), static_cast<FrameKind>(index)),
+            frame_fate_names);
     }
     return result;
 }
 
 py::dict interferers_at(const Network& network, NodeId receiver) {
     py::dict result;
-    for (const auto& [interferer, copies] : network.frame_fates().interferers_at(network.node(receiver).id())) {
+    for (const auto& [interferer, copies] :
+         network.frame_fates().interferers_at(network.node(receiver).id())) {
         result[py::int_(interferer)] = copies;
     }
     return result;

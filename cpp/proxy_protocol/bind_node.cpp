@@ -1,7 +1,7 @@
 // A node as its Python protocol's provider sees it.
-#include <pybind11/pybind11.h>
-
 #include <memory>
+
+#include <pybind11/pybind11.h>
 
 #include "netsim/node/node.hpp"
 #include "proxy_protocol/bindings.hpp"
@@ -25,7 +25,8 @@ void bind_node(py::module_& module) {
         .def(
             "set_protocol",
             [](Node& node, py::object protocol, py::object on_failure) {
-                node.set_protocol(std::make_unique<PythonProtocol>(std::move(protocol), std::move(on_failure)));
+                node.set_protocol(
+                    std::make_unique<PythonProtocol>(std::move(protocol), std::move(on_failure)));
             },
             py::arg("protocol"), py::arg("on_failure"))
         .def("send_communication_command", &send_communication_command, py::arg("command"))

@@ -18,7 +18,9 @@ constexpr long goto_coords_type = 1;
 constexpr long set_speed_type = 3;
 
 // Attribute names, made once for the life of the interpreter.
-PyObject* name_of(const char* text) { return PyUnicode_InternFromString(text); }
+PyObject* name_of(const char* text) {
+    return PyUnicode_InternFromString(text);
+}
 
 py::object attribute(py::handle object, PyObject* name) {
     PyObject* value = PyObject_GetAttr(object.ptr(), name);
@@ -56,13 +58,15 @@ void send_communication_command(netsim::Node& node, py::handle command) {
     static PyObject* const message_name = name_of("message");
     static PyObject* const destination_name = name_of("destination");
     const long type = integer(attribute(command, type_name), "command_type");
-    auto payload = std::make_shared<const std::string>(utf8_from_python(attribute(command, message_name), "a message"));
+    auto payload =
+        std::make_shared<const std::string>(utf8_from_python(attribute(command, message_name), "a message"));
     if (type == broadcast_type) {
         node.broadcast(std::move(payload));
         return;
     }
     if (type != send_type) {
-        throw py::value_error("command_type " + std::to_string(type) + " is not a CommunicationCommandType: expected SEND (0) or BROADCAST (1)");
+        throw py::value_error("command_type " + std::to_string(type) +
+                              " is not a CommunicationCommandType: expected SEND (0) or BROADCAST (1)");
     }
     const py::object destination = attribute(command, destination_name);
     if (destination.is_none()) {
@@ -79,14 +83,18 @@ void send_mobility_command(netsim::Node& node, py::handle command) {
         return number(attribute(command, parameter_names[index]), what);
     };
     if (type == goto_coords_type) {
-        node.go_to(netsim::Position{parameter(0, "x (metres)"), parameter(1, "y (metres)"), parameter(2, "z (metres)")});
+        node.go_to(netsim::Position{parameter(0, "x (metres)"), parameter(1, "y (metres)"),
+                                    parameter(2, "z (metres)")});
     } else if (type == set_speed_type) {
         if (!attribute(command, parameter_names[1]).is_none()) {
-            throw py::value_error("SET_SPEED with three velocity components needs a mobility model that obeys velocities");
+            throw py::value_error(
+                "SET_SPEED with three velocity components needs a mobility model that obeys velocities");
         }
         node.set_speed(parameter(0, "speed (m/s)"));
     } else {
-        throw py::value_error("command_type " + std::to_string(type) + " is not a MobilityCommandType: expected GOTO_COORDS (1), GOTO_GEO_COORDS (2) or SET_SPEED (3)");
+        throw py::value_error(
+            "command_type " + std::to_string(type) +
+            " is not a MobilityCommandType: expected GOTO_COORDS (1), GOTO_GEO_COORDS (2) or SET_SPEED (3)");
     }
 }
 

@@ -10,7 +10,9 @@ namespace proxy_protocol {
 
 namespace {
 
-py::object interned(const char* text) { return py::reinterpret_steal<py::object>(PyUnicode_InternFromString(text)); }
+py::object interned(const char* text) {
+    return py::reinterpret_steal<py::object>(PyUnicode_InternFromString(text));
+}
 
 }  // namespace
 
@@ -25,9 +27,13 @@ PythonProtocol::PythonProtocol(py::object protocol, py::object on_failure)
       handle_telemetry_(interned("handle_telemetry")),
       finish_(interned("finish")) {}
 
-void PythonProtocol::initialize() { call(initialize_); }
+void PythonProtocol::initialize() {
+    call(initialize_);
+}
 
-void PythonProtocol::handle_timer(const std::string& timer) { call(handle_timer_, python_from_utf8(timer)); }
+void PythonProtocol::handle_timer(const std::string& timer) {
+    call(handle_timer_, python_from_utf8(timer));
+}
 
 void PythonProtocol::handle_packet(const netsim::Payload& message) {
     call(handle_packet_, python_from_utf8(*message));
@@ -41,7 +47,8 @@ void PythonProtocol::handle_telemetry(const netsim::Position& position) {
         auto* type = reinterpret_cast<PyTypeObject*>(telemetry_class_.ptr());
         telemetry_ = py::reinterpret_steal<py::object>(type->tp_alloc(type, 0));
         coordinates_ = py::tuple(3);
-        if (!telemetry_ || PyObject_SetAttr(telemetry_.ptr(), current_position_.ptr(), coordinates_.ptr()) != 0) {
+        if (!telemetry_ ||
+            PyObject_SetAttr(telemetry_.ptr(), current_position_.ptr(), coordinates_.ptr()) != 0) {
             throw py::error_already_set();
         }
     }
@@ -58,16 +65,20 @@ void PythonProtocol::handle_telemetry(const netsim::Position& position) {
     call(handle_telemetry_, telemetry_);
 }
 
-void PythonProtocol::finish() { call(finish_); }
+void PythonProtocol::finish() {
+    call(finish_);
+}
 
 void PythonProtocol::call(py::handle method) {
     PyObject* arguments[] = {nullptr, protocol_.ptr()};
-    check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 1 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr), method);
+    check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 1 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr),
+          method);
 }
 
 void PythonProtocol::call(py::handle method, py::handle argument) {
     PyObject* arguments[] = {nullptr, protocol_.ptr(), argument.ptr()};
-    check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 2 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr), method);
+    check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 2 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr),
+          method);
 }
 
 void PythonProtocol::check(PyObject* result, py::handle method) {

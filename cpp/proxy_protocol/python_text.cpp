@@ -13,7 +13,8 @@ std::string utf8_from_python(py::handle text, const char* what) {
         return std::string(bytes, static_cast<std::size_t>(size));
     }
     PyErr_Clear();
-    const auto encoded = py::reinterpret_steal<py::bytes>(PyUnicode_AsEncodedString(text.ptr(), "utf-8", "surrogatepass"));
+    const auto encoded =
+        py::reinterpret_steal<py::bytes>(PyUnicode_AsEncodedString(text.ptr(), "utf-8", "surrogatepass"));
     if (!encoded) {
         throw py::error_already_set();
     }
@@ -21,7 +22,8 @@ std::string utf8_from_python(py::handle text, const char* what) {
 }
 
 py::object python_from_utf8(const std::string& text) {
-    PyObject* decoded = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogatepass");
+    PyObject* decoded =
+        PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "surrogatepass");
     if (decoded == nullptr) {
         throw py::error_already_set();
     }

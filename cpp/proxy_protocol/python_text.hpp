@@ -3,9 +3,9 @@
 // Any Python string may be sent, also one with lone surrogates, which plain UTF-8 cannot hold ("surrogatepass").
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <string>
+
+#include <pybind11/pybind11.h>
 
 namespace proxy_protocol {
 

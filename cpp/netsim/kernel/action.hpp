@@ -16,10 +16,11 @@ public:
 
     template <typename Callable>
         requires(!std::is_same_v<std::decay_t<Callable>, Action>)
-    Action(Callable callable)  // NOLINT(google-explicit-constructor): a lambda is meant to become an Action silently
-        : invoke_([](void* storage) { (*static_cast<Callable*>(storage))(); }) {
+    // NOLINTNEXTLINE(google-explicit-constructor): a lambda is meant to become an Action silently
+    Action(Callable callable) : invoke_([](void* storage) { (*static_cast<Callable*>(storage))(); }) {
         static_assert(sizeof(Callable) <= capacity_bytes, "an event's lambda captures at most 32 bytes");
-        static_assert(std::is_trivially_copyable_v<Callable>, "an event's lambda captures only pointers and numbers");
+        static_assert(std::is_trivially_copyable_v<Callable>,
+                      "an event's lambda captures only pointers and numbers");
         ::new (static_cast<void*>(storage_)) Callable(callable);
     }
 

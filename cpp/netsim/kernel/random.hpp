@@ -16,7 +16,8 @@ namespace netsim {
 enum class Purpose : std::uint32_t { backoff = 1, reception = 2 };
 
 // Philox4x32 with 10 rounds: 128 bits of counter and 64 bits of key to 128 random bits.
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                        std::array<std::uint32_t, 2> key);
 
 class RandomStream {
 public:

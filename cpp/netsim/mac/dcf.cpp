@@ -55,8 +55,9 @@ void Dcf::check(const MacConfig& config) {
     const ModeSet& modes = mode_set(config.op_mode);
     multicast_mode(config, modes, modes.mode_for_bitrate(config.bitrate_bps));
     if (cw_max(config, modes) < cw_min(config, modes)) {
-        throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) + " and mac.cw_max = " +
-                          std::to_string(cw_max(config, modes)) + " slots: expected a cw_max of at least cw_min (what " +
+        throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) +
+                          " and mac.cw_max = " + std::to_string(cw_max(config, modes)) +
+                          " slots: expected a cw_max of at least cw_min (what " +
                           "is not set is that of the operation mode, " + config.op_mode + ")");
     }
 }
@@ -65,8 +66,9 @@ void Dcf::send(NodeId destination, Payload payload) {
     const int payload_bytes = static_cast<int>(std::min(payload->size(), std::size_t{1} << 30));
     if (datagram_bytes(payload_bytes) > mtu_bytes_) {
         throw SimulationError("a message of " + std::to_string(payload->size()) +
-                              " bytes does not fit: the longest is " + std::to_string(mtu_bytes_ - datagram_bytes(0)) +
-                              " bytes (an MTU of " + std::to_string(mtu_bytes_) + " bytes less IPv4 and UDP headers)");
+                              " bytes does not fit: the longest is " +
+                              std::to_string(mtu_bytes_ - datagram_bytes(0)) + " bytes (an MTU of " +
+                              std::to_string(mtu_bytes_) + " bytes less IPv4 and UDP headers)");
     }
     Frame frame;
     frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
@@ -214,7 +216,9 @@ void Dcf::set_nav(SimTime duration) {
     update_contention();
 }
 
-void Dcf::channel_busy_changed(bool) { update_contention(); }
+void Dcf::channel_busy_changed(bool) {
+    update_contention();
+}
 
 void Dcf::update_contention() {
     const bool busy = radio_.is_channel_busy() || nav_end_ > simulator_.now();

@@ -26,10 +26,13 @@ constexpr int ack_bytes = 14;
 
 // Length of the MPDU that carries a payload: 100 B make 164 B.
 constexpr int data_psdu_bytes(int payload_bytes) {
-    return mac_header_bytes + llc_snap_bytes + ipv4_header_bytes + udp_header_bytes + payload_bytes + fcs_bytes;
+    return mac_header_bytes + llc_snap_bytes + ipv4_header_bytes + udp_header_bytes + payload_bytes +
+           fcs_bytes;
 }
 // Length of the IP datagram, which the MTU limits.
-constexpr int datagram_bytes(int payload_bytes) { return ipv4_header_bytes + udp_header_bytes + payload_bytes; }
+constexpr int datagram_bytes(int payload_bytes) {
+    return ipv4_header_bytes + udp_header_bytes + payload_bytes;
+}
 
 struct Frame {
     FrameKind kind = FrameKind::broadcast;

@@ -51,7 +51,8 @@ void UnitDiskLink::send(NodeId destination, Payload payload) {
     if (broadcast) {
         message_fates_.book(kind, MessageFate::sent);
     } else {
-        message_fates_.book(kind, addressed.too_weak == 0 ? MessageFate::acknowledged : MessageFate::out_of_range);
+        message_fates_.book(kind,
+                            addressed.too_weak == 0 ? MessageFate::acknowledged : MessageFate::out_of_range);
     }
 }
 

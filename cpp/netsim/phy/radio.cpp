@@ -92,7 +92,8 @@ bool Radio::decide(const Arrival& arrival, const Interference& interference, Fra
     const auto decoded_at = [&](double noise_w) {
         const double snir = arrival.power_w / noise_w;
         return snir > config_.snir_threshold &&
-               draw < error_model_.success_probability(*arrival.transmission->mode, snir, arrival.transmission->psdu_bytes);
+               draw < error_model_.success_probability(*arrival.transmission->mode, snir,
+                                                       arrival.transmission->psdu_bytes);
     };
     const double noise_w = medium_.background_noise_w();
     const bool disturbed = interference.max_power_w > 0;

@@ -22,17 +22,18 @@ constexpr std::size_t frame_kind_count = 3;
 constexpr std::array<const char*, frame_kind_count> frame_kind_names{"broadcast", "unicast", "ack"};
 
 enum class FrameFate : std::uint8_t {
-    delivered,             // decoded by that radio, whoever it was for
-    below_sensitivity,     // too weak for that radio to notice
-    noise,                 // locked on, lost, and would have been lost without interference
-    interference,          // locked on, lost, and would have been decoded without interference
-    receiver_transmitting, // the receiver was transmitting when it came, or began to while it lasted
-    receiver_locked,       // the receiver was locked on another frame when it came
-    in_air,                // still on its way when the run ended
+    delivered,              // decoded by that radio, whoever it was for
+    below_sensitivity,      // too weak for that radio to notice
+    noise,                  // locked on, lost, and would have been lost without interference
+    interference,           // locked on, lost, and would have been decoded without interference
+    receiver_transmitting,  // the receiver was transmitting when it came, or began to while it lasted
+    receiver_locked,        // the receiver was locked on another frame when it came
+    in_air,                 // still on its way when the run ended
 };
 constexpr std::size_t frame_fate_count = 7;
 constexpr std::array<const char*, frame_fate_count> frame_fate_names{
-    "delivered", "below_sensitivity", "noise", "interference", "receiver_transmitting", "receiver_locked", "in_air"};
+    "delivered", "below_sensitivity", "noise", "interference", "receiver_transmitting", "receiver_locked",
+    "in_air"};
 
 // What the ledger wants to know of a frame. Travels with its transmission.
 struct FrameLabel {
@@ -72,7 +73,9 @@ public:
     // Of the copies that could be received at one receiver (below_sensitivity is not kept for each node).
     Counts counts_at(NodeId receiver, FrameKind kind) const { return nodes_[receiver].counts[index(kind)]; }
     // {interfering node: copies lost at `receiver` with its help}
-    const std::map<NodeId, std::uint64_t>& interferers_at(NodeId receiver) const { return nodes_[receiver].interferers; }
+    const std::map<NodeId, std::uint64_t>& interferers_at(NodeId receiver) const {
+        return nodes_[receiver].interferers;
+    }
 
 private:
     struct Book {
