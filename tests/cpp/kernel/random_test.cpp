@@ -122,16 +122,18 @@ TEST(RandomStream, UniformIntHasNoFavourites) {
     EXPECT_LT(chi_square(32, 100'000), 61.10);  // 31
 }
 
-TEST(RandomStream, UniformIntIsUnbiasedWhereAModuloWouldNotBe) {
-    // Of 3 · 2^30 values a modulo of 32 bits would give the lowest third twice as often.
+TEST(RandomStream, UniformIntIsUnbiasedWhereFoldingWouldNotBe) {
+    // 2^32 draws folded onto 3 · 2^30 numbers without redrawing would give every third number twice.
     constexpr std::uint32_t count = 3U << 30;
     constexpr int draws = 30'000;
     RandomStream stream(3, 0, Purpose::backoff);
-    int lowest_third = 0;
+    std::array<int, 3> residues{};
     for (int i = 0; i < draws; ++i) {
-        lowest_third += stream.uniform_int(count) < (1U << 30) ? 1 : 0;
+        ++residues.at(stream.uniform_int(count) % 3);
     }
-    EXPECT_NEAR(lowest_third, draws / 3.0, 4 * std::sqrt(draws * 2.0 / 9));
+    for (const int seen : residues) {
+        EXPECT_NEAR(seen, draws / 3.0, 4 * std::sqrt(draws * 2.0 / 9));
+    }
 }
 
 TEST(RandomStream, UniformIntOfOneIsZero) {

@@ -120,7 +120,8 @@ TEST_F(ContentionTest, BusyTimeDuringTheSpaceStartsItAgain) {
 TEST_F(ContentionTest, AGrantIsTheLastEventOfItsInstant) {
     busy_at(us(0), us(1000));
     start_at(us(500));
-    busy_at(us(1050), us(100));  // in the instant of the grant
+    // In the instant of the grant, and scheduled after it.
+    simulator.schedule_at(us(1049), [this] { busy_at(us(1050), us(100)); });
     run();
     EXPECT_EQ(grants, std::vector{us(1150) + difs});
 }
@@ -208,6 +209,22 @@ TEST_F(ContentionTest, ABrokenFrameBeforeTheStartIsNoMatter) {
     busy_at(us(0), us(1000));
     corrupted_at(us(1000));
     start_at(us(1010));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, EifsIsWaitedInFullIfItOutlastsDifs) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(687));  // EIFS is over at 1051 us, DIFS at 1050 us
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
+}
+
+TEST_F(ContentionTest, EifsIsNoMatterIfDifsOutlastsIt) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(686));  // both are over at 1050 us
     run();
     EXPECT_EQ(grants, std::vector{us(1000) + difs});
 }

@@ -440,6 +440,27 @@ TEST_F(ContentionWindow, IsItsMinimumAgainForTheNextMessage) {
     expect_draws_up_to(slots_of_attempts(MacConfig())[7], 31);
 }
 
+TEST_F(ContentionWindow, IsItsMinimumAgainAfterAnAck) {
+    std::vector<std::int64_t> slots;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        Air air(MediumConfig(), Hearing::what_matters, seed);
+        Station& sender = air.add_station({0, 0, 0});
+        Station& receiver = air.add_station({20'000, 0, 0});
+        Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+        sender.send(receiver.id(), 100);
+        sender.send(receiver.id(), 100);
+        while (sniffer.heard.size() < 4) {
+            air.run(air.simulator.now() + us(100));
+        }
+        receiver.trajectory.go_to(air.simulator.now(), {light_microsecond_m, 0, 0}, 1e15);
+        air.run();
+        const SimTime first_ack = of_kind(sniffer, FrameKind::ack).at(0).end;
+        const SimTime waited = of_kind(sniffer, FrameKind::unicast).back().start - first_ack - difs;
+        slots.push_back(waited.ps() / slot.ps());
+    }
+    expect_draws_up_to(slots, 31);
+}
+
 TEST_F(ContentionWindow, HasTheBoundsThatItIsGiven) {
     MacConfig mac;
     mac.cw_min = 7;
