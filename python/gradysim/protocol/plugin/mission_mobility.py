@@ -5,11 +5,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from os import PathLike
 from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.checked_values import checked_number, checked_point
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 
@@ -89,7 +91,10 @@ class MissionMobilityPlugin:
         Raises:
             MissionMobilityPluginException: There is no waypoint, or one is not three finite numbers.
         """
-        waypoints = tuple(_check_waypoint(index, waypoint) for index, waypoint in enumerate(mission))
+        waypoints = tuple(
+            checked_point(f"waypoint {index}", waypoint, MissionMobilityPluginException)
+            for index, waypoint in enumerate(mission)
+        )
         if not waypoints:
             raise MissionMobilityPluginException("a mission needs at least one waypoint, got none")
         if self.is_idle:
@@ -99,7 +104,7 @@ class MissionMobilityPlugin:
         self._go_to(0)
         self._protocol.provider.send_mobility_command(SetSpeedMobilityCommand(self._configuration.speed))
 
-    def start_mission_with_waypoint_file(self, mission_file_path: str) -> None:
+    def start_mission_with_waypoint_file(self, mission_file_path: str | PathLike[str]) -> None:
         """Like `start_mission`, with the waypoints of a text file: one `x,y,z` in metres per line.
 
         Empty lines are skipped. A relative path starts at the working directory.
@@ -108,22 +113,22 @@ class MissionMobilityPlugin:
             MissionMobilityPluginException: The file cannot be read, or a line is not three finite numbers.
         """
         try:
-            text = Path(mission_file_path).read_text(encoding="utf-8")
+            text = Path(mission_file_path).read_text(encoding="utf-8-sig")
         except (OSError, UnicodeDecodeError) as error:
             raise MissionMobilityPluginException(
                 f"cannot read the mission file {mission_file_path}: {error}"
             ) from error
-        mission = []
+        mission: list[Position] = []
         for number, line in enumerate(text.splitlines(), start=1):
             if not line.strip():
                 continue
             try:
-                x, y, z = map(float, line.split(","))
+                mission.append(checked_point("a waypoint", line.split(","), ValueError))
             except ValueError:
                 raise MissionMobilityPluginException(
-                    f"{mission_file_path}:{number}: expected a waypoint x,y,z in metres, got {line.strip()!r}"
+                    f"{mission_file_path}:{number}: expected a waypoint x,y,z of finite numbers in metres, "
+                    f"got {line.strip()!r}"
                 ) from None
-            mission.append((x, y, z))
         self.start_mission(mission)
 
     def stop_mission(self) -> None:
@@ -210,26 +215,15 @@ class MissionMobilityPlugin:
 
 
 def _check_configuration(configuration: MissionMobilityConfiguration) -> None:
-    for name in ("speed", "tolerance"):
-        value = getattr(configuration, name)
-        if not (math.isfinite(value) and value >= 0):
-            raise MissionMobilityPluginException(
-                f"{name} of a mission must be finite and >= 0, got {value!r}"
-            )
+    for name, unit in (("speed", "m/s"), ("tolerance", "m")):
+        checked_number(
+            f"{name} of a mission",
+            getattr(configuration, name),
+            lambda value: 0 <= value < math.inf,
+            f"finite and >= 0 {unit}",
+            MissionMobilityPluginException,
+        )
     if not isinstance(configuration.loop_mission, LoopMission):
         raise MissionMobilityPluginException(
             f"loop_mission must be one of LoopMission, got {configuration.loop_mission!r}"
         )
-
-
-def _check_waypoint(index: int, waypoint: Position) -> Position:
-    try:
-        x, y, z = map(float, waypoint)
-    except (TypeError, ValueError):
-        x = math.nan
-        y = z = x
-    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
-        raise MissionMobilityPluginException(
-            f"waypoint {index} must be three finite numbers (x, y, z) in metres, got {waypoint!r}"
-        )
-    return (x, y, z)

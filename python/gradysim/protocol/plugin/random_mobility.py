@@ -1,0 +1,117 @@
+"""Sends a protocol's node to random points of a box, once or on a trip from one to the next."""
+
+import logging
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.checked_values import checked_number
+from gradysim.protocol.plugin.dispatcher import create_dispatcher
+from gradysim.protocol.position import Position
+
+_logger = logging.getLogger(__name__)
+
+
+@dataclass
+class RandomMobilityConfig:
+    """The box that waypoints are drawn from, each coordinate uniformly, and when one counts as reached.
+
+    Attributes:
+        x_range: (lowest, highest) x; m.
+        y_range: The same for y.
+        z_range: The same for z.
+        tolerance: A waypoint counts as reached at this distance or less; m, >= 0.
+    """
+
+    x_range: tuple[float, float] = (-50, 50)
+    y_range: tuple[float, float] = (-50, 50)
+    z_range: tuple[float, float] = (0, 50)
+    tolerance: float = 1
+
+
+class RandomMobilityPlugin:
+    """Draws waypoints from the node's own random stream: the same seed gives the same ones, in every mode.
+
+    Create it in `initialize` or later. A trip goes from waypoint to waypoint, driven by the node's telemetry,
+    at the speed that the vehicle has.
+    """
+
+    def __init__(self, protocol: IProtocol, config: RandomMobilityConfig | None = None) -> None:
+        """Attach to `protocol`; without a configuration its defaults hold.
+
+        Raises:
+            ValueError: A range is not two finite numbers in ascending order, or the tolerance is negative.
+        """
+        config = config or RandomMobilityConfig()
+        self._protocol = protocol
+        self._ranges = tuple(
+            _checked_range(name, getattr(config, name)) for name in ("x_range", "y_range", "z_range")
+        )
+        tolerance = checked_number(
+            "tolerance", config.tolerance, lambda m: 0 <= m < math.inf, "finite and >= 0 m", ValueError
+        )
+        self._squared_tolerance = tolerance * tolerance
+        self._dispatcher = create_dispatcher(protocol)
+        self._target: Position | None = None
+
+    @property
+    def trip_ongoing(self) -> bool:
+        """Whether a trip is under way."""
+        return self._target is not None
+
+    @property
+    def current_target(self) -> Position | None:
+        """The waypoint that the trip is flying to, (x, y, z) in metres; None without a trip."""
+        return self._target
+
+    def travel_to_random_waypoint(self) -> Position:
+        """Send the vehicle to a new random waypoint, and return it: (x, y, z) in metres.
+
+        During a trip it takes the place of the trip's target.
+        """
+        random = self._protocol.provider.random
+        x, y, z = (random.uniform(lowest, highest) for lowest, highest in self._ranges)
+        _logger.info("Random mobility: Going to (%.2f, %.2f, %.2f)", x, y, z)
+        self._protocol.provider.send_mobility_command(GotoCoordsMobilityCommand(x, y, z))
+        if self.trip_ongoing:
+            self._target = (x, y, z)
+        return (x, y, z)
+
+    def initiate_random_trip(self) -> None:
+        """Fly to random waypoints, one after another, until `finish_random_trip`; no-op during a trip."""
+        if self.trip_ongoing:
+            return
+        self._target = self.travel_to_random_waypoint()
+        self._dispatcher.register_handle_telemetry(self._handle_telemetry)
+
+    def finish_random_trip(self) -> None:
+        """End the trip; no-op without one. No command is sent: the vehicle still flies to its last target."""
+        if not self.trip_ongoing:
+            return
+        self._dispatcher.unregister_handle_telemetry(self._handle_telemetry)
+        self._target = None
+
+    def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> None:
+        # A handler before this one may have ended the trip.
+        if self._target is not None:
+            # squared_distance, written out: this runs at every telemetry of every vehicle.
+            x, y, z = telemetry.current_position
+            target_x, target_y, target_z = self._target
+            dx, dy, dz = x - target_x, y - target_y, z - target_z
+            if dx * dx + dy * dy + dz * dz <= self._squared_tolerance:
+                self.travel_to_random_waypoint()
+
+
+def _checked_range(name: str, value: Any) -> tuple[float, float]:
+    try:
+        lowest, highest = map(float, value)
+    except (TypeError, ValueError, OverflowError):
+        lowest = highest = math.nan
+    if -math.inf < lowest <= highest < math.inf:
+        return (lowest, highest)
+    raise ValueError(
+        f"{name} must be two finite numbers (lowest, highest) in metres, the lowest first, got {value!r}"
+    )
