@@ -49,7 +49,6 @@ private:
     void transmission_ended() override;
     void channel_granted() override;
 
-    void receive_data(const Frame& frame);
     void send_ack(NodeId receiver, const Mode& mode);
     void ack_timed_out();
     void attempt_failed();

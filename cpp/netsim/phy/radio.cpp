@@ -104,6 +104,7 @@ bool Radio::decide(const Arrival& arrival, const Interference& interference, Fra
         fate = disturbed && decoded_at(noise_w) ? FrameFate::interference : FrameFate::noise;
     }
     fingerprint_.add((arrival.transmission->id << 8) ^ static_cast<std::uint64_t>(fate));
+    fingerprint_.add(static_cast<std::uint64_t>(id_));
     return decoded;
 }
 
