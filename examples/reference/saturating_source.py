@@ -1,0 +1,46 @@
+"""A node that always has something to send."""
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import SendMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+
+
+class SaturatingSource(IProtocol):
+    """Sends messages to one node, faster than the channel can carry them: its queue never runs empty.
+
+    The defaults offer 32 Mbps of payload, more than one station can send at any rate of 802.11 b, g or a.
+    What does not fit into the queue is dropped there.
+    """
+
+    destination: int = 0
+    """Id of the node that the messages go to."""
+    payload_bytes: int = 1000
+    """Size of a message."""
+    burst: int = 4
+    """Messages handed over at once."""
+    interval: float = 0.001
+    """Seconds between two bursts, > 0."""
+
+    def initialize(self) -> None:
+        """Schedule the first burst."""
+        if not self.interval > 0:
+            raise ValueError(f"interval is {self.interval} s, expected more than 0 s")
+        self._command = SendMessageCommand("x" * self.payload_bytes, self.destination)
+        self._bursts = 0
+        self.provider.schedule_timer("burst", 0.0)
+
+    def handle_timer(self, timer: str) -> None:
+        """Fill the queue up."""
+        for _ in range(self.burst):
+            self.provider.send_communication_command(self._command)
+        self._bursts += 1
+        self.provider.schedule_timer("burst", self._bursts * self.interval)
+
+    def handle_packet(self, message: str) -> None:
+        """Nobody writes to a source."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """Where it is does not matter."""
+
+    def finish(self) -> None:
+        """The sink counts."""
