@@ -18,6 +18,8 @@ class SimulationConfiguration:
         log_file: Append the log to this file too.
         execution_logging: Log the course of the simulation; False: only warnings and errors are logged.
         profile: Log at the end how often each kind of event happened and how long it took.
+        timing_report: In real time, write to timing_report.csv in the current directory how well each event
+            kept to the wall clock, and log a summary; nothing at full speed.
         seed: All random numbers of the run follow from it; >= 0. None: one drawn from Python's global stream.
     """
 
@@ -28,6 +30,7 @@ class SimulationConfiguration:
     log_file: Path | None = None
     execution_logging: bool = True
     profile: bool = False
+    timing_report: bool = False
     seed: int | None = None
 
     def validate(self) -> None:

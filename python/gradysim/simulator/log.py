@@ -8,13 +8,44 @@ from typing import Any
 
 from gradysim.simulator.node import Node
 
+# Formatters of the simulations that log now, the latest last.
+_installed: "list[SimulationFormatter]" = []
+
+
+class _RootLevel:
+    """Level of the root logger: low enough for all simulations that log, as it was when none does."""
+
+    def __init__(self) -> None:
+        self._before = logging.NOTSET
+        self._set: int | None = None
+
+    def follow(self, levels: Sequence[int]) -> None:
+        """Adapt to the levels of the simulations that log now; hands off if somebody else changed it."""
+        root = logging.getLogger()
+        if self._set is None:
+            self._before = self._set = root.level
+        if root.level == self._set:
+            self._set = min([self._before, *levels])
+            if self._set != root.level:
+                root.setLevel(self._set)
+        if not levels:
+            self._set = None
+
+
+_root_level = _RootLevel()
+
 
 class SimulationFormatter(logging.Formatter):
     """Puts level, iteration, simulated time and context in front of each message.
 
     The text is made when a line is logged; an event that logs nothing costs two assignments.
 
+    Several simulations may log at a time, as when they are stepped in turn: a line from the thread in which
+    one of them is running now is that simulation's and is written by no other. Any other line is written
+    once, by the one that was set up last.
+
     Attributes:
+        thread: Identifier of the thread in which the simulation is running now; None while it is not.
         iteration: Number of the event under way; None when there is none, and nothing is put in front.
         context: What the event is about.
         clock: Returns the simulated time in seconds.
@@ -25,8 +56,9 @@ class SimulationFormatter(logging.Formatter):
         self.iteration: int | None = None
         self.context = ""
         self.clock = clock
+        self.thread: int | None = None
         self._handlers: list[logging.Handler] = []
-        self._levels: tuple[int, int] | None = None
+        self._level = logging.NOTSET
 
     @property
     def prefix(self) -> str:
@@ -50,32 +82,43 @@ class SimulationFormatter(logging.Formatter):
         """Format a line of the log."""
         return f"{record.levelname:<8} {self.prefix}{super().format(record)}"
 
+    def accepts(self, record: logging.LogRecord) -> bool:
+        """Whether a line of the log is this simulation's, as said above."""
+        if len(_installed) == 1:
+            return True
+        running = [formatter for formatter in _installed if formatter.thread == record.thread]
+        return self is (running or _installed)[-1]
+
     def install(self, level: int, log_file: Path | None) -> None:
-        """Write what is logged from `level` on to standard error, and to the file if there is one."""
+        """Write what is logged from `level` on to standard error, and to the file if there is one.
+
+        A file that cannot be written is an OSError, and nothing is installed then.
+        """
         root = logging.getLogger()
-        self._handlers = [logging.StreamHandler()]
+        handlers: list[logging.Handler] = [logging.StreamHandler()]
         if log_file is not None:
-            self._handlers.append(logging.FileHandler(log_file, encoding="utf-8"))
-        for handler in self._handlers:
+            handlers.append(logging.FileHandler(log_file, encoding="utf-8"))
+        for handler in handlers:
             handler.setFormatter(self)
             handler.setLevel(level)
+            handler.addFilter(self.accepts)
             root.addHandler(handler)
-        if level < root.level:
-            self._levels = (root.level, level)
-            root.setLevel(level)
+        self._handlers = handlers
+        self._level = level
+        _installed.append(self)
+        _root_level.follow([formatter._level for formatter in _installed])
 
     def remove(self) -> None:
         """Undo `install`; no-op if that has happened already."""
+        if self not in _installed:
+            return
         root = logging.getLogger()
         for handler in self._handlers:
             root.removeHandler(handler)
             handler.close()
         self._handlers = []
-        if self._levels is not None:
-            before, installed = self._levels
-            if root.level == installed:
-                root.setLevel(before)
-            self._levels = None
+        _installed.remove(self)
+        _root_level.follow([formatter._level for formatter in _installed])
 
 
 def setup_simulation_formatter(

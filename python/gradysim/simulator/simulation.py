@@ -3,24 +3,28 @@
 import logging
 import math
 import random
+import threading
 import time
 import weakref
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from datetime import timedelta
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
 from gradysim.encapsulator.python import PythonEncapsulator
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
+from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
-from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
-from gradysim.simulator.pacing import RealTimePacer
+from gradysim.simulator.pacing import Pacing, RealTimePacer
 from gradysim.simulator.position_scheme import PositionScheme
 from gradysim.simulator.profile import EventProfile
+from gradysim.simulator.timing_report import TimingReport
 
 __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
 
@@ -75,26 +79,36 @@ class Simulator:
         self._configuration = configuration
         # Who seeded Python's stream gets the same run again without saying so here.
         self.seed = random.getrandbits(32) if configuration.seed is None else configuration.seed
-        self._event_loop = EventLoop()
         self._handlers = dict(handlers)
+        asynchronous = [
+            handler for handler in self._handlers.values() if isinstance(handler, IAsyncNodeHandler)
+        ]
+        self._turns = AsyncioTurns() if asynchronous else None
+        self._event_loop = EventLoop() if self._turns is None else WakingEventLoop(self._turns)
         self._nodes: dict[int, Node[Any]] = {}
         self._iteration = 0
         self._initialized = False
         self._finalized = False
         self._start_wall_s = 0.0
         self._formatter = SimulationFormatter()
-        self._log_guard: weakref.finalize[[], Simulator] | None = None
+        # Who drops a simulation half-way, or before it began, leaves nothing behind either.
+        self._guards: list[weakref.finalize[[], Simulator]] = []
         # Those to be finalized, and finished.
         self._live_handlers: list[INodeHandler] = []
         self._live_nodes: list[Node[Any]] = []
-        self._pacer: RealTimePacer | None = None
+        self._pacing: Pacing | None = None
+        self._report: TimingReport | None = None
         self._profile = EventProfile() if configuration.profile else None
         self._step_hooks = [
             handler.after_simulation_step for handler in handlers.values() if _has_hook(handler)
         ]
         self._until_s = math.inf if configuration.duration is None else configuration.duration
+        if self._turns is not None:
+            self._guards.append(weakref.finalize(self, self._turns.close))
         for handler in self._handlers.values():
             handler.inject(self._event_loop)
+            if self._turns is not None and isinstance(handler, IAsyncNodeHandler):
+                handler.inject_async(self._turns.asyncio_loop, self._real_time_factor())
 
     @property
     def current_time(self) -> float:
@@ -159,6 +173,7 @@ class Simulator:
         try:
             if not self._initialized:
                 self._initialize()
+            self._formatter.thread = threading.get_ident()
             self._execute(count)
             done = self.is_simulation_done()
         except KeyboardInterrupt:
@@ -167,6 +182,8 @@ class Simulator:
             self._finalized = True  # Without `finish`: nobody knows the state of things.
             self._release()
             raise
+        finally:
+            self._formatter.thread = None
         if done:
             self.finalize()
         return not done
@@ -207,18 +224,21 @@ class Simulator:
         if self._initialized and next_time is not None and next_time > self._until_s:
             self._event_loop.advance_to(self._until_s)
         self._finalized = True
-        if not self._initialized:
-            return
         try:
-            for node in self._live_nodes:
-                self._formatter.scope_event(self._iteration, f"{label_node(node)} Finalization")
-                node.protocol_encapsulator.finish()
-            self._formatter.clear_iteration()
-            while self._live_handlers:
-                self._live_handlers.pop(0).finalize()
-            self._log_end()
+            if self._initialized:
+                self._formatter.thread = threading.get_ident()
+                self._finish()
         finally:
             self._release()
+
+    def _finish(self) -> None:
+        for node in self._live_nodes:
+            self._formatter.scope_event(self._iteration, f"{label_node(node)} Finalization")
+            node.protocol_encapsulator.finish()
+        self._formatter.clear_iteration()
+        while self._live_handlers:
+            self._live_handlers.pop(0).finalize()
+        self._log_end()
 
     def _initialize(self) -> None:
         self._initialized = True
@@ -230,8 +250,8 @@ class Simulator:
             quiet=not configuration.execution_logging,
             clock=lambda: loop.current_time,
         )
-        # Who drops a simulation half-way leaves no log handlers either.
-        self._log_guard = weakref.finalize(self, self._formatter.remove)
+        self._guards.append(weakref.finalize(self, self._formatter.remove))
+        self._formatter.thread = threading.get_ident()
         random.seed(self.seed)
         self._start_wall_s = time.monotonic()
         for handler in self._handlers.values():
@@ -243,8 +263,28 @@ class Simulator:
             self._live_nodes.append(node)
         self._formatter.clear_iteration()
         _logger.info("[--------- Simulation started ---------]")
-        if configuration.real_time and not _FORCE_FAST_EXECUTION:
-            self._pacer = RealTimePacer(float(configuration.real_time))
+        self._pacing = self._make_pacing()
+
+    def _make_pacing(self) -> Pacing | None:
+        """Make what waits between events; None if nothing does."""
+        factor = self._real_time_factor()
+        if factor == 0 and self._turns is None:
+            return None
+        if factor != 0 and self._configuration.timing_report:
+            self._report = TimingReport(Path("timing_report.csv"), factor)
+            self._guards.append(weakref.finalize(self, self._report.close))
+        handlers = list(self._handlers.values())
+        return Pacing(
+            self._event_loop,
+            self._until_s,
+            pacer=RealTimePacer(factor) if factor != 0 else None,
+            turns=self._turns,
+            report=self._report,
+            held_up_s=lambda: sum(getattr(handler, "held_up_s", 0.0) for handler in handlers),
+        )
+
+    def _real_time_factor(self) -> float:
+        return 0.0 if _FORCE_FAST_EXECUTION else float(self._configuration.real_time)
 
     def _execute(self, count: int) -> None:
         limit = self._configuration.max_iterations
@@ -255,8 +295,8 @@ class Simulator:
         hooks = self._step_hooks
         profile = self._profile
         iterations: Iterable[int] = range(first, last)
-        if self._pacer is not None:
-            iterations = self._paced(iterations, self._pacer)
+        if self._pacing is not None:
+            iterations = self._pacing.before_each(iterations)
         # The number comes before its event: when the numbers end no event is taken, and pacing comes first.
         for iteration, event in zip(iterations, loop.take_events(self._until_s), strict=False):
             formatter.iteration = iteration
@@ -270,16 +310,11 @@ class Simulator:
             self._iteration = iteration + 1
         formatter.iteration = None
 
-    def _paced(self, iterations: Iterable[int], pacer: RealTimePacer) -> Iterator[int]:
-        for iteration in iterations:
-            next_time = self._event_loop.next_time()
-            if next_time is not None and next_time <= self._until_s:
-                pacer.wait_until(next_time)
-            yield iteration
-
     def _log_end(self) -> None:
         if self._profile is not None:
             self._profile.report()
+        if self._report is not None:
+            self._report.log_summary()
         _logger.info("[--------- Simulation finished ---------]")
         _logger.info(
             "Real time elapsed: %s\tTotal iterations: %s\tSimulation time: %s",
@@ -297,8 +332,12 @@ class Simulator:
             except Exception:
                 _logger.exception("The handler %s failed to finalize, too", handler.get_label())
         self._formatter.clear_iteration()
-        if self._log_guard is not None:
-            self._log_guard()
+        self._formatter.thread = None
+        try:
+            while self._guards:
+                self._guards.pop(0)()
+        finally:
+            self._pacing = self._report = None
 
 
 class SimulationBuilder:

@@ -1,5 +1,11 @@
 """Motion of the nodes. The names without a kind of vehicle, as `MobilityHandler`, are the massless ones."""
 
+from gradysim.simulator.handler.mobility.dynamic_velocity import (
+    DynamicVelocityMobilityConfiguration,
+    DynamicVelocityMobilityException,
+    DynamicVelocityMobilityHandler,
+    DynamicVelocityTelemetry,
+)
 from gradysim.simulator.handler.mobility.massless import (
     MasslessMobilityConfiguration,
     MasslessMobilityException,
@@ -11,6 +17,10 @@ MobilityException = MasslessMobilityException
 MobilityHandler = MasslessMobilityHandler
 
 __all__ = [
+    "DynamicVelocityMobilityConfiguration",
+    "DynamicVelocityMobilityException",
+    "DynamicVelocityMobilityHandler",
+    "DynamicVelocityTelemetry",
     "MasslessMobilityConfiguration",
     "MasslessMobilityException",
     "MasslessMobilityHandler",

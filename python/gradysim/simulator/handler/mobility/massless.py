@@ -9,6 +9,7 @@ from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
+from gradysim.simulator.handler.mobility.update_times import UpdateTimes
 from gradysim.simulator.node import Node
 
 
@@ -56,11 +57,9 @@ class MasslessMobilityHandler(INodeHandler):
     def __init__(self, configuration: MasslessMobilityConfiguration | None = None) -> None:
         """Without a configuration the defaults of `MasslessMobilityConfiguration` hold."""
         self._configuration = configuration or MasslessMobilityConfiguration()
-        rate = self._configuration.update_rate
-        self._frequency = _whole_frequency(rate)
+        self._times = UpdateTimes(self._configuration.update_rate)
         self._settings: dict[int, _NodeSettings] = {}
         self._event_loop: EventLoop | None = None
-        self._start_s = 0.0
         self._updates = 0
         self.nodes: dict[int, Node[Any]] = {}
         self.targets: dict[int, Position] = {}
@@ -119,7 +118,7 @@ class MasslessMobilityHandler(INodeHandler):
             self.speeds = {}
             self._telemetry = {}
         self._event_loop = event_loop
-        self._start_s = event_loop.current_time
+        self._times = UpdateTimes(self._configuration.update_rate, event_loop.current_time)
         self._updates = 0
         self._schedule_update(event_loop)
 
@@ -170,11 +169,7 @@ class MasslessMobilityHandler(INodeHandler):
 
     def _schedule_update(self, event_loop: EventLoop) -> None:
         self._updates += 1
-        if self._frequency is None:
-            elapsed_s = self._updates * self._configuration.update_rate
-        else:
-            elapsed_s = self._updates / self._frequency
-        event_loop.schedule_event(self._start_s + elapsed_s, self._update, "Mobility")
+        event_loop.schedule_event(self._times.time_of(self._updates), self._update, "Mobility")
 
     def _update(self) -> None:
         event_loop = self._event_loop
@@ -206,17 +201,6 @@ class MasslessMobilityHandler(INodeHandler):
                 node.position = target
             else:
                 node.position = (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
-
-
-def _whole_frequency(update_rate_s: float) -> float | None:
-    """Updates per second, if that is a whole number.
-
-    7 / 100 is the number written 0.07 and 7 * 0.01 is not: by division updates meet the timers of that time.
-    """
-    if update_rate_s < 1e-9:
-        return None
-    frequency = round(1 / update_rate_s)
-    return float(frequency) if frequency > 0 and 1 / frequency == update_rate_s else None
 
 
 def _in_updates(interval_s: float, update_rate_s: float) -> float:

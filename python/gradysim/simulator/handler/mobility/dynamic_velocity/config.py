@@ -1,0 +1,48 @@
+"""How vehicles that are steered by velocity fly."""
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass
+class DynamicVelocityMobilityConfiguration:
+    """Limits of all vehicles; in the plane and along the vertical apart. ValueError names a wrong one.
+
+    Attributes:
+        update_rate: Time between two updates of all positions; s, > 0.
+        max_speed_xy: Greatest speed in the plane; m/s, >= 0, may be infinite.
+        max_speed_z: Greatest speed up or down; m/s, >= 0, may be infinite.
+        max_acc_xy: Greatest acceleration in the plane; m/s², >= 0, may be infinite.
+        max_acc_z: Greatest acceleration up or down; m/s², >= 0, may be infinite.
+        tau_xy: Time constant with which the velocity in the plane follows the one asked for; s, > 0. None: it
+            follows as fast as the acceleration allows.
+        tau_z: The same along the vertical.
+        send_telemetry: Whether nodes get telemetry.
+        telemetry_decimation: Telemetry comes with every so many updates; >= 1.
+    """
+
+    update_rate: float
+    max_speed_xy: float
+    max_speed_z: float
+    max_acc_xy: float
+    max_acc_z: float
+    tau_xy: float | None = None
+    tau_z: float | None = None
+    send_telemetry: bool = True
+    telemetry_decimation: int = 1
+
+    def __post_init__(self) -> None:
+        if not 0 < self.update_rate < math.inf:
+            raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
+        for name in ("max_speed_xy", "max_speed_z", "max_acc_xy", "max_acc_z"):
+            value = getattr(self, name)
+            if not value >= 0:
+                unit = "m/s" if name.startswith("max_speed") else "m/s²"
+                raise ValueError(f"{name} must be >= 0 {unit}, got {value!r}")
+        for name in ("tau_xy", "tau_z"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < math.inf:
+                raise ValueError(f"{name} must be finite and > 0 s or None, got {value!r}")
+        decimation = self.telemetry_decimation
+        if not isinstance(decimation, int) or isinstance(decimation, bool) or decimation < 1:
+            raise ValueError(f"telemetry_decimation must be an integer >= 1, got {decimation!r}")

@@ -1,0 +1,28 @@
+"""When the positions of a simulation are updated."""
+
+
+class UpdateTimes:
+    """The times of periodic updates, counted from a start, so that rounding does not add up."""
+
+    def __init__(self, update_rate_s: float, start_s: float = 0.0) -> None:
+        """Let the first update come one `update_rate_s`, > 0, after `start_s`; simulated seconds."""
+        self._update_rate_s = update_rate_s
+        self._frequency = _whole_frequency(update_rate_s)
+        self._start_s = start_s
+
+    def time_of(self, update: int) -> float:
+        """Return the simulated time in seconds of an update, the first one being 1."""
+        if self._frequency is None:
+            return self._start_s + update * self._update_rate_s
+        return self._start_s + update / self._frequency
+
+
+def _whole_frequency(update_rate_s: float) -> float | None:
+    """Updates per second, if that is a whole number.
+
+    7 / 100 is the number written 0.07 and 7 * 0.01 is not: by division updates meet the timers of that time.
+    """
+    if update_rate_s < 1e-9:
+        return None
+    frequency = round(1 / update_rate_s)
+    return float(frequency) if frequency > 0 and 1 / frequency == update_rate_s else None

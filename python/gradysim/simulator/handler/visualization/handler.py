@@ -1,0 +1,121 @@
+"""The handler that shows a simulation while it runs."""
+
+import time
+import weakref
+import webbrowser
+from typing import Any
+
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.visualization.command_queue import CommandQueue
+from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
+from gradysim.simulator.handler.visualization.server import VisualizationServer
+from gradysim.simulator.handler.visualization.wire import greeting, snapshot
+from gradysim.simulator.node import Node
+
+VIEWER_URL = "https://project-gradys.github.io/gradys-sim-nextgen-visualization/"
+"""The public viewer. It connects to localhost, port 5678."""
+
+
+class VisualizationHandler(INodeHandler):
+    """Serves viewers over a WebSocket while the simulation runs; they may pause it.
+
+    It does not keep a simulation going in which nothing else is left to happen.
+
+    Attributes:
+        command_queue: Commands to the viewers, as VisualizationController makes them; they wait here until
+            there is a viewer.
+        nodes: What is shown, by id.
+    """
+
+    def __init__(self, configuration: VisualizationConfiguration | None = None) -> None:
+        """Without a configuration the defaults of `VisualizationConfiguration` hold."""
+        self._configuration = configuration or VisualizationConfiguration()
+        self.command_queue = CommandQueue()
+        self._event_loop: EventLoop | None = None
+        self.nodes: dict[int, Node[Any]] = {}
+        self._server: VisualizationServer | None = None
+        self._guard: weakref.finalize[[], VisualizationHandler] | None = None
+        self._start_wall_s = 0.0
+
+    @staticmethod
+    def get_label() -> str:
+        """Return "visualization"."""
+        return "visualization"
+
+    @property
+    def port(self) -> int | None:
+        """Where viewers can connect now; None while no simulation runs."""
+        return None if self._server is None else self._server.port
+
+    def inject(self, event_loop: EventLoop) -> None:
+        """Take the event loop of a new simulation; what was left to show of an earlier one is forgotten."""
+        self._stop()
+        if self._event_loop is not None:
+            self.command_queue = CommandQueue()
+        self._event_loop = event_loop
+        self.nodes = {}
+
+    def register_node(self, node: Node[Any]) -> None:
+        """Show one more node."""
+        self.nodes[node.id] = node
+
+    def initialize(self) -> None:
+        """Start to serve viewers.
+
+        Raises:
+            VisualizationException: The address of the configuration cannot be used.
+            ModuleNotFoundError: The package `websockets`, an optional dependency, is not installed.
+        """
+        self.held_up_s = 0.0
+        self._start_wall_s = time.monotonic()
+        welcome = greeting(self._configuration, list(self.nodes.values()))
+        server = VisualizationServer(self._configuration, welcome, self.command_queue)
+        server.start()
+        # Who drops a simulation half-way leaves no thread behind.
+        self._guard = weakref.finalize(self, server.stop)
+        self._server = server
+        self._publish(server)
+        self._schedule_collection()
+        if self._configuration.open_browser:
+            webbrowser.open(VIEWER_URL)
+
+    def finalize(self) -> None:
+        """Show the end, and stop to serve."""
+        if self._server is not None:
+            self._publish(self._server)
+        self._stop()
+
+    def _schedule_collection(self) -> None:
+        assert self._event_loop is not None
+        self._event_loop.schedule_event(
+            self._event_loop.current_time + self._configuration.information_collection_interval,
+            self._collect,
+            "Visualization",
+        )
+
+    def _collect(self) -> None:
+        server, event_loop = self._server, self._event_loop
+        if server is None or event_loop is None:
+            return
+        if server.wants_snapshot:
+            self._publish(server)
+        if len(event_loop) > 0:
+            self._schedule_collection()
+        if server.is_paused:
+            paused_at = time.monotonic()
+            try:
+                server.wait_while_paused()
+            finally:
+                self.held_up_s += time.monotonic() - paused_at
+
+    def _publish(self, server: VisualizationServer) -> None:
+        assert self._event_loop is not None
+        real_s = time.monotonic() - self._start_wall_s
+        server.publish(snapshot(list(self.nodes.values()), self._event_loop.current_time, real_s))
+
+    def _stop(self) -> None:
+        self._server = None
+        if self._guard is not None:
+            self._guard()
+            self._guard = None

@@ -1,0 +1,236 @@
+"""Serves the viewers of one simulation, in a thread of its own, which ends with the simulation.
+
+The simulation gives it texts (`publish`) and a queue of commands; it sends them every `update_rate`. What
+the viewers want in return is whether the simulation is paused.
+"""
+
+import asyncio
+import contextlib
+import logging
+import threading
+from collections import deque
+from concurrent.futures import Future
+from queue import Empty
+from typing import TYPE_CHECKING
+
+from gradysim.simulator.handler.visualization.command_queue import CommandQueue
+from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
+from gradysim.simulator.handler.visualization.wire import command_text, is_pause_or_resume
+
+if TYPE_CHECKING:
+    from websockets.asyncio.server import ServerConnection
+
+_logger = logging.getLogger(__name__)
+
+# The library tells of every handshake; viewers look for the server with requests that are none.
+_library_logger = logging.getLogger(f"{__name__}.websockets")
+_library_logger.setLevel(logging.CRITICAL + 1)
+
+# A viewer that does not take the last messages within this time does without them; s of wall time.
+_LAST_WORDS_S = 1.0
+
+
+class VisualizationException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
+    """The simulation cannot be shown."""
+
+
+class _Viewer:
+    """One connection. A slow one misses snapshots, but no command."""
+
+    def __init__(self, connection: "ServerConnection") -> None:
+        self.connection = connection
+        self.commands: deque[str] = deque()
+        self.snapshot: str | None = None
+        self.leaving = False
+        self.news = asyncio.Event()
+
+    async def write(self, greeting: str) -> None:
+        """Send what there is to send, until `leaving`."""
+        await self.connection.send(greeting)
+        while True:
+            while self.commands:
+                await self.connection.send(self.commands.popleft())
+            text, self.snapshot = self.snapshot, None
+            if text is not None:
+                await self.connection.send(text)
+            elif self.leaving:
+                return
+            elif not self.commands:
+                await self.news.wait()
+                self.news.clear()
+
+
+class VisualizationServer:
+    """A WebSocket server for any number of viewers.
+
+    Attributes:
+        port: Where it listens, from `start` on.
+    """
+
+    def __init__(
+        self, configuration: VisualizationConfiguration, greeting: str, commands: CommandQueue
+    ) -> None:
+        """Prepare; `greeting` is the first message to each viewer, `commands` are sent to those there are."""
+        self._configuration = configuration
+        self._greeting = greeting
+        self._commands = commands
+        self._viewers: dict[_Viewer, asyncio.Task[None]] = {}
+        # The newest one, and the one that the viewers have.
+        self._snapshot: str | None = None
+        self._sent: str | None = None
+        self._wanted = threading.Event()
+        self._running = threading.Event()
+        self._running.set()
+        self._started: Future[int] = Future()
+        self._thread: threading.Thread | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._stop: asyncio.Event | None = None
+        self.port = 0
+
+    @property
+    def wants_snapshot(self) -> bool:
+        """Whether the last snapshot was taken by the server, so that it is time for a new one."""
+        return self._wanted.is_set()
+
+    def start(self) -> None:
+        """Listen; returns when viewers can connect.
+
+        Raises:
+            VisualizationException: The address cannot be used.
+            ModuleNotFoundError: The package `websockets` is not installed.
+        """
+        try:
+            import websockets.asyncio.server  # noqa: F401 (an extra: asked for here, in the caller's thread)
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError(
+                "VisualizationHandler needs the package websockets, 15 or newer: "
+                'pip install "gradysim[visualization]"',
+                name=error.name,
+            ) from error
+        self._thread = threading.Thread(target=self._run, name="gradysim visualization", daemon=True)
+        self._thread.start()
+        try:
+            self.port = self._started.result()
+        except OSError as error:
+            self._thread.join()
+            host, port = self._configuration.host, self._configuration.port
+            raise VisualizationException(
+                f"cannot listen for viewers on {host!r} port {port}: {error}"
+            ) from error
+
+    def publish(self, snapshot: str) -> None:
+        """Have this text sent with the next update, if no newer one comes before."""
+        self._snapshot = snapshot
+        self._wanted.clear()
+
+    def wait_while_paused(self) -> None:
+        """Return when no viewer has paused the simulation; at once, as a rule."""
+        while not self._running.wait(timeout=0.2):  # With a timeout Ctrl-C gets through on every system.
+            pass
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether a viewer has paused the simulation."""
+        return not self._running.is_set()
+
+    def stop(self) -> None:
+        """Send what is left, close every connection in order and end the thread; no-op if it has ended."""
+        thread, loop, stop = self._thread, self._loop, self._stop
+        if thread is None:
+            return
+        if loop is not None and stop is not None:
+            with contextlib.suppress(RuntimeError):  # The loop is closed: the thread is at its end already.
+                loop.call_soon_threadsafe(stop.set)
+        if thread is threading.current_thread():
+            return  # The garbage collector may find a dropped simulation in any thread.
+        thread.join()
+        self._thread = None
+
+    def _run(self) -> None:
+        try:
+            asyncio.run(self._serve())
+        except BaseException as error:
+            if self._started.done():
+                _logger.exception("The server of the visualization failed; the simulation goes on without it")
+            else:
+                self._started.set_exception(error)
+        finally:
+            self._running.set()
+
+    async def _serve(self) -> None:
+        from websockets.asyncio.server import serve
+
+        self._loop = asyncio.get_running_loop()
+        self._stop = asyncio.Event()
+        configuration = self._configuration
+        server = await serve(
+            self._meet,
+            configuration.host,
+            configuration.port,
+            logger=_library_logger,
+            compression=None,
+            close_timeout=_LAST_WORDS_S,
+        )
+        async with server:
+            self._started.set_result(next(iter(server.sockets)).getsockname()[1])
+            while not self._stop.is_set():
+                self._update()
+                with contextlib.suppress(TimeoutError):
+                    await asyncio.wait_for(self._stop.wait(), configuration.update_rate)
+            self._update()
+            await self._take_leave()
+
+    async def _take_leave(self) -> None:
+        """Let the viewers have the last messages."""
+        for viewer in self._viewers:
+            viewer.leaving = True
+            viewer.news.set()
+        if self._viewers:
+            await asyncio.wait(list(self._viewers.values()), timeout=_LAST_WORDS_S)
+
+    def _update(self) -> None:
+        """Hand the viewers what is new; without any, commands wait for the first one."""
+        snapshot = self._snapshot
+        self._wanted.set()
+        if not self._viewers:
+            return
+        commands = self._waiting_commands()
+        for viewer in self._viewers:
+            viewer.commands.extend(commands)
+            if snapshot is not self._sent:
+                viewer.snapshot = snapshot
+            viewer.news.set()
+        self._sent = snapshot
+
+    def _waiting_commands(self) -> list[str]:
+        texts: list[str] = []
+        try:
+            while True:
+                texts.append(command_text(self._commands.get_nowait()))
+        except Empty:
+            return texts
+
+    async def _meet(self, connection: "ServerConnection") -> None:
+        """Serve one viewer until it leaves."""
+        viewer = _Viewer(connection)
+        viewer.snapshot = self._sent  # A simulation that is paused has no newer one.
+        writer = asyncio.create_task(viewer.write(self._greeting))
+        self._viewers[viewer] = writer
+        try:
+            async for message in connection:
+                self._interact(message)
+        finally:
+            del self._viewers[viewer]
+            writer.cancel()
+            await asyncio.gather(writer, return_exceptions=True)
+
+    def _interact(self, message: str | bytes) -> None:
+        try:
+            is_pause_or_resume(message)
+        except ValueError as error:
+            _logger.warning("A viewer's message was ignored: %s", error)
+            return
+        if self._running.is_set():
+            self._running.clear()
+        else:
+            self._running.set()
