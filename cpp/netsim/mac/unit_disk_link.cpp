@@ -58,7 +58,9 @@ void UnitDiskLink::send(NodeId destination, Payload payload) {
 
 bool UnitDiskLink::reaches(const UnitDiskLink& other) const {
     const SimTime now = simulator_.now();
-    return distance(trajectory_.position_at(now), other.trajectory_.position_at(now)) <= range_m_;
+    // Squares, because prototype mode compares squares: roots are rounded, so that those on the rim would differ.
+    return squared_distance(other.trajectory_.position_at(now), trajectory_.position_at(now)) <=
+           range_m_ * range_m_;
 }
 
 void UnitDiskLink::deliver(std::size_t flight) {

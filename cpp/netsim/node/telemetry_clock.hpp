@@ -1,7 +1,8 @@
-// The periodic telemetry of all nodes that have it at the same interval: one event for all of them.
+// The periodic telemetry of all nodes that have it at the same interval, together.
 //
-// Ticks at every multiple of the interval after its start, and hands each node its position, in the order of
-// ids.
+// Ticks at every multiple of the interval after its start, and then hands each node its position, in the order of
+// ids. A tick is scheduled one interval ahead but its telemetry only when it ticks, as in prototype mode: it comes
+// after the timers that were set for this instant before.
 #pragma once
 
 #include <utility>
@@ -27,6 +28,9 @@ public:
 private:
     void tick() {
         start();
+        simulator_.schedule_after(SimTime{}, [this] { report_positions(); });
+    }
+    void report_positions() {
         for (Node* node : nodes_) {
             node->report_position();
         }

@@ -1,5 +1,6 @@
 #include "netsim/node/telemetry_clock.hpp"
 
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -65,12 +66,26 @@ TEST_F(TelemetryClockTest, GoesInTheOrderOfIds) {
     EXPECT_EQ(order, (std::vector<NodeId>{0, 1, 2}));
 }
 
-TEST_F(TelemetryClockTest, NodesOfOneIntervalShareAnEvent) {
+TEST_F(TelemetryClockTest, ComesAfterTheTimersOfItsInstant) {
+    std::string order;
+    Recorder& recorder = add_node(0.25);
+    recorder.on_timer = [&order](Recorder&, const std::string&) { order += 't'; };
+    recorder.on_telemetry = [&order](Recorder& self) {
+        order += 'p';
+        if (self.node.now() == s(0.25)) {
+            self.node.schedule_timer("", s(0.5));
+        }
+    };
+    run(0.5);
+    EXPECT_EQ(order, "ptp");
+}
+
+TEST_F(TelemetryClockTest, NodesOfOneIntervalShareTheirEvents) {
     for (int i = 0; i < 10; ++i) {
         add_node(0.1);
     }
     run(1);
-    EXPECT_EQ(network.event_count(), 10U);
+    EXPECT_EQ(network.event_count(), 20U);  // a tick and its telemetry each
 }
 
 TEST_F(TelemetryClockTest, IntervalsAreKeptApart) {
