@@ -6,6 +6,7 @@ other direction the calls of the provider are the engine's own bound methods, so
 for costs one call.
 """
 
+from collections.abc import Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -46,9 +47,14 @@ class NetsimProvider(IProvider):
 
     Attributes:
         history: What the tracked variables were, with times.
+        mode: Name of the mode, for people.
     """
 
-    def __init__(self, node: "Node", *, seed: int, reference_coordinates: Position) -> None:
+    mode = "integrated mode"
+
+    def __init__(
+        self, node: "Node", *, seed: int, reference_coordinates: Position, nodes: Sequence["Node"] = ()
+    ) -> None:
         """Serve the protocol of `node`.
 
         Args:
@@ -56,8 +62,10 @@ class NetsimProvider(IProvider):
             seed: the seed of the run; the protocol's random numbers follow from it and the node's id
             reference_coordinates: latitude in degrees, longitude in degrees and altitude in metres of the
                 origin of the scene
+            nodes: all nodes of the network, for extensions that look around
         """
         self._node = node
+        self._nodes = nodes
         self._reference_coordinates = reference_coordinates
         self._random = random_stream(seed, node.id, "protocol")
         self.history = TrackedHistory(node.current_time)
@@ -114,14 +122,32 @@ class NetsimProvider(IProvider):
         """Return the node's id, 0 to n-1."""
         return self._node.get_id()
 
+    def node_positions(self) -> dict[int, Position]:
+        """Return where every node is now, (x, y, z) in metres by id.
+
+        For extensions: protocols have no business knowing.
+        """
+        if not self._nodes:
+            raise RuntimeError("the positions of the nodes are unknown: the provider was made without them")
+        return {node.id: node.position for node in self._nodes}
+
 
 class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
     """Puts a protocol on a node of the engine and says where a failure in it happened."""
 
-    def __init__(self, node: "Node", *, seed: int, reference_coordinates: Position = (0.0, 0.0, 0.0)) -> None:
+    def __init__(
+        self,
+        node: "Node",
+        *,
+        seed: int,
+        reference_coordinates: Position = (0.0, 0.0, 0.0),
+        nodes: Sequence["Node"] = (),
+    ) -> None:
         """Prepare `node`; the arguments are those of `NetsimProvider`."""
         self._node = node
-        self.provider = NetsimProvider(node, seed=seed, reference_coordinates=reference_coordinates)
+        self.provider = NetsimProvider(
+            node, seed=seed, reference_coordinates=reference_coordinates, nodes=nodes
+        )
 
     def encapsulate(self, protocol: type[T]) -> None:
         """Make the protocol and hand it to the node."""
@@ -129,7 +155,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
         try:
             self.protocol = protocol.instantiate(self.provider)
         except BaseException as failure:
-            self._note(failure, "instantiate")
+            self._note(failure, "__init__")
             raise
         self._node.set_protocol(self.protocol, self._note)
 

@@ -150,7 +150,7 @@ def test_the_callback_is_named(make_scenario, callback):
 def test_a_protocol_that_cannot_be_made_is_named(make_scenario):
     with pytest.raises(ZeroDivisionError) as failure:
         run(make_scenario("class Tested(Quiet):\n    def __init__(self): 1 / 0"))
-    assert failure.value.__notes__ == ["in instantiate of node 0 (Tested 0) at 0 s of simulated time"]
+    assert failure.value.__notes__ == ["in __init__ of node 0 (Tested 0) at 0 s of simulated time"]
 
 
 def test_a_wrong_command_fails_in_the_protocol_that_gave_it(make_scenario):
