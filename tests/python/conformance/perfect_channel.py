@@ -1,0 +1,74 @@
+"""Scenarios in which the network makes no difference: what both modes have to agree upon to the letter."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import gradysim.integrated.run
+import gradysim.prototype.run
+from gradysim.config.scenario import CommunicationMediumSpec, NodeSpec, Scenario, Setting, Source
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.position import Position
+from gradysim.results.run_result import RunResult
+
+MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
+    "integrated": gradysim.integrated.run.run,
+    "prototype": gradysim.prototype.run.run,
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A network on a perfect channel, in which no node moves by itself.
+
+    Attributes:
+        positions: One node each, in metres.
+        range_m: Of all radios, in both modes.
+        seed: Of the run.
+        telemetry_interval_s: 0 for none.
+        duration_s: Of the run.
+    """
+
+    positions: Sequence[Position]
+    range_m: float = 50.0
+    seed: int = 0
+    telemetry_interval_s: float = 0.0
+    duration_s: float = 1.0
+
+    def run(self, mode: str, protocol: type[IProtocol]) -> RunResult:
+        """Run it in one of `MODES`, every node with the same protocol."""
+        return MODES[mode](self.scenario(protocol))
+
+    def scenario(self, protocol: type[IProtocol]) -> Scenario:
+        """What both modes are given."""
+        nodes = tuple(
+            NodeSpec(
+                id=index,
+                name=f"nodes[{index}]",
+                group="nodes",
+                index=index,
+                protocol=protocol,
+                protocol_parameters={},
+                initial_position=position,
+                mobility={"telemetry_interval_s": _setting(self.telemetry_interval_s)},
+                radio={"communication_range_m": _setting(self.range_m)},
+                mac={},
+            )
+            for index, position in enumerate(self.positions)
+        )
+        return Scenario(
+            file=Path("conformance.ini"),
+            config="General",
+            run_number=0,
+            seed=self.seed,
+            description="",
+            sim_time_limit_s=self.duration_s,
+            nodes=nodes,
+            medium={"typename": _setting("UnitDiskRadioMedium")},
+            communication_medium=CommunicationMediumSpec(transmission_range_m=self.range_m),
+            reference_coordinates=(0.0, 0.0, 0.0),
+        )
+
+
+def _setting(value: float | str) -> Setting:
+    return Setting(value, Source(Path("conformance.ini"), 1, "key"))
