@@ -12,6 +12,7 @@ from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position
 
 _logger = logging.getLogger(__name__)
 
@@ -46,7 +47,10 @@ class PythonProvider(IProvider):
     Attributes:
         node: The protocol's node.
         handlers: Every handler of the simulation by its label.
+        mode: Name of the mode, for people.
     """
+
+    mode = "prototype mode"
 
     def __init__(self, node: _Node, **handlers: Any) -> None:
         self.node = node
@@ -102,6 +106,18 @@ class PythonProvider(IProvider):
         if self._random is None:
             self._random = random_stream(getattr(self.node, "seed", 0), self.node.id, "protocol")
         return self._random
+
+    def node_positions(self) -> dict[int, Position]:
+        """Return where every node is now, (x, y, z) in metres by id; RuntimeError without a mobility handler.
+
+        For extensions: protocols have no business knowing.
+        """
+        nodes: Mapping[int, Any] | None = getattr(self.handlers.get("mobility"), "nodes", None)
+        if nodes is None:
+            raise RuntimeError(
+                "the positions of the nodes are unknown: the simulation has no mobility handler"
+            )
+        return {node_id: node.position for node_id, node in nodes.items()}
 
     def _warn_without(self, label: str, consequence: str) -> None:
         _logger.warning("Node %s has no %s handler: %s", self.node.id, label, consequence)

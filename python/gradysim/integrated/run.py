@@ -43,7 +43,10 @@ class IntegratedRun:
         scenario = self._scenario
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
             encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(
-                node, seed=scenario.seed, reference_coordinates=scenario.reference_coordinates
+                node,
+                seed=scenario.seed,
+                reference_coordinates=scenario.reference_coordinates,
+                nodes=self._nodes,
             )
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)

@@ -1,0 +1,114 @@
+"""A camera that sees other nodes."""
+
+import math
+from dataclasses import dataclass
+from typing import TypedDict
+
+from gradysim.encapsulator.node_positions import NodePositions
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.position import Position
+from gradysim.simulator.extension.extension import Extension, mode_of, provider_of
+
+# Nodes on the very edge of the cone are in the picture, whatever the rounding; radians.
+_EDGE = 1e-6
+
+
+class DetectedNode(TypedDict):
+    """What is known of something in a picture: its position in metres; the type of all there is is "node"."""
+
+    position: Position
+    type: str
+
+
+@dataclass
+class CameraConfiguration:
+    """A cone in which the camera sees. ValueError names a wrong value.
+
+    Attributes:
+        camera_reach: How far it sees; m, >= 0.
+        camera_theta: Angle between the axis of the cone and its side; degrees, 0 to 180.
+        facing_elevation: Where the axis points: 0 up, 90 to the horizon, 180 down; degrees.
+        facing_rotation: Counter-clockwise from the x axis, seen from above; degrees.
+    """
+
+    camera_reach: float
+    camera_theta: float
+    facing_elevation: float
+    facing_rotation: float
+
+    def __post_init__(self) -> None:
+        if not self.camera_reach >= 0:
+            raise ValueError(f"camera_reach must be >= 0 m, got {self.camera_reach!r}")
+        if not 0 <= self.camera_theta <= 180:
+            raise ValueError(f"camera_theta must be from 0 to 180 degrees, got {self.camera_theta!r}")
+        for name in ("facing_elevation", "facing_rotation"):
+            if not math.isfinite(getattr(self, name)):
+                raise ValueError(f"{name} must be a finite number of degrees, got {getattr(self, name)!r}")
+
+
+class CameraHardware(Extension):
+    """The camera of one node, in prototype mode (it needs a mobility handler) and in integrated mode."""
+
+    _warns_elsewhere = False
+
+    def __init__(self, protocol: IProtocol, configuration: CameraConfiguration) -> None:
+        """Put a camera on the protocol's node.
+
+        Raises:
+            ReferenceError: The protocol has no provider yet, as in its constructor.
+            RuntimeError: Nobody knows where the nodes are: not in this mode, or without a mobility handler.
+        """
+        super().__init__(protocol)
+        provider = provider_of(protocol)
+        if not isinstance(provider, NodePositions):
+            raise RuntimeError(
+                "a camera works in prototype mode and in integrated mode, where the positions of the nodes "
+                f"are known; this node runs in {mode_of(provider)}"
+            )
+        provider.node_positions()  # Says now what is missing, not at the first picture.
+        self._world = provider
+        self._node_id = protocol.provider.get_id()
+        self._configuration = configuration
+        self._axis = _axis(configuration)
+
+    def take_picture(self) -> list[DetectedNode]:
+        """Return the other nodes within reach and within the cone, in the order of their making.
+
+        A node at the very place of the camera is always seen.
+        """
+        positions = self._world.node_positions()
+        place = positions[self._node_id]
+        return [
+            {"position": position, "type": "node"}
+            for node_id, position in positions.items()
+            if node_id != self._node_id and self._sees(place, position)
+        ]
+
+    def change_facing(self, facing_elevation: float, facing_rotation: float) -> None:
+        """Turn the camera; degrees, as in `CameraConfiguration`. ValueError if one is not finite."""
+        old = self._configuration
+        self._configuration = CameraConfiguration(
+            old.camera_reach, old.camera_theta, facing_elevation, facing_rotation
+        )
+        self._axis = _axis(self._configuration)
+
+    def _sees(self, place: Position, position: Position) -> bool:
+        dx, dy, dz = position[0] - place[0], position[1] - place[1], position[2] - place[2]
+        distance = math.hypot(dx, dy, dz)
+        if distance > self._configuration.camera_reach:
+            return False
+        if distance == 0:
+            return True
+        ax, ay, az = self._axis
+        # The arcus tangent knows every angle; the arcus cosine fails where its argument rounds to > 1.
+        across = math.hypot(ay * dz - az * dy, az * dx - ax * dz, ax * dy - ay * dx)
+        along = ax * dx + ay * dy + az * dz
+        return math.atan2(across, along) - _EDGE <= math.radians(self._configuration.camera_theta)
+
+
+def _axis(configuration: CameraConfiguration) -> tuple[float, float, float]:
+    """Unit vector along the axis of the cone."""
+    elevation = math.radians(configuration.facing_elevation)
+    rotation = math.radians(configuration.facing_rotation)
+    level = math.sin(elevation)
+    return (level * math.cos(rotation), level * math.sin(rotation), math.cos(elevation))

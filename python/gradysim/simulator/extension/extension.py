@@ -1,0 +1,50 @@
+"""The base of extensions."""
+
+import warnings
+from typing import Any, ClassVar
+
+from gradysim.encapsulator.python import PythonProvider
+from gradysim.protocol.interface import IProtocol, IProvider
+
+
+class Extension:
+    """Reaches what is behind a protocol's provider.
+
+    An extension of one's own finds the handlers of prototype mode in `self._provider.handlers`. Elsewhere
+    `_provider` is None, which is told by a warning, and the extension should do nothing.
+    """
+
+    _provider: PythonProvider | None
+    """The node's provider in prototype mode; None in any other."""
+
+    _warns_elsewhere: ClassVar[bool] = True
+
+    def __init__(self, protocol: IProtocol) -> None:
+        """Take the protocol of a node, from its `initialize` on.
+
+        Raises:
+            ReferenceError: The protocol has no provider yet, as in its constructor.
+        """
+        provider = provider_of(protocol)
+        self._provider = provider if isinstance(provider, PythonProvider) else None
+        if self._provider is None and self._warns_elsewhere:
+            warnings.warn(
+                f"{type(self).__name__} works in prototype mode only and does nothing in {mode_of(provider)}",
+                stacklevel=2,
+            )
+
+
+def provider_of(protocol: IProtocol) -> IProvider:
+    """Return the provider of a protocol; ReferenceError if it has none yet."""
+    provider: IProvider | None = getattr(protocol, "provider", None)
+    if provider is None:
+        raise ReferenceError(
+            f"{type(protocol).__name__} has no provider yet: make its extensions in initialize, "
+            "not in the constructor"
+        )
+    return provider
+
+
+def mode_of(provider: Any) -> str:
+    """Return the name of the mode that a provider belongs to, for people."""
+    return str(getattr(provider, "mode", f"the environment of {type(provider).__name__}"))

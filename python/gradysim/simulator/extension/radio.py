@@ -1,0 +1,66 @@
+"""A radio of one's own: a node that sends farther, later or less reliably than the others."""
+
+from dataclasses import replace
+
+from gradysim.encapsulator.python import PythonProvider
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import CommunicationCommand
+from gradysim.simulator.extension.extension import mode_of, provider_of
+from gradysim.simulator.handler.communication import CommunicationHandler
+
+
+class Radio:
+    """Sends messages over a medium with settings of its own; prototype mode only.
+
+    It starts with the settings of the communication handler. What others send to the node is not affected.
+    """
+
+    def __init__(self, protocol: IProtocol) -> None:
+        """Put one more radio on the protocol's node.
+
+        Raises:
+            ReferenceError: The protocol has no provider yet, as in its constructor.
+            TypeError: The node does not run in prototype mode.
+            RuntimeError: The simulation has no communication handler.
+        """
+        provider = provider_of(protocol)
+        if not isinstance(provider, PythonProvider):
+            raise TypeError(
+                f"Radio works in prototype mode only, and this node runs in {mode_of(provider)}: "
+                "there the settings of radios belong to the scenario"
+            )
+        handler = provider.handlers.get("communication")
+        if not isinstance(handler, CommunicationHandler):
+            raise RuntimeError(f"Radio needs a CommunicationHandler in the simulation, found {handler!r}")
+        self._node = provider.node
+        self._handler = handler
+        self._medium = replace(handler.default_medium)
+
+    def set_configuration(
+        self,
+        transmission_range: float | None = None,
+        delay: float | None = None,
+        failure_rate: float | None = None,
+    ) -> None:
+        """Change settings; None keeps one as it is.
+
+        Args:
+            transmission_range: m, >= 0.
+            delay: From sending to reception; s, >= 0.
+            failure_rate: Probability that a receiver in range misses the message; 0 to 1.
+
+        Raises:
+            ValueError: A value is outside its range; nothing is changed then.
+        """
+        given = {"transmission_range": transmission_range, "delay": delay, "failure_rate": failure_rate}
+        self._medium = replace(
+            self._medium, **{name: value for name, value in given.items() if value is not None}
+        )
+
+    def send_communication_command(self, command: CommunicationCommand) -> None:
+        """Send a message as `IProvider.send_communication_command` does, over this radio's medium.
+
+        Raises:
+            CommunicationException: The command makes no sense.
+        """
+        self._handler.handle_command(command, self._node, self._medium)  # type: ignore[arg-type]

@@ -1,0 +1,72 @@
+"""Lets a protocol change what the viewers of the simulation show."""
+
+import math
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.simulator.extension.extension import Extension, provider_of
+
+Color = tuple[float, float, float]
+"""(red, green, blue)."""
+
+
+class VisualizationController(Extension):
+    """Gives commands to the viewers, whichever node's protocol it belongs to.
+
+    Without viewers to show anything (no visualization handler, or a mode without one) the commands do
+    nothing; wrong arguments are errors all the same.
+    """
+
+    _warns_elsewhere: ClassVar[bool] = False
+
+    def __init__(self, protocol: IProtocol) -> None:
+        """Take the protocol of a node; ReferenceError if it has no provider yet, as in its constructor."""
+        super().__init__(protocol)
+        handlers: Mapping[str, Any] = getattr(provider_of(protocol), "handlers", {})
+        self._handler = handlers.get("visualization")
+
+    def paint_node(self, node_id: int, color: Color) -> None:
+        """Give a node a colour; each part from 0 to 255."""
+        self._check_node(node_id)
+        self._send("paint_node", node_id=node_id, color=_checked_color(color, 255))
+
+    def paint_environment(self, color: Color) -> None:
+        """Give the background a colour; numbers >= 0: the public viewer takes 1 for full brightness."""
+        self._send("paint_environment", color=_checked_color(color, math.inf))
+
+    def resize_nodes(self, size: float) -> None:
+        """Draw all nodes as spheres of this size, > 0."""
+        if not _is_number(size) or not size > 0:
+            raise ValueError(f"the size of nodes must be a finite number > 0, got {size!r}")
+        self._send("resize_nodes", size=size)
+
+    def show_node_id(self, node_id: int, show: bool) -> None:
+        """Show or hide the id of a node."""
+        self._check_node(node_id)
+        if not isinstance(show, bool):
+            raise TypeError(f"show must be True or False, got {show!r}")
+        self._send("show_node_id", node_id=node_id, show=show)
+
+    def _check_node(self, node_id: int) -> None:
+        if not isinstance(node_id, int) or isinstance(node_id, bool):
+            raise TypeError(f"expected the id of a node, an integer, got {node_id!r}")
+        known = getattr(self._handler, "nodes", None)
+        if known and node_id not in known:
+            raise ValueError(f"there is no node {node_id!r}, only {sorted(known)}")
+
+    def _send(self, command: str, **payload: Any) -> None:
+        if self._handler is not None:
+            self._handler.command_queue.put({"command": command, "payload": payload})
+
+
+def _checked_color(color: Color, greatest: float) -> Color:
+    parts = tuple(color) if isinstance(color, tuple | list) else ()
+    if len(parts) != 3 or not all(_is_number(part) and 0 <= part <= greatest for part in parts):
+        limits = "of 0 to 255" if math.isfinite(greatest) else ">= 0"
+        raise ValueError(f"a colour must be (red, green, blue), three numbers {limits}, got {color!r}")
+    return (parts[0], parts[1], parts[2])
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
