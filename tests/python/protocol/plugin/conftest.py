@@ -1,33 +1,62 @@
+"""What the tests of the plugins share: a provider to watch a protocol with, and short runs in both modes."""
+
+from typing import NamedTuple
+
 import pytest
 
+from gradysim.config.scenario import load_scenarios
+from gradysim.encapsulator.random_stream import random_stream
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.mobility import MobilityCommandType
+from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
+from gradysim.simulator.handler.mobility import MobilityConfiguration, MobilityHandler
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 
 
 class RecordingProvider(IProvider):
-    """Keeps the mobility commands that it is given."""
+    """Keeps what it is given; time passes by `pass_time` alone."""
 
-    def __init__(self):
+    def __init__(self, node_id=0, seed=0):
+        self.node_id = node_id
+        self.now = 0.0
         self.commands = []
+        self.sent = []
+        self.timers = []
         self.tracked_variables = {}
+        self._stream = random_stream(seed, node_id, "protocol")
 
     def send_communication_command(self, command):
-        pass
+        self.sent.append(command)
 
     def send_mobility_command(self, command):
         self.commands.append(command)
 
     def schedule_timer(self, timer, timestamp):
-        pass
+        assert timestamp >= self.now, "a timer in the past"
+        self.timers.append((timestamp, timer))
 
     def cancel_timer(self, timer):
-        pass
+        self.timers = [pending for pending in self.timers if pending[1] != timer]
 
     def current_time(self):
-        return 0.0
+        return self.now
 
     def get_id(self):
-        return 0
+        return self.node_id
+
+    @property
+    def random(self):
+        return self._stream
+
+    def pass_time(self, protocol, until):
+        """Fire the timers that are due up to that time, in order."""
+        while self.timers and min(self.timers)[0] <= until:
+            due = min(self.timers)
+            self.timers.remove(due)
+            self.now = due[0]
+            protocol.handle_timer(due[1])
+        self.now = until
 
     @property
     def targets(self):
@@ -69,6 +98,88 @@ class RecordingProtocol(IProtocol):
         self.calls.append(("finish",))
 
 
+@pytest.fixture(scope="session")
+def make_protocol():
+    """`make_protocol(node_id=0, seed=0)`: a protocol that records, on a provider that records."""
+    return lambda **arguments: RecordingProtocol.instantiate(RecordingProvider(**arguments))
+
+
 @pytest.fixture
-def protocol():
-    return RecordingProtocol.instantiate(RecordingProvider())
+def protocol(make_protocol):
+    return make_protocol()
+
+
+QUIET = """
+from gradysim.protocol.interface import IProtocol
+
+class Quiet(IProtocol):
+    def initialize(self): pass
+    def handle_timer(self, timer): pass
+    def handle_packet(self, message): pass
+    def handle_telemetry(self, telemetry): pass
+    def finish(self): pass
+"""
+
+
+class Outcome(NamedTuple):
+    """How a node ended."""
+
+    position: tuple[float, float, float]
+    tracked_variables: dict[str, object]
+
+
+def prototype(scenario):
+    """Run the nodes of a scenario as a script would: with `SimulationBuilder`."""
+    builder = SimulationBuilder(
+        SimulationConfiguration(
+            duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
+        )
+    )
+    builder.add_handler(CommunicationHandler(CommunicationMedium(transmission_range=1000)))
+    builder.add_handler(TimerHandler())
+    builder.add_handler(MobilityHandler(MobilityConfiguration()))
+    for node in scenario.nodes:
+        builder.add_node(node.protocol, node.initial_position)
+    simulator = builder.build()
+    simulator.start_simulation()
+    nodes = [simulator.get_node(node.id) for node in scenario.nodes]
+    return [Outcome(node.position, node.protocol_encapsulator.provider.tracked_variables) for node in nodes]
+
+
+def integrated(scenario):
+    pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+    from gradysim.integrated.run import run
+
+    return [Outcome(node.position, node.tracked_variables) for node in run(scenario).nodes]
+
+
+@pytest.fixture
+def make_scenario(tmp_path):
+    """`make_scenario(python, *settings)`: the protocols of `python` on a channel that loses nothing."""
+
+    def make(python, *settings):
+        (tmp_path / "protocols.py").write_text(f"{QUIET}\n{python}\n", encoding="utf-8")
+        lines = ["[General]", *settings, '*.radioMedium.typename = "UnitDiskRadioMedium"']
+        (tmp_path / "test.ini").write_text("\n".join(lines), encoding="utf-8")
+        (scenario,) = load_scenarios(tmp_path / "test.ini")
+        return scenario
+
+    return make
+
+
+@pytest.fixture(params=[prototype, integrated], ids=["prototype", "integrated"])
+def run_mode(request):
+    """`run_mode(scenario)`: run it in one of the modes; returns the `Outcome` of each node."""
+    return request.param
+
+
+@pytest.fixture
+def run_prototype():
+    """`run_prototype(scenario)`: the `Outcome` of each node."""
+    return prototype
+
+
+@pytest.fixture
+def run_integrated():
+    """`run_integrated(scenario)`: the `Outcome` of each node."""
+    return integrated
