@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from gradysim.simulator.number_range import is_in_range
+
 
 @dataclass
 class SimulationConfiguration:
@@ -35,14 +37,16 @@ class SimulationConfiguration:
 
     def validate(self) -> None:
         """Check all values; ValueError names the wrong one."""
-        if self.duration is not None and not self.duration >= 0:
+        if self.duration not in (None, math.inf) and not is_in_range(self.duration, 0):
             raise ValueError(f"duration must be >= 0 s or None, got {self.duration!r}")
         if self.max_iterations is not None and not _is_natural(self.max_iterations):
             raise ValueError(f"max_iterations must be an integer >= 0 or None, got {self.max_iterations!r}")
-        if not 0 <= self.real_time < math.inf:
+        if not isinstance(self.real_time, bool) and not is_in_range(self.real_time, 0):
             raise ValueError(f"real_time must be a bool or a finite factor >= 0, got {self.real_time!r}")
         if self.seed is not None and not _is_natural(self.seed):
             raise ValueError(f"seed must be an integer >= 0 or None, got {self.seed!r}")
+        if self.log_file is not None and not isinstance(self.log_file, str | Path):
+            raise ValueError(f"log_file must be a Path or None, got {self.log_file!r}")
 
 
 def _is_natural(value: object) -> bool:

@@ -8,6 +8,7 @@ from gradysim.encapsulator.node_positions import NodePositions
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.extension.extension import Extension, mode_of, provider_of
+from gradysim.simulator.number_range import is_in_range
 
 # Nodes on the very edge of the cone are in the picture, whatever the rounding; radians.
 _EDGE = 1e-6
@@ -37,12 +38,12 @@ class CameraConfiguration:
     facing_rotation: float
 
     def __post_init__(self) -> None:
-        if not self.camera_reach >= 0:
+        if self.camera_reach != math.inf and not is_in_range(self.camera_reach, 0):
             raise ValueError(f"camera_reach must be >= 0 m, got {self.camera_reach!r}")
-        if not 0 <= self.camera_theta <= 180:
+        if not is_in_range(self.camera_theta, 0, 180):
             raise ValueError(f"camera_theta must be from 0 to 180 degrees, got {self.camera_theta!r}")
         for name in ("facing_elevation", "facing_rotation"):
-            if not math.isfinite(getattr(self, name)):
+            if not is_in_range(getattr(self, name), -math.inf, above=True):
                 raise ValueError(f"{name} must be a finite number of degrees, got {getattr(self, name)!r}")
 
 

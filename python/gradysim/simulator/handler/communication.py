@@ -15,6 +15,7 @@ from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
+from gradysim.simulator.number_range import is_in_range
 
 _logger = logging.getLogger(__name__)
 
@@ -38,11 +39,11 @@ class CommunicationMedium:
     failure_rate: float = 0
 
     def __post_init__(self) -> None:
-        if not self.transmission_range >= 0:
+        if self.transmission_range != math.inf and not is_in_range(self.transmission_range, 0):
             raise ValueError(f"transmission_range must be >= 0 m, got {self.transmission_range!r}")
-        if not 0 <= self.delay < math.inf:
+        if not is_in_range(self.delay, 0):
             raise ValueError(f"delay must be finite and >= 0 s, got {self.delay!r}")
-        if not 0 <= self.failure_rate <= 1:
+        if not is_in_range(self.failure_rate, 0, 1):
             raise ValueError(f"failure_rate must be from 0 to 1, got {self.failure_rate!r}")
 
 
@@ -131,23 +132,26 @@ class CommunicationHandler(INodeHandler):
         event_loop = self._event_loop
         if event_loop is None or sender.id not in self._destinations:
             raise CommunicationException(f"node {sender.id} is not registered with the communication handler")
-        if not isinstance(command.message, str):
+        try:
+            message, kind = command.message, command.command_type
+        except AttributeError:
             raise CommunicationException(
-                f"node {sender.id} can send text only, got a {type(command.message).__name__}: "
-                f"{command.message!r}"
+                f"node {sender.id} can send a CommunicationCommand, got {command!r}"
+            ) from None
+        if not isinstance(message, str):
+            raise CommunicationException(
+                f"node {sender.id} can send text only, got a {type(message).__name__}: {message!r}"
             )
         destinations: Iterable[CommunicationDestination]
-        if command.command_type == CommunicationCommandType.BROADCAST:
+        if kind == CommunicationCommandType.BROADCAST:
             destinations = self._destinations.values()
-        elif command.command_type == CommunicationCommandType.SEND:
+        elif kind == CommunicationCommandType.SEND:
             destinations = (self._destination_of(command, sender),)
         else:
-            raise CommunicationException(
-                f"node {sender.id} gave an unknown communication command: {command.command_type!r}"
-            )
-        _logger.debug("%s sends to %s: %s", sender.id, command.destination, command.message)
+            raise CommunicationException(f"node {sender.id} gave an unknown communication command: {kind!r}")
+        _logger.debug("%s sends to %s: %s", sender.id, command.destination, message)
         medium = medium or self.default_medium
-        copies = _copies(command.message, sender, destinations, medium)
+        copies = _copies(message, sender, destinations, medium)
         if copies:
             event_loop.schedule_events(event_loop.current_time + medium.delay, copies)
 
@@ -156,7 +160,10 @@ class CommunicationHandler(INodeHandler):
             raise CommunicationException(f"node {sender.id} sent a message to one node without a destination")
         if command.destination == sender.id:
             raise CommunicationException(f"node {sender.id} sent a message to itself")
-        destination = self._destinations.get(command.destination)
+        try:
+            destination = self._destinations.get(command.destination)
+        except TypeError:  # As a list is not hashable.
+            destination = None
         if destination is None:
             known = sorted(self._destinations)
             raise CommunicationException(

@@ -67,7 +67,7 @@ class TimerHandler(INodeHandler):
             event = self._event_loop.schedule_event(
                 timestamp, partial(self.fire_timer, message, node, serial), self._contexts[node.id]
             )
-        except EventLoopException:
+        except (EventLoopException, TypeError):
             raise TimerException(
                 f"cannot set timer {message!r} of node {node.id} for {timestamp!r}: expected an absolute "
                 f"time in seconds, not before now, {self._event_loop.current_time} s"

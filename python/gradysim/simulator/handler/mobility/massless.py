@@ -1,6 +1,7 @@
 """Vehicles without mass: they fly straight to their target at their speed, and stand still there."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeGuard
 
@@ -11,6 +12,7 @@ from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
 from gradysim.simulator.handler.mobility.update_times import UpdateTimes
 from gradysim.simulator.node import Node
+from gradysim.simulator.number_range import is_in_range
 
 
 class MasslessMobilityException(Exception):  # noqa: N818 (the published name)
@@ -32,10 +34,15 @@ class MasslessMobilityConfiguration:
     reference_coordinates: Position = (0, 0, 0)
 
     def __post_init__(self) -> None:
-        if not 0 < self.update_rate < math.inf:
+        if not is_in_range(self.update_rate, 0, above=True):
             raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
-        if not 0 <= self.default_speed < math.inf:
+        if not is_in_range(self.default_speed, 0):
             raise ValueError(f"default_speed must be finite and >= 0 m/s, got {self.default_speed!r}")
+        if not _is_geographic(self.reference_coordinates):
+            raise ValueError(
+                "reference_coordinates must be (latitude -90 to 90 degrees, longitude degrees, altitude m), "
+                f"got {self.reference_coordinates!r}"
+            )
 
 
 @dataclass
@@ -94,11 +101,11 @@ class MasslessMobilityHandler(INodeHandler):
         """
         if node_id in self.nodes:
             raise MasslessMobilityException(f"node {node_id} is registered already: configure it before")
-        if speed is not None and not 0 <= speed < math.inf:
+        if speed is not None and not is_in_range(speed, 0):
             raise ValueError(f"speed of node {node_id} must be finite and >= 0 m/s, got {speed!r}")
         rate = self._configuration.update_rate
         if telemetry_interval is not None and telemetry_interval != 0:
-            if not 0 < telemetry_interval < math.inf:
+            if not is_in_range(telemetry_interval, 0, above=True):
                 raise ValueError(
                     f"telemetry_interval of node {node_id} must be finite and >= 0 s, "
                     f"got {telemetry_interval!r}"
@@ -150,7 +157,11 @@ class MasslessMobilityHandler(INodeHandler):
         """
         if node.id not in self.nodes:
             raise MasslessMobilityException(f"node {node.id} is not registered with the mobility handler")
-        kind = command.command_type
+        kind = getattr(command, "command_type", None)
+        if kind is None:
+            raise MasslessMobilityException(
+                f"node {node.id} can carry out a MobilityCommand, was given {command!r}"
+            )
         if node.id in self._settings and self._settings[node.id].stationary:
             raise MasslessMobilityException(f"node {node.id} is stationary, it cannot carry out {command!r}")
         if kind == MobilityCommandType.GOTO_COORDS:
@@ -201,6 +212,17 @@ class MasslessMobilityHandler(INodeHandler):
                 node.position = target
             else:
                 node.position = (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
+
+
+def _is_geographic(place: Iterable[object]) -> bool:
+    """Whether something is (latitude deg, longitude deg, altitude m)."""
+    try:
+        latitude, longitude, altitude = place
+    except (TypeError, ValueError):
+        return False
+    return is_in_range(latitude, -90, 90) and all(
+        is_in_range(value, -math.inf, above=True) for value in (longitude, altitude)
+    )
 
 
 def _in_updates(interval_s: float, update_rate_s: float) -> float:

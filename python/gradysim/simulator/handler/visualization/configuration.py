@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from gradysim.simulator.number_range import is_in_range
+
 
 @dataclass
 class VisualizationConfiguration:
@@ -32,7 +34,7 @@ class VisualizationConfiguration:
     def __post_init__(self) -> None:
         for name in ("information_collection_interval", "update_rate"):
             value = getattr(self, name)
-            if not 0 < value < math.inf:
+            if not is_in_range(value, 0, above=True):
                 raise ValueError(f"{name} must be finite and > 0 s, got {value!r}")
         for name in ("x_range", "y_range", "z_range"):
             _check_range(name, getattr(self, name))

@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from gradysim.simulator.number_range import is_in_range
+
 
 @dataclass
 class DynamicVelocityMobilityConfiguration:
@@ -32,16 +34,16 @@ class DynamicVelocityMobilityConfiguration:
     telemetry_decimation: int = 1
 
     def __post_init__(self) -> None:
-        if not 0 < self.update_rate < math.inf:
+        if not is_in_range(self.update_rate, 0, above=True):
             raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
         for name in ("max_speed_xy", "max_speed_z", "max_acc_xy", "max_acc_z"):
             value = getattr(self, name)
-            if not value >= 0:
+            if value != math.inf and not is_in_range(value, 0):
                 unit = "m/s" if name.startswith("max_speed") else "m/s²"
                 raise ValueError(f"{name} must be >= 0 {unit}, got {value!r}")
         for name in ("tau_xy", "tau_z"):
             value = getattr(self, name)
-            if value is not None and not 0 < value < math.inf:
+            if value is not None and not is_in_range(value, 0, above=True):
                 raise ValueError(f"{name} must be finite and > 0 s or None, got {value!r}")
         decimation = self.telemetry_decimation
         if not isinstance(decimation, int) or isinstance(decimation, bool) or decimation < 1:

@@ -87,7 +87,7 @@ class DynamicVelocityMobilityHandler(INodeHandler):
             raise DynamicVelocityMobilityException(
                 f"node {node.id} is not registered with the mobility handler"
             )
-        if command.command_type != MobilityCommandType.SET_SPEED:
+        if getattr(command, "command_type", None) != MobilityCommandType.SET_SPEED:
             raise DynamicVelocityMobilityException(
                 f"node {node.id} is steered by velocity and cannot carry out {command!r}: "
                 "use SetVelocityMobilityCommand(vx, vy, vz)"
