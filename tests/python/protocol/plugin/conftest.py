@@ -128,19 +128,24 @@ class Outcome(NamedTuple):
     tracked_variables: dict[str, object]
 
 
-def prototype(scenario):
-    """Run the nodes of a scenario as a script would: with `SimulationBuilder`."""
-    builder = SimulationBuilder(
-        SimulationConfiguration(
-            duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
-        )
-    )
+def build(configuration, *protocols):
+    """A simulation of these protocols as a script would make it, all at the origin and in reach."""
+    builder = SimulationBuilder(configuration)
     builder.add_handler(CommunicationHandler(CommunicationMedium(transmission_range=1000)))
     builder.add_handler(TimerHandler())
     builder.add_handler(MobilityHandler(MobilityConfiguration()))
-    for node in scenario.nodes:
-        builder.add_node(node.protocol, node.initial_position)
-    simulator = builder.build()
+    for protocol in protocols:
+        builder.add_node(protocol, (0.0, 0.0, 0.0))
+    return builder.build()
+
+
+def prototype(scenario):
+    simulator = build(
+        SimulationConfiguration(
+            duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
+        ),
+        *(node.protocol for node in scenario.nodes),
+    )
     simulator.start_simulation()
     nodes = [simulator.get_node(node.id) for node in scenario.nodes]
     return [Outcome(node.position, node.protocol_encapsulator.provider.tracked_variables) for node in nodes]
@@ -171,6 +176,12 @@ def make_scenario(tmp_path):
 def run_mode(request):
     """`run_mode(scenario)`: run it in one of the modes; returns the `Outcome` of each node."""
     return request.param
+
+
+@pytest.fixture
+def build_simulation():
+    """`build_simulation(configuration, *protocols)`: a simulator of nodes at the origin, all in reach."""
+    return build
 
 
 @pytest.fixture

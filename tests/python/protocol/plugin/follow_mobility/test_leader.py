@@ -1,0 +1,205 @@
+import json
+import logging
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.protocol.messages.communication import CommunicationCommandType
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.follow_mobility.leader import (
+    BROADCAST_TIMER_TAG,
+    FOLLOWER_TAG,
+    LEADER_TAG,
+    FollowMobilityException,
+    MobilityLeaderConfiguration,
+    MobilityLeaderPlugin,
+)
+
+POSITION = (1.0, 2.0, 3.0)
+
+
+def lead(protocol, **configuration):
+    """A leader that knows where it is."""
+    plugin = MobilityLeaderPlugin(protocol, MobilityLeaderConfiguration(**configuration))
+    protocol.handle_telemetry(Telemetry(POSITION))
+    protocol.calls.clear()
+    return plugin
+
+
+def payloads(protocol):
+    return [json.loads(command.message.removeprefix(f"{LEADER_TAG}:")) for command in protocol.provider.sent]
+
+
+def answer(protocol, follower, time):
+    protocol.provider.pass_time(protocol, time)
+    protocol.handle_packet(f"{FOLLOWER_TAG}:{follower}")
+
+
+def test_the_defaults_are_the_published_ones_and_a_jitter():
+    assert MobilityLeaderConfiguration() == MobilityLeaderConfiguration(0.02, 5, 0.0, 0.5)
+
+
+def test_a_new_leader_broadcasts_and_has_no_followers(protocol):
+    plugin = MobilityLeaderPlugin(protocol)
+    assert (plugin.is_broadcasting, plugin.followers, plugin.orientation) == (True, set(), 0)
+
+
+def test_it_broadcasts_id_position_and_orientation(make_protocol):
+    protocol = make_protocol(node_id=4)
+    lead(protocol, initial_orientation=45)
+    protocol.provider.pass_time(protocol, 0.03)
+    assert payloads(protocol) == [{"id": 4, "position": list(POSITION), "orientation": 45}]
+    (command,) = protocol.provider.sent
+    assert (command.command_type, command.destination) == (CommunicationCommandType.BROADCAST, None)
+
+
+def test_it_broadcasts_once_in_each_interval(protocol):
+    lead(protocol, broadcast_interval=0.5)
+    for number in range(1, 20):
+        protocol.provider.pass_time(protocol, 0.5 * (number + 1) - 1e-9)
+        assert len(protocol.provider.sent) == number
+
+
+def test_siblings_do_not_broadcast_together(make_protocol):
+    first = set()
+    for node_id in range(20):
+        protocol = make_protocol(node_id=node_id)
+        lead(protocol)
+        first.add(protocol.provider.timers[0][0])
+    assert len(first) == 20
+
+
+def test_without_jitter_broadcasts_are_periodic(protocol):
+    lead(protocol, broadcast_interval=0.5, broadcast_jitter=0)
+    assert protocol.provider.timers == [(0.5, BROADCAST_TIMER_TAG)]
+
+
+def test_created_late_it_starts_from_then(protocol):
+    protocol.provider.now = 100.0
+    lead(protocol, broadcast_interval=1, broadcast_jitter=0)
+    protocol.provider.pass_time(protocol, 102.5)
+    assert len(protocol.provider.sent) == 2
+
+
+def test_it_says_where_it_is_now(protocol):
+    lead(protocol)
+    protocol.handle_telemetry(Telemetry((9.0, 8.0, 7.0)))
+    protocol.provider.pass_time(protocol, 0.03)
+    assert payloads(protocol)[0]["position"] == [9, 8, 7]
+
+
+def test_it_does_not_say_where_it_is_before_it_knows(protocol, caplog):
+    MobilityLeaderPlugin(protocol, MobilityLeaderConfiguration(broadcast_interval=0.5, broadcast_jitter=0))
+    with caplog.at_level(logging.WARNING):
+        protocol.provider.pass_time(protocol, 1)
+    assert protocol.provider.sent == []
+    assert [record.getMessage() for record in caplog.records] == [
+        "Leader 0 does not broadcast: it has had no telemetry yet to tell it where it is"
+    ]
+    protocol.handle_telemetry(Telemetry(POSITION))
+    protocol.provider.pass_time(protocol, 1.5)
+    assert len(protocol.provider.sent) == 1
+
+
+def test_a_new_orientation_goes_out_with_the_next_broadcast(protocol):
+    plugin = lead(protocol)
+    plugin.set_orientation(-450)
+    assert plugin.orientation == -450
+    protocol.provider.pass_time(protocol, 0.03)
+    assert payloads(protocol)[0]["orientation"] == -450
+
+
+def test_broadcasts_can_be_left_out(protocol):
+    plugin = lead(protocol, broadcast_interval=0.5, broadcast_jitter=0)
+    plugin.is_broadcasting = False
+    protocol.provider.pass_time(protocol, 1)
+    assert protocol.provider.sent == []
+    plugin.is_broadcasting = True
+    protocol.provider.pass_time(protocol, 1.5)
+    assert len(protocol.provider.sent) == 1
+
+
+def test_who_answers_is_a_follower(protocol):
+    plugin = lead(protocol)
+    answer(protocol, 7, 0.1)
+    answer(protocol, 9, 0.1)
+    assert plugin.followers == {7, 9}
+
+
+def test_the_set_of_followers_is_the_callers_own(protocol):
+    plugin = lead(protocol)
+    plugin.followers.add(5)
+    assert plugin.followers == set()
+
+
+def test_the_timeout_is_in_seconds(protocol):
+    plugin = lead(protocol, follower_timeout=5)
+    answer(protocol, 7, 1)
+    protocol.provider.pass_time(protocol, 5.99)
+    assert plugin.followers == {7}
+    protocol.provider.pass_time(protocol, 6)
+    assert plugin.followers == set()
+
+
+@given(st.lists(st.tuples(st.integers(1, 4), st.integers(0, 300)), max_size=20), st.integers(1, 100))
+def test_followers_are_those_who_answered_within_the_timeout(make_protocol, answers, timeout):
+    protocol = make_protocol()
+    plugin = lead(protocol, broadcast_interval=7, follower_timeout=timeout)
+    last = {}
+    for follower, time in sorted(answers, key=lambda answer: answer[1]):
+        answer(protocol, follower, time)
+        last[follower] = time
+        assert plugin.followers == {id for id, heard in last.items() if time - heard < timeout}
+
+
+def test_an_infinite_timeout_keeps_every_follower(protocol):
+    plugin = lead(protocol, follower_timeout=math.inf, broadcast_interval=10)
+    answer(protocol, 7, 1)
+    protocol.provider.pass_time(protocol, 1e5)
+    assert plugin.followers == {7}
+
+
+def test_its_own_events_do_not_reach_the_protocol(protocol):
+    lead(protocol)
+    answer(protocol, 7, 1)
+    assert protocol.calls == []
+
+
+def test_all_others_do(protocol):
+    lead(protocol)
+    protocol.handle_packet(f"{LEADER_TAG}:of another leader")
+    protocol.handle_timer("mine")
+    assert [argument for _, argument in protocol.calls] == [f"{LEADER_TAG}:of another leader", "mine"]
+
+
+def test_a_malformed_answer_is_refused(protocol):
+    lead(protocol)
+    with pytest.raises(FollowMobilityException, match=f"{FOLLOWER_TAG}:seven"):
+        protocol.handle_packet(f"{FOLLOWER_TAG}:seven")
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("broadcast_interval", 0),
+        ("broadcast_interval", math.inf),
+        ("follower_timeout", 0),
+        ("follower_timeout", math.nan),
+        ("broadcast_jitter", 1.1),
+        ("broadcast_jitter", -0.1),
+        ("broadcast_jitter", "much"),
+    ],
+)
+def test_a_wrong_configuration_is_refused(protocol, name, value):
+    with pytest.raises(FollowMobilityException, match=f"{name} must be .*{value!r}"):
+        lead(protocol, **{name: value})
+
+
+def test_a_wrong_orientation_is_refused(protocol):
+    plugin = lead(protocol)
+    with pytest.raises(FollowMobilityException, match="orientation"):
+        plugin.set_orientation(math.nan)
+    with pytest.raises(FollowMobilityException, match="orientation"):
+        lead(protocol, initial_orientation=None)
