@@ -204,7 +204,15 @@ def test_a_malformed_waypoint_is_refused(protocol, waypoint):
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"speed": -1}, {"speed": math.nan}, {"tolerance": -0.1}, {"loop_mission": "REVERSE"}]
+    "wrong",
+    [
+        {"speed": -1},
+        {"speed": math.nan},
+        {"speed": "fast"},
+        {"tolerance": -0.1},
+        {"tolerance": None},
+        {"loop_mission": "REVERSE"},
+    ],
 )
 def test_a_wrong_configuration_is_refused(protocol, wrong):
     with pytest.raises(MissionMobilityPluginException, match=next(iter(wrong))):
@@ -219,7 +227,14 @@ def test_a_mission_from_a_file(protocol, tmp_path):
     assert visited(protocol, plugin, 5, [(0, 0, 0), (1.5, 2, -3)]) == [0, 1]
 
 
-@pytest.mark.parametrize("line", ["1,2", "1,2,3,4", "a,b,c", "1 2 3"])
+def test_a_mission_file_may_start_with_a_byte_order_mark(protocol, tmp_path):
+    path = tmp_path / "mission.txt"
+    path.write_text("0,0,0\n", encoding="utf-8-sig")
+    MissionMobilityPlugin(protocol).start_mission_with_waypoint_file(path)
+    assert protocol.provider.targets == [(0, 0, 0)]
+
+
+@pytest.mark.parametrize("line", ["1,2", "1,2,3,4", "a,b,c", "1 2 3", "1,nan,3", "1,2,inf"])
 def test_a_malformed_file_is_refused_with_its_line(protocol, tmp_path, line):
     path = tmp_path / "mission.txt"
     path.write_text(f"0,0,0\n{line}\n")
@@ -237,6 +252,34 @@ def test_an_empty_file_is_refused(protocol, tmp_path):
     path.write_text("\n")
     with pytest.raises(MissionMobilityPluginException, match="at least one"):
         MissionMobilityPlugin(protocol).start_mission_with_waypoint_file(str(path))
+
+
+FLIGHT = """
+from gradysim.protocol.plugin.mission_mobility import (
+    LoopMission, MissionMobilityConfiguration, MissionMobilityPlugin
+)
+
+class Pilot(Quiet):
+    def initialize(self):
+        self.reached = []
+        self.plugin = MissionMobilityPlugin(self, MissionMobilityConfiguration(20, LoopMission.REVERSE))
+        self.plugin.start_mission([(20, 0, 0), (20, 20, 0), (20, 20, 20)])
+
+    def handle_telemetry(self, telemetry):
+        waypoint = self.plugin.current_waypoint
+        if self.reached[-1:] != [waypoint]:
+            self.reached.append(waypoint)
+
+    def finish(self):
+        self.provider.tracked_variables["waypoints"] = self.reached
+"""
+
+
+def test_a_mission_in_a_simulation(make_scenario, run_mode):
+    (pilot,) = run_mode(
+        make_scenario(FLIGHT, "sim-time-limit = 5.5s", '*.uav.protocol.class = "protocols.py:Pilot"')
+    )
+    assert pilot.tracked_variables["waypoints"] == [0, 1, 2, 1, 0, 1]
 
 
 @given(
