@@ -1,0 +1,106 @@
+"""What docs/guides/plugins.md shows is what happens, in both modes."""
+
+import csv
+import importlib
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gradysim.config import load_scenarios
+from gradysim.protocol.plugin.random_mobility import RandomMobilityConfig
+from gradysim.results.run_result import RunResult
+
+Run = Callable[[str], RunResult]
+
+
+@pytest.fixture
+def guide(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder with the guide's two files, as a reader would save them; it is the working directory."""
+    text = (root / "docs/guides/plugins.md").read_text()
+    for language, name in [("python", "guide.py"), ("ini", "guide.ini")]:
+        blocks = re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+        assert blocks
+        (tmp_path / name).write_text("\n\n".join(blocks))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture(params=["prototype", "integrated"])
+def run(request: pytest.FixtureRequest, guide: Path) -> Run:
+    """`run("Follow")`: run that configuration of the guide."""
+    if request.param == "integrated":
+        pytest.importorskip("gradysim._netsim")
+    module: Any = importlib.import_module(f"gradysim.{request.param}.run")
+
+    def run_config(config: str) -> RunResult:
+        (scenario,) = load_scenarios(guide / "guide.ini", config)
+        result: RunResult = module.run(scenario)
+        return result
+
+    return run_config
+
+
+def tracked(result: RunResult, name: str) -> list[Any]:
+    return [node.tracked_variables.get(name) for node in result.nodes]
+
+
+def test_a_patrol_turns_round(run: Run) -> None:
+    assert tracked(run("Patrol"), "waypoint") == [0]
+
+
+def test_a_trip_stays_in_its_box(run: Run) -> None:
+    box = RandomMobilityConfig((-100, 100), (0, 50), (10, 30))
+    targets = tracked(run("Wander"), "target")
+    assert len(set(targets)) == 3
+    for target in targets:
+        for value, (lowest, highest) in zip(target, (box.x_range, box.y_range, box.z_range), strict=True):
+            assert lowest <= value <= highest
+
+
+def test_followers_queue_up_behind_their_leader(run: Run) -> None:
+    result = run("Follow")
+    assert result.nodes[0].tracked_variables["followers"] == [1, 2, 3]
+    for node in result.nodes:
+        assert node.position == pytest.approx((0, 50 - 5 * node.id, 20))
+
+
+def test_statistics_are_written(run: Run) -> None:
+    heard = tracked(run("Count"), "heard")[0]
+    times, values = (
+        list(csv.DictReader(Path(f"{kind}_demo_Counter_0.csv").read_text(encoding="utf-8").splitlines()))
+        for kind in ("simulation_real_time", "tracked_variables")
+    )
+    assert list(times[0]) == ["", "simulation_time", "real_time"]
+    assert list(values[0]) == ["", "simulation_time", "heard"]
+    assert len(values) == len(times) + heard
+    assert values[-1]["heard"] == str(heard)
+
+
+def test_pings_are_answered_and_not_seen(run: Run) -> None:
+    assert tracked(run("Ping"), "answer") == ["pong", "pong"]
+
+
+def test_the_script_flies_in_formation(guide: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(guide)
+    monkeypatch.delitem(sys.modules, "guide", raising=False)
+    positions = importlib.import_module("guide").fly_in_formation()
+    monkeypatch.delitem(sys.modules, "guide")
+    assert positions == [pytest.approx((0, 50 - 5 * node_id, 20)) for node_id in range(4)]
+
+
+def test_its_types_hold(guide: Path, root: Path) -> None:
+    pytest.importorskip("mypy")
+    check = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--config-file=", "guide.py"],
+        cwd=guide,
+        env={"MYPYPATH": str(root / "python"), "PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert check.returncode == 0, check.stdout
