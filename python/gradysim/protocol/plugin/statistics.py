@@ -35,8 +35,6 @@ class StatisticsProtocolWrapper:
         self.protocol = protocol
         self.configure(file_name_part, collection_interval)
         self._registered = False
-        self._start = 0.0
-        self._samples = 0
         self._times: list[_Row] = []
         self._tracked: list[_Row] = []
 
