@@ -101,7 +101,7 @@ class Outcome:
     Attributes:
         log: All callbacks in their order.
         tracked: The variables of each node at the end.
-        copies: {kind: (in range, out of range)}. What is sent from `finish` never arrives; the log shows that.
+        copies: {kind: (in range, out of range)}; what is sent from `finish` counts, though it never arrives.
     """
 
     log: list[Entry]
