@@ -1,0 +1,8 @@
+"""Agreement of nodes on the values of named variables, by Raft."""
+
+from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
+from gradysim.protocol.plugin.raft.raft_config import RaftConfig, RaftMode
+from gradysim.protocol.plugin.raft.raft_consensus import RaftConsensusPlugin
+from gradysim.protocol.plugin.raft.raft_state import RaftState
+
+__all__ = ["FailureConfig", "RaftConfig", "RaftConsensusPlugin", "RaftMode", "RaftState"]

@@ -1,0 +1,7 @@
+"""Tells from heartbeats and their answers which nodes are there."""
+
+from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
+from gradysim.protocol.plugin.raft.failure_detection.failure_state import FailureState, NodeStatus
+from gradysim.protocol.plugin.raft.failure_detection.heartbeat_detector import HeartbeatDetector
+
+__all__ = ["FailureConfig", "FailureState", "HeartbeatDetector", "NodeStatus"]

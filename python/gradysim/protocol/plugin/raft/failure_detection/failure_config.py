@@ -1,0 +1,159 @@
+"""When a node counts as failed, and when as recovered."""
+
+import warnings
+
+_MINIMUM_TIMEOUT_MS = 100
+_RISKY_TIMEOUT_MS = 50
+
+
+class FailureConfig:
+    """Thresholds of the failure detection.
+
+    Every `detection_interval` heartbeats each node is looked at. One that has not answered for the timeout
+    has failed that look; after `failure_threshold` of them in a row it counts as failed. A failed node counts
+    as active again after `recovery_threshold` answers in a row.
+
+    The timeout is a multiple of the heartbeat interval (4 by default), or an absolute one.
+    """
+
+    def __init__(self) -> None:
+        self._failure_threshold = 3
+        self._recovery_threshold = 2
+        self._detection_interval = 2
+        self._timeout_multiplier = 4
+        self._heartbeat_interval_ms: int | None = None
+        self._absolute_timeout_ms: int | None = None
+
+    def set_failure_threshold(self, threshold: int) -> None:
+        """Set how many looks in a row a node has to fail; ValueError if < 1."""
+        self._failure_threshold = _at_least_one("failure_threshold", threshold)
+
+    def set_recovery_threshold(self, threshold: int) -> None:
+        """Set how many answers in a row a failed node has to give; ValueError if < 1."""
+        self._recovery_threshold = _at_least_one("recovery_threshold", threshold)
+
+    def set_detection_interval(self, interval: int) -> None:
+        """Set how many heartbeats there are from one look to the next; ValueError if < 1."""
+        self._detection_interval = _at_least_one("detection_interval", interval)
+
+    def set_heartbeat_timeout(self, multiplier: int) -> None:
+        """Make the timeout a multiple of the heartbeat interval, instead of an absolute one.
+
+        Raises:
+            ValueError: It is < 1, or the timeout would be shorter than 100 ms.
+        """
+        _at_least_one("timeout multiplier", multiplier)
+        if self._heartbeat_interval_ms is not None:
+            _check_timeout(multiplier, self._heartbeat_interval_ms)
+        self._timeout_multiplier = multiplier
+        self._absolute_timeout_ms = None
+
+    def set_absolute_timeout(self, timeout_ms: int) -> None:
+        """Set the timeout in ms, whatever the heartbeat interval is.
+
+        Below 50 ms there is a UserWarning: ordinary delays may look like failures.
+
+        Raises:
+            ValueError: It is <= 0.
+        """
+        if not _is_number(timeout_ms) or not timeout_ms > 0:
+            raise ValueError(f"an absolute timeout must be > 0 ms, got {timeout_ms!r}")
+        if timeout_ms < _RISKY_TIMEOUT_MS:
+            warnings.warn(
+                f"with a timeout of {timeout_ms} ms ordinary delays may look like failures", stacklevel=2
+            )
+        self._absolute_timeout_ms = timeout_ms
+
+    def set_heartbeat_interval_reference(self, interval_ms: int) -> None:
+        """Set the heartbeat interval in ms that the timeout is a multiple of.
+
+        Raises:
+            ValueError: It is <= 0, or the timeout would be shorter than 100 ms.
+        """
+        if not _is_number(interval_ms) or not interval_ms > 0:
+            raise ValueError(f"a heartbeat interval must be > 0 ms, got {interval_ms!r}")
+        if not self.is_using_absolute_timeout():
+            _check_timeout(self._timeout_multiplier, interval_ms)
+        self._heartbeat_interval_ms = interval_ms
+
+    def get_heartbeat_interval_reference(self) -> int | None:
+        """Return the heartbeat interval in ms; None if it was never set."""
+        return self._heartbeat_interval_ms
+
+    def get_timeout_multiplier(self) -> int | None:
+        """Return the multiple of the heartbeat interval; None while an absolute timeout holds."""
+        return None if self.is_using_absolute_timeout() else self._timeout_multiplier
+
+    def get_absolute_timeout_ms(self) -> int | None:
+        """Return the absolute timeout in ms; None while a multiple of the heartbeat interval holds."""
+        return self._absolute_timeout_ms
+
+    def is_using_absolute_timeout(self) -> bool:
+        """Whether the timeout is an absolute one."""
+        return self._absolute_timeout_ms is not None
+
+    def get_timeout_ms(self) -> int:
+        """Return the timeout in ms.
+
+        Raises:
+            ValueError: It is a multiple of a heartbeat interval that was never set.
+        """
+        if self._absolute_timeout_ms is not None:
+            return self._absolute_timeout_ms
+        if self._heartbeat_interval_ms is None:
+            raise ValueError(
+                f"the timeout is {self._timeout_multiplier} heartbeat intervals, and the interval was not "
+                "set: see set_heartbeat_interval_reference"
+            )
+        return self._timeout_multiplier * self._heartbeat_interval_ms
+
+    @property
+    def failure_threshold(self) -> int:
+        """Looks in a row that a node has to fail."""
+        return self._failure_threshold
+
+    @property
+    def recovery_threshold(self) -> int:
+        """Answers in a row that a failed node has to give."""
+        return self._recovery_threshold
+
+    @property
+    def detection_interval(self) -> int:
+        """Heartbeats from one look to the next."""
+        return self._detection_interval
+
+    @property
+    def heartbeat_timeout_ms(self) -> int:
+        """The same as `get_timeout_ms`."""
+        return self.get_timeout_ms()
+
+    def __str__(self) -> str:
+        if self._absolute_timeout_ms is not None:
+            timeout = f"{self._absolute_timeout_ms}ms"
+        elif self._heartbeat_interval_ms is not None:
+            timeout = f"{self._timeout_multiplier}x{self._heartbeat_interval_ms}ms={self.get_timeout_ms()}ms"
+        else:
+            timeout = f"{self._timeout_multiplier} heartbeat intervals"
+        return (
+            f"FailureConfig(failure_threshold={self._failure_threshold}, "
+            f"recovery_threshold={self._recovery_threshold}, "
+            f"detection_interval={self._detection_interval}, timeout={timeout})"
+        )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _at_least_one(name: str, value: int) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or value < 1:
+        raise ValueError(f"{name} must be an integer >= 1, got {value!r}")
+    return value
+
+
+def _check_timeout(multiplier: int, interval_ms: int) -> None:
+    if multiplier * interval_ms < _MINIMUM_TIMEOUT_MS:
+        raise ValueError(
+            f"a timeout must be at least {_MINIMUM_TIMEOUT_MS} ms, {multiplier} heartbeat intervals of "
+            f"{interval_ms} ms are {multiplier * interval_ms} ms"
+        )

@@ -1,0 +1,251 @@
+"""Watches nodes by their answers to heartbeats."""
+
+from collections import deque
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
+from gradysim.protocol.plugin.raft.failure_detection.failure_state import FailureState
+
+_REMEMBERED_RESPONSE_TIMES = 10
+_SHOWN_RESPONSE_TIMES = 5
+
+
+@dataclass
+class _History:
+    """What happened to one node."""
+
+    failure_count: int = 0
+    recovery_count: int = 0
+    last_failure_s: float | None = None
+    last_recovery_s: float | None = None
+    response_times_ms: deque[float] = field(default_factory=lambda: deque(maxlen=_REMEMBERED_RESPONSE_TIMES))
+
+    @property
+    def recent_response_times(self) -> list[float]:
+        return list(self.response_times_ms)[-_SHOWN_RESPONSE_TIMES:]
+
+
+class HeartbeatDetector:
+    """Takes nodes for failed or active by the rules of a `FailureConfig`.
+
+    Whoever sends heartbeats calls `record_heartbeat_sent` for each receiver and `on_heartbeat_sent` once per
+    heartbeat, and `record_heartbeat_response` for each answer.
+    """
+
+    def __init__(
+        self,
+        config: FailureConfig,
+        known_nodes: Iterable[int],
+        on_failure_callback: Callable[[int], None] | None = None,
+        on_recovery_callback: Callable[[int], None] | None = None,
+        get_current_time_callback: Callable[[], float] | None = None,
+    ) -> None:
+        """Watch `known_nodes`.
+
+        Args:
+            config: The rules.
+            known_nodes: Ids, all taken for active at first.
+            on_failure_callback: Called with the id of a node that has become failed.
+            on_recovery_callback: Called with the id of a node that has become active again.
+            get_current_time_callback: Returns the time in seconds. Without it time stands still and only
+                answers recorded as failures count.
+        """
+        self._config = config
+        self._state = FailureState(known_nodes)
+        self._histories = {node_id: _History() for node_id in self._state.get_all_nodes()}
+        self._on_failure = on_failure_callback
+        self._on_recovery = on_recovery_callback
+        self._now_s = get_current_time_callback or (lambda: 0.0)
+        self._heartbeats = 0
+        self._sent = 0
+        self._successes = 0
+        self._failures = 0
+        self._look_time_s: float | None = None
+        self._latency_ms = 0.0
+
+    def record_heartbeat_sent(self, node_id: int) -> None:
+        """Count a heartbeat to that node."""
+        if node_id in self._histories:
+            self._sent += 1
+
+    def record_heartbeat_response(
+        self, node_id: int, success: bool, response_time_ms: float | None = None
+    ) -> None:
+        """Note an answer, or a known failure to answer. Strangers are ignored.
+
+        Args:
+            node_id: Who answered.
+            success: Whether it did.
+            response_time_ms: From the heartbeat to its answer, if known.
+        """
+        history = self._histories.get(node_id)
+        if history is None:
+            return
+        if success:
+            self._successes += 1
+            if response_time_ms is not None:
+                history.response_times_ms.append(response_time_ms)
+        else:
+            self._failures += 1
+        self._state.record_heartbeat_response(node_id, self._now_s(), success)
+        if success and self._state.check_node_recovery(node_id, self._config.recovery_threshold):
+            history.recovery_count += 1
+            history.last_recovery_s = self._now_s()
+            if self._on_recovery is not None:
+                self._on_recovery(node_id)
+
+    def on_heartbeat_sent(self) -> None:
+        """Count a heartbeat; every `detection_interval` of them all nodes are looked at."""
+        self._heartbeats += 1
+        if self._heartbeats % self._config.detection_interval == 0:
+            self._look()
+
+    def mark_failed(self, node_id: int) -> None:
+        """Take a node for failed from the start: it was looked for and not found."""
+        self._state.mark_failed(node_id)
+
+    def get_failed_nodes(self) -> set[int]:
+        """Ids of the nodes taken for failed."""
+        return self._state.get_failed_nodes()
+
+    def get_active_nodes(self) -> set[int]:
+        """Ids of the nodes taken for active."""
+        return self._state.get_active_nodes()
+
+    def is_node_failed(self, node_id: int) -> bool:
+        """Whether the node is taken for failed; False for a stranger."""
+        return self._state.is_node_failed(node_id)
+
+    def get_node_statistics(self, node_id: int) -> dict[str, int | str]:
+        """See `FailureState.get_statistics`."""
+        return self._state.get_statistics(node_id)
+
+    def get_node_timeout_statistics(self, node_id: int) -> dict[str, float]:
+        """See `FailureState.get_timeout_statistics`."""
+        return self._state.get_timeout_statistics(node_id, self._now_s())
+
+    def add_node(self, node_id: int) -> None:
+        """Begin to watch a node, taken for active; no-op if it is watched already."""
+        self._state.add_node(node_id)
+        self._histories.setdefault(node_id, _History())
+
+    def remove_node(self, node_id: int) -> None:
+        """Forget a node; no-op for a stranger."""
+        self._state.remove_node(node_id)
+        self._histories.pop(node_id, None)
+
+    def reset_node(self, node_id: int) -> None:
+        """Take a node for active, with nothing known about it; no-op for a stranger."""
+        self._state.reset_node(node_id)
+
+    def get_detection_summary(self) -> dict[str, Any]:
+        """Return the rules, how many nodes are what, and the details of each node, as plain data."""
+        return {
+            "enabled": True,
+            "heartbeat_counter": self._heartbeats,
+            **self._rules(),
+            "total_nodes": len(self._histories),
+            "active_nodes": len(self.get_active_nodes()),
+            "failed_nodes": len(self.get_failed_nodes()),
+            "performance": {
+                "total_heartbeats_sent": self._sent,
+                "total_responses_received": self._successes + self._failures,
+                "success_rate_percent": self._rate_percent(self._successes),
+                "average_response_time_ms": self._average_response_time_ms(),
+                "detection_latency_ms": self._latency_ms,
+            },
+            "detection_stats": {
+                "total_failures_detected": self._total("failure_count"),
+                "total_recoveries_detected": self._total("recovery_count"),
+            },
+            "node_details": {node_id: self._details(node_id) for node_id in sorted(self._histories)},
+        }
+
+    def get_detection_metrics(self) -> dict[str, Any]:
+        """Return counters and times of the detection and of each node, as plain data."""
+        return {
+            "performance": {
+                "total_heartbeats_sent": self._sent,
+                "total_responses_received": self._successes + self._failures,
+                "total_successful_responses": self._successes,
+                "total_failed_responses": self._failures,
+                "success_rate_percent": self._rate_percent(self._successes),
+                "failure_rate_percent": self._rate_percent(self._failures),
+                "average_response_time_ms": self._average_response_time_ms(),
+                "detection_latency_ms": self._latency_ms,
+            },
+            "detection": {
+                "total_failures_detected": self._total("failure_count"),
+                "total_recoveries_detected": self._total("recovery_count"),
+                "heartbeat_counter": self._heartbeats,
+                "detection_interval": self._config.detection_interval,
+            },
+            "configuration": self._rules(),
+            "node_histories": {node_id: self._history(node_id) for node_id in sorted(self._histories)},
+        }
+
+    def _look(self) -> None:
+        now_s = self._now_s()
+        if self._look_time_s is not None:
+            self._latency_ms = (now_s - self._look_time_s) * 1000
+        self._look_time_s = now_s
+        for node_id, history in list(self._histories.items()):
+            if self._state.check_node_failure_with_timeout(
+                node_id, self._config.failure_threshold, self._config.get_timeout_ms(), now_s
+            ):
+                history.failure_count += 1
+                history.last_failure_s = now_s
+                if self._on_failure is not None:
+                    self._on_failure(node_id)
+
+    def _rules(self) -> dict[str, int]:
+        return {
+            "detection_interval": self._config.detection_interval,
+            "failure_threshold": self._config.failure_threshold,
+            "recovery_threshold": self._config.recovery_threshold,
+            "timeout_ms": self._config.get_timeout_ms(),
+        }
+
+    def _total(self, counter: str) -> int:
+        return sum(getattr(history, counter) for history in self._histories.values())
+
+    def _rate_percent(self, count: int) -> float:
+        total = self._successes + self._failures
+        return 100.0 * count / total if total else 0.0
+
+    def _average_response_time_ms(self) -> float:
+        times = [time for history in self._histories.values() for time in history.response_times_ms]
+        return sum(times) / len(times) if times else 0.0
+
+    def _details(self, node_id: int) -> dict[str, Any]:
+        history, now_s = self._histories[node_id], self._now_s()
+        statistics = self._state.get_statistics(node_id)
+        return {
+            "consecutive_failures": statistics["consecutive_failures"],
+            "consecutive_successes": statistics["consecutive_successes"],
+            "failure_count": history.failure_count,
+            "recovery_count": history.recovery_count,
+            "recent_response_times": history.recent_response_times,
+            "status": self._state.get_node_status(node_id).name,
+            "time_since_response_ms": self._state.get_timeout_statistics(node_id, now_s)[
+                "time_since_response_ms"
+            ],
+            "timeout_exceeded": self._state.is_overdue(node_id, self._config.get_timeout_ms(), now_s),
+        }
+
+    def _history(self, node_id: int) -> dict[str, Any]:
+        history, now_s = self._histories[node_id], self._now_s()
+        shown: dict[str, Any] = {
+            "failure_count": history.failure_count,
+            "recovery_count": history.recovery_count,
+            "last_failure": history.last_failure_s,
+            "last_recovery": history.last_recovery_s,
+            "recent_response_times": history.recent_response_times,
+        }
+        if history.last_failure_s is not None:
+            shown["time_since_last_failure"] = (now_s - history.last_failure_s) * 1000
+        if history.last_recovery_s is not None:
+            shown["time_since_last_recovery"] = (now_s - history.last_recovery_s) * 1000
+        return shown

@@ -1,0 +1,242 @@
+"""The messages between nodes: JSON objects with a `type`.
+
+Beside what each is for, every message has the sender's cluster and the members that it knows. Fields that
+only say more than a reader needs may be missing: then their defaults hold.
+"""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from typing import Any, ClassVar, Self
+
+from gradysim.protocol.plugin.raft.raft_log import Entry, RaftLog
+
+
+@dataclass(kw_only=True)
+class RaftMessage:
+    """What all messages have.
+
+    Attributes:
+        cluster_id: Cluster of the sender, None if it was not told one.
+        known_nodes: Members that the sender knows; left out by one whose members were set.
+    """
+
+    SENDER: ClassVar[str]
+
+    cluster_id: int | None = None
+    known_nodes: list[int] | None = None
+
+    @property
+    def sender_id(self) -> int:
+        """Id of the node that sent the message."""
+        sender: int = getattr(self, self.SENDER)
+        return sender
+
+    def to_json(self) -> str:
+        """Return the text that goes on the air."""
+        content: dict[str, Any] = {"type": type(self).__name__}
+        for each in fields(self):
+            value = getattr(self, each.name)
+            if value is not None:
+                content[each.name] = value
+        content["sender_id"] = self.sender_id
+        return json.dumps(content)
+
+    @classmethod
+    def from_json(cls, json_str: str) -> Self:
+        """Read a message of this type.
+
+        Raises:
+            ValueError: It is not one.
+        """
+        message = parse_message(json_str)
+        if not isinstance(message, cls):
+            raise ValueError(f"expected a {cls.__name__}, got a {type(message).__name__}")
+        return message
+
+
+@dataclass
+class RequestVote(RaftMessage):
+    """A candidate asks for votes for a term; its log ends at `last_log_index`, with `last_log_term`."""
+
+    SENDER: ClassVar[str] = "candidate_id"
+
+    term: int
+    candidate_id: int
+    last_log_index: int = 0
+    last_log_term: int = 0
+
+
+@dataclass
+class RequestVoteResponse(RaftMessage):
+    """The answer; `term` is the voter's, that of the election if the vote was granted."""
+
+    SENDER: ClassVar[str] = "voter_id"
+
+    term: int
+    vote_granted: bool
+    voter_id: int
+
+
+@dataclass
+class AppendEntries(RaftMessage):
+    """The leader's heartbeat, with its whole log: all that a node has to know to be up to date.
+
+    Attributes:
+        term: That of the leader.
+        leader_id: Who that is.
+        consensus_values: What is committed, by name of variable.
+        term_number: Number of the last entry of the log.
+        active_nodes_count: How many nodes the leader sees active.
+        active_nodes_list: Which.
+        commit_index: Number of the last entry that is committed.
+        commit_term: Its term.
+        entries: The entries after that one, as (term, name, value).
+    """
+
+    SENDER: ClassVar[str] = "leader_id"
+
+    term: int
+    leader_id: int
+    consensus_values: dict[str, Any]
+    term_number: int
+    active_nodes_count: int | None = None
+    active_nodes_list: list[int] | None = None
+    commit_index: int = 0
+    commit_term: int = 0
+    entries: list[Entry] = field(default_factory=list)
+
+    def log(self) -> RaftLog:
+        """Return the leader's log."""
+        values = {name: value for name, value in self.consensus_values.items() if value is not None}
+        return RaftLog(self.commit_index, self.commit_term, values, self.entries)
+
+
+@dataclass
+class AppendEntriesResponse(RaftMessage):
+    """The answer; a success says that the follower has the leader's log up to entry `term_number`."""
+
+    SENDER: ClassVar[str] = "follower_id"
+
+    term: int
+    success: bool
+    follower_id: int
+    term_number: int
+
+
+@dataclass
+class DiscoveryHeartbeat(RaftMessage):
+    """Who is there, and would elect me? Asked before an election, so that a hopeless one is not begun.
+
+    Attributes:
+        term: The asking node's.
+        discoverer_id: Who that is.
+        last_log_index: Number of the last entry of its log.
+        last_log_term: Term of that entry.
+        answered: Who has answered already and need not again.
+    """
+
+    SENDER: ClassVar[str] = "discoverer_id"
+
+    term: int
+    discoverer_id: int
+    last_log_index: int = 0
+    last_log_term: int = 0
+    answered: list[int] = field(default_factory=list)
+
+
+@dataclass
+class DiscoveryHeartbeatResponse(RaftMessage):
+    """I am here; `would_vote` tells whether an election now had this node's vote."""
+
+    SENDER: ClassVar[str] = "responder_id"
+
+    term: int
+    responder_id: int
+    would_vote: bool = True
+
+
+def parse_message(text: str) -> RaftMessage:
+    """Read a message of any type.
+
+    Raises:
+        ValueError: The text is not JSON, or not one of the messages, or a field is missing or of a wrong
+        type.
+    """
+    try:
+        content = json.loads(text)
+    except ValueError as error:
+        raise ValueError(f"a message must be JSON: {error}") from None
+    if not isinstance(content, dict):
+        raise ValueError(f"a message must be a JSON object, got {text[:80]!r}")
+    kind = content.get("type")
+    message_type = _TYPES.get(kind) if isinstance(kind, str) else None
+    if message_type is None:
+        raise ValueError(f"unknown type of message {kind!r}, expected one of {', '.join(_TYPES)}")
+    arguments = {name: _read(content, name) for name in _NAMES[message_type] if name in content}
+    try:
+        return message_type(**arguments)
+    except TypeError as error:  # an argument without a default is missing
+        raise ValueError(f"incomplete message: {error}") from None
+
+
+def _read(content: Mapping[str, Any], name: str) -> Any:
+    value = content[name]
+    check, expected = _CHECKS[name]
+    if not check(value):
+        raise ValueError(f"{name} of a {content['type']} must be {expected}, got {value!r}")
+    return [Entry(*entry) for entry in value] if name == "entries" else value
+
+
+def _is_natural(value: object) -> bool:
+    return type(value) is int and value >= 0
+
+
+def _is_ids(value: object) -> bool:
+    return isinstance(value, list) and all(map(_is_natural, value))
+
+
+def _is_entry(value: object) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == 3
+        and _is_natural(value[0])
+        and (value[1] is None or isinstance(value[1], str))
+    )
+
+
+_Check = tuple[Callable[[Any], bool], str]
+_NATURAL: _Check = (_is_natural, "an integer >= 0")
+_OPTIONAL_NATURAL: _Check = (lambda value: value is None or _is_natural(value), "an integer >= 0 or null")
+_FLAG: _Check = (lambda value: isinstance(value, bool), "true or false")
+_IDS: _Check = (_is_ids, "a list of ids")
+_OPTIONAL_IDS: _Check = (lambda value: value is None or _is_ids(value), "a list of ids or null")
+
+_CHECKS: dict[str, _Check] = {
+    **dict.fromkeys(("term", "term_number", "commit_index", "commit_term"), _NATURAL),
+    **dict.fromkeys(("last_log_index", "last_log_term"), _NATURAL),
+    **dict.fromkeys(("candidate_id", "voter_id", "leader_id", "follower_id"), _NATURAL),
+    **dict.fromkeys(("discoverer_id", "responder_id"), _NATURAL),
+    **dict.fromkeys(("vote_granted", "success", "would_vote"), _FLAG),
+    **dict.fromkeys(("active_nodes_count", "cluster_id"), _OPTIONAL_NATURAL),
+    **dict.fromkeys(("known_nodes", "active_nodes_list"), _OPTIONAL_IDS),
+    "answered": _IDS,
+    "consensus_values": (lambda value: isinstance(value, dict), "an object"),
+    "entries": (
+        lambda value: isinstance(value, list) and all(map(_is_entry, value)),
+        "a list of [term, name, value]",
+    ),
+}
+
+_TYPES: dict[str, type[RaftMessage]] = {
+    message_type.__name__: message_type
+    for message_type in (
+        RequestVote,
+        RequestVoteResponse,
+        AppendEntries,
+        AppendEntriesResponse,
+        DiscoveryHeartbeat,
+        DiscoveryHeartbeatResponse,
+    )
+}
+_NAMES = {message_type: tuple(each.name for each in fields(message_type)) for message_type in _TYPES.values()}
