@@ -16,7 +16,7 @@ struct NodeConfig {
     explicit NodeConfig(std::string node_name) : name(std::move(node_name)) {}
 
     std::string name;           // for people: "uavs[0]"; not empty
-    Position initial_position;  // m, finite
+    Position initial_position;  // m, each coordinate within ±largest_coordinate_m
     RadioConfig radio;
     MacConfig mac;
     MobilityConfig mobility;

@@ -1,9 +1,12 @@
-// A point, or the difference of two points, in the scene's Cartesian frame: metres, x east, y north, z up.
+// A point, or the difference of two points, in the scene's Cartesian frame: metres, z up.
 #pragma once
 
 #include <cmath>
 
 namespace netsim {
+
+// The scene ends there: beyond, a signal would be on its way for longer than a node remembers where it was.
+inline constexpr double largest_coordinate_m = 1e7;
 
 struct Position {
     double x = 0;
@@ -30,6 +33,12 @@ constexpr Position operator*(double factor, const Position& a) {
 constexpr double squared_distance(const Position& a, const Position& b) {
     const Position d = a - b;
     return d.x * d.x + d.y * d.y + d.z * d.z;
+}
+
+// Three finite numbers within the scene.
+inline bool is_in_scene(const Position& p) {
+    const auto is_inside = [](double coordinate) { return std::abs(coordinate) <= largest_coordinate_m; };
+    return is_inside(p.x) && is_inside(p.y) && is_inside(p.z);
 }
 
 inline double distance(const Position& a, const Position& b) {

@@ -14,17 +14,20 @@ void Contention::start(int contention_window) {
         return;
     }
     state_ = State::waiting;
-    const SimTime already_idle = simulator_.now() - std::max(free_since_, idle_since_);
-    schedule_grant(backoff_optimization_ ? already_idle : SimTime{});
+    schedule_grant(backoff_optimization_ ? std::max(free_since_, idle_since_) : simulator_.now());
 }
 
 void Contention::channel_busy_changed(bool busy) {
     busy_ = busy;
     if (!busy) {
         free_since_ = simulator_.now();
+        if (broken_frame_) {
+            broken_frame_ = false;
+            eifs_until_ = free_since_ + timing_.eifs;
+        }
         if (state_ == State::deferring) {
             state_ = State::waiting;
-            schedule_grant(SimTime{});
+            schedule_grant(free_since_);
         }
         return;
     }
@@ -38,22 +41,9 @@ void Contention::channel_busy_changed(bool busy) {
     }
 }
 
-void Contention::frame_corrupted() {
-    if (state_ == State::idle) {
-        return;
-    }
-    eifs_until_ = simulator_.now() + timing_.eifs;
-    if (state_ == State::waiting) {
-        simulator_.cancel(grant_);
-        schedule_grant(SimTime{});
-    }
-}
-
-void Contention::schedule_grant(SimTime credit) {
-    const SimTime now = simulator_.now();
-    const SimTime space = eifs_until_ > now + timing_.difs ? timing_.eifs : timing_.difs;
-    const SimTime wait = space + timing_.slot * slots_left_;
-    grant_time_ = now + std::max(wait - credit, SimTime{});
+void Contention::schedule_grant(SimTime idle_since) {
+    const SimTime space_over = std::max(idle_since + timing_.difs, eifs_until_);
+    grant_time_ = std::max(space_over + timing_.slot * slots_left_, simulator_.now());
     grant_ = simulator_.schedule_at(grant_time_, [this] { granted(); }, Priority::last);
 }
 

@@ -42,13 +42,19 @@ public:
 
     // The channel became busy (by the radio's word or the NAV's) or free. Told in every state, at changes only.
     void channel_busy_changed(bool busy);
-    // A frame was received broken: the next wait begins with EIFS. Counts only while a wait is in progress.
-    void frame_corrupted();
+    // A frame was received broken (reported while the channel is still busy with it): once the channel is free,
+    // EIFS takes the place of DIFS …
+    void frame_corrupted() { broken_frame_ = true; }
+    // … unless a frame was received well in between.
+    void frame_received() {
+        broken_frame_ = false;
+        eifs_until_ = SimTime::long_ago();
+    }
 
 private:
     enum class State { idle, deferring, waiting };
 
-    void schedule_grant(SimTime credit);
+    void schedule_grant(SimTime idle_since);
     void granted();
 
     Simulator& simulator_;
@@ -61,6 +67,7 @@ private:
     int slots_left_ = 0;
     SimTime free_since_ = SimTime::long_ago();
     SimTime idle_since_ = SimTime::long_ago();
+    bool broken_frame_ = false;  // since the channel became busy
     SimTime eifs_until_ = SimTime::long_ago();
     SimTime grant_time_;
     EventHandle grant_;

@@ -136,6 +136,7 @@ void Dcf::ack_timed_out() {
 }
 
 void Dcf::frame_received(const Transmission& transmission) {
+    contention_.frame_received();
     const Frame& frame = *transmission.frame;
     const bool for_this_station = frame.receiver == radio_.id();
     if (!for_this_station) {

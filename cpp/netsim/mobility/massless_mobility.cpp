@@ -8,9 +8,10 @@
 namespace netsim {
 
 void MasslessMobility::go_to(SimTime now, Position target) {
-    if (!std::isfinite(target.x) || !std::isfinite(target.y) || !std::isfinite(target.z)) {
+    if (!is_in_scene(target)) {
         throw SimulationError("cannot go to (" + std::to_string(target.x) + ", " + std::to_string(target.y) +
-                              ", " + std::to_string(target.z) + "): expected three finite numbers of metres");
+                              ", " + std::to_string(target.z) +
+                              "): expected three numbers of metres, each from -1e7 to 1e7");
     }
     target_ = target;
     trajectory_.go_to(now, target, speed_mps_);

@@ -18,11 +18,11 @@ TEST(NodeConfig, NeedsAName) {
               "node.name = \"\": expected a name that is not empty");
 }
 
-TEST(NodeConfig, PositionMustBeFinite) {
+TEST(NodeConfig, PositionMustBeInTheScene) {
     NodeConfig config("uavs[0]");
     config.initial_position.z = std::numeric_limits<double>::infinity();
     EXPECT_EQ(error_text([&] { config.validate(); }),
-              "node.initial_position.z = inf m: expected a finite number");
+              "node.initial_position.z = inf m: expected from -10000000 m to 10000000 m");
 }
 
 TEST(NodeConfig, ChecksItsRadio) {

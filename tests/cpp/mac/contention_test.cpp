@@ -50,6 +50,9 @@ protected:
     void corrupted_at(SimTime time) {
         simulator.schedule_at(time, [this] { contention().frame_corrupted(); });
     }
+    void received_at(SimTime time) {
+        simulator.schedule_at(time, [this] { contention().frame_received(); });
+    }
     void run() { simulator.run_until(SimTime::from_seconds(1)); }
 
     Simulator simulator;
@@ -199,50 +202,62 @@ TEST_F(RemainingSlots, AreKeptThroughManyInterruptions) {
 TEST_F(ContentionTest, ABrokenFrameIsFollowedByEifs) {
     busy_at(us(0), us(1000));
     start_at(us(500));
-    corrupted_at(us(1000));
+    corrupted_at(us(999));
     run();
-    // The report of the broken frame comes before the channel is free.
     EXPECT_EQ(grants, std::vector{us(1000) + eifs});
 }
 
-TEST_F(ContentionTest, ABrokenFrameBeforeTheStartIsNoMatter) {
+TEST_F(ContentionTest, EifsCountsTowardsImmediateAccessAsDifsDoes) {
     busy_at(us(0), us(1000));
-    corrupted_at(us(1000));
+    corrupted_at(us(999));
     start_at(us(1010));
     run();
-    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
 }
 
-TEST_F(ContentionTest, EifsIsWaitedInFullIfItOutlastsDifs) {
+TEST_F(ContentionTest, EifsBeginsWhenTheChannelIsFreeHoweverLongThatTakes) {
     busy_at(us(0), us(1000));
     start_at(us(500));
-    corrupted_at(us(687));  // EIFS is over at 1051 us, DIFS at 1050 us
+    corrupted_at(us(100));
     run();
     EXPECT_EQ(grants, std::vector{us(1000) + eifs});
 }
 
-TEST_F(ContentionTest, EifsIsNoMatterIfDifsOutlastsIt) {
+TEST_F(ContentionTest, AGoodFrameAfterTheBrokenOneBringsBackDifs) {
     busy_at(us(0), us(1000));
     start_at(us(500));
-    corrupted_at(us(686));  // both are over at 1050 us
+    corrupted_at(us(600));
+    received_at(us(999));
     run();
     EXPECT_EQ(grants, std::vector{us(1000) + difs});
 }
 
-TEST_F(ContentionTest, ALongBusyTimeAfterABrokenFrameOutlastsEifs) {
+TEST_F(ContentionTest, AGoodFrameEndsAnEifsUnderWay) {
     busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(600));  // EIFS would be over at 964 us
+    corrupted_at(us(999));
+    start_at(us(1010));
+    busy_at(us(1100), us(100));
+    received_at(us(1199));
     run();
-    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+    EXPECT_EQ(grants, std::vector{us(1200) + difs});
 }
 
-TEST_F(ContentionTest, ABrokenFrameDuringTheWaitBeginsItAnewWithEifs) {
+TEST_F(ContentionTest, NoiseDuringEifsDoesNotBeginItAnew) {
     busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(1020));
+    corrupted_at(us(999));
+    start_at(us(1010));
+    busy_at(us(1100), us(100));
     run();
-    EXPECT_EQ(grants, std::vector{us(1020) + eifs});
+    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
+}
+
+TEST_F(ContentionTest, DifsOutlastsTheRestOfAnEifs) {
+    busy_at(us(0), us(1000));
+    corrupted_at(us(999));
+    start_at(us(1010));
+    busy_at(us(1100), us(250));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1350) + difs});
 }
 
 using ContentionDeathTest = ContentionTest;
