@@ -98,11 +98,12 @@ class VisualizationHandler(INodeHandler):
         server, event_loop = self._server, self._event_loop
         if server is None or event_loop is None:
             return
-        if server.wants_snapshot:
+        is_paused = server.is_paused
+        if server.wants_snapshot or is_paused:
             self._publish(server)
         if len(event_loop) > 0:
             self._schedule_collection()
-        if server.is_paused:
+        if is_paused:
             paused_at = time.monotonic()
             try:
                 server.wait_while_paused()

@@ -163,15 +163,14 @@ class VisualizationServer:
         self._loop = asyncio.get_running_loop()
         self._stop = asyncio.Event()
         configuration = self._configuration
-        server = await serve(
+        async with serve(
             self._meet,
             configuration.host,
             configuration.port,
             logger=_library_logger,
             compression=None,
             close_timeout=_LAST_WORDS_S,
-        )
-        async with server:
+        ) as server:
             self._started.set_result(next(iter(server.sockets)).getsockname()[1])
             while not self._stop.is_set():
                 self._update()

@@ -1,0 +1,188 @@
+import pytest
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.simulator.handler.assertion import (
+    AssertionHandler,
+    FailedAssertionException,
+    SimulationTestCase,
+    assert_always_true_for_protocol,
+    assert_always_true_for_simulation,
+    assert_eventually_true_for_protocol,
+    assert_eventually_true_for_simulation,
+)
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+
+
+class Counter(IProtocol):
+    """Counts four timers, at 0, 1, 2 and 3 s."""
+
+    count = 0
+
+    def initialize(self):
+        for time in range(4):
+            self.provider.schedule_timer("count", time)
+
+    def handle_timer(self, timer):
+        self.count += 1
+
+    def handle_packet(self, message): ...
+    def handle_telemetry(self, telemetry): ...
+    def finish(self): ...
+
+
+class Other(Counter):
+    pass
+
+
+def run(*cases, protocols=(Counter,)):
+    builder = SimulationBuilder(SimulationConfiguration(execution_logging=False))
+    builder.add_handler(TimerHandler()).add_handler(AssertionHandler(list(cases)))
+    for protocol in protocols:
+        builder.add_node(protocol, (0, 0, 0))
+    builder.build().start_simulation()
+
+
+def count(node):
+    return node.protocol_encapsulator.protocol.count
+
+
+def test_its_label():
+    assert AssertionHandler([]).get_label() == "assertion"
+
+
+# What must always be true
+
+
+def always(limit, protocol=Counter):
+    @assert_always_true_for_protocol(protocol, "few", "less than so many")
+    def few(node):
+        return count(node) < limit
+
+    return few
+
+
+def test_always_true():
+    run(always(5))
+
+
+def test_not_always_true():
+    expected = (
+        r'^Assertion "few" \(less than so many\) failed for node 0 \(Counter 0\): '
+        r"\[iteration=2 \| timestamp=2.0\]$"
+    )
+    with pytest.raises(FailedAssertionException, match=expected):
+        run(always(3))
+
+
+def test_only_nodes_of_the_protocol_are_checked():
+    run(always(3, Other), protocols=[Counter])
+
+
+def test_subclasses_are_of_the_protocol():
+    with pytest.raises(FailedAssertionException, match="node 1"):
+        run(
+            always(3, Counter), protocols=[type("Idle", (Counter,), {"initialize": lambda self: None}), Other]
+        )
+
+
+def test_always_true_of_the_simulation():
+    @assert_always_true_for_simulation("sum")
+    def few_in_all(nodes):
+        return sum(map(count, nodes)) < 8
+
+    run(few_in_all)
+    with pytest.raises(FailedAssertionException, match=r'"sum" failed: \[iteration=7 \| timestamp=3.0\]'):
+        run(few_in_all, protocols=[Counter, Counter])
+
+
+# What must be true once
+
+
+def eventually(value, protocol=Counter):
+    @assert_eventually_true_for_protocol(protocol, "so many")
+    def so_many(node):
+        return count(node) == value
+
+    return so_many
+
+
+def test_eventually_true():
+    run(eventually(2), protocols=[Counter, Counter])
+
+
+def test_never_true():
+    with pytest.raises(FailedAssertionException, match=r'"so many" failed for node 0 .*, 1 .*never met'):
+        run(eventually(9), protocols=[Counter, Counter])
+
+
+def test_it_must_be_true_of_each_node():
+    slow = type("Slow", (Counter,), {"handle_timer": lambda self, timer: None})
+    with pytest.raises(FailedAssertionException, match=r"for node 1 \(Slow 1\): "):
+        run(eventually(2), protocols=[Counter, slow])
+
+
+def test_without_nodes_of_the_protocol_nothing_fails():
+    run(eventually(9, Other))
+
+
+def test_eventually_true_of_the_simulation():
+    @assert_eventually_true_for_simulation("sum", "of counts")
+    def sum_is_six(nodes):
+        return sum(map(count, nodes)) == 6
+
+    run(sum_is_six, protocols=[Counter, Counter])
+    with pytest.raises(FailedAssertionException, match=r'"sum" \(of counts\) failed: .*never met'):
+        run(sum_is_six)
+
+
+# Cases
+
+
+def test_a_case_goes_by_the_name_of_its_predicate():
+    case = always(1)
+    assert issubclass(case, SimulationTestCase)
+    assert case.__name__ == "few"
+
+
+def test_a_case_of_ones_own():
+    seen = []
+
+    class Case(SimulationTestCase):
+        def test_iteration(self, nodes, iteration, timestamp):
+            seen.append((len(nodes), iteration, timestamp))
+
+        def finalize(self):
+            seen.append("finalize")
+
+    run(Case)
+    assert seen == [(1, 0, 0), (1, 1, 1), (1, 2, 2), (1, 3, 3), "finalize"]
+
+
+def test_each_simulation_has_its_own_case():
+    builder = SimulationBuilder(SimulationConfiguration(max_iterations=1, execution_logging=False))
+    builder.add_handler(TimerHandler()).add_handler(AssertionHandler([eventually(1)]))
+    builder.add_node(Counter, (0, 0, 0))
+    builder.build().start_simulation()
+    builder.build().start_simulation()
+
+
+@pytest.mark.parametrize("wrong", ["few", len, SimulationTestCase()])
+def test_what_is_no_case_is_refused(wrong):
+    with pytest.raises(TypeError, match="assert_"):
+        AssertionHandler([wrong])
+
+
+def test_after_a_failure_nothing_more_is_judged(caplog):
+    with pytest.raises(FailedAssertionException, match="few"):
+        run(always(1), eventually(4))
+    assert caplog.messages == []
+
+
+def test_an_exception_of_a_predicate_passes():
+    @assert_always_true_for_protocol(Counter, "wrong")
+    def wrong(node):
+        return node.height > 0
+
+    with pytest.raises(AttributeError, match="height"):
+        run(wrong)
