@@ -5,6 +5,7 @@ object: `execute` may raise, `result` tells at any time how far the run came.
 """
 
 import random
+import weakref
 from collections.abc import Callable
 from time import perf_counter, process_time
 
@@ -32,12 +33,10 @@ class IntegratedRun:
         self._complete = False
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
+        # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
+        weakref.finalize(self, self._network.release_protocols)
         self._encapsulators: list[NetsimEncapsulator[IProtocol]] = []
-        try:
-            self._make_protocols()
-        except BaseException:
-            self._network.release_protocols()
-            raise
+        self._make_protocols()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
