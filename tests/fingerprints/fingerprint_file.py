@@ -1,0 +1,58 @@
+"""Fingerprints of the example configurations: what is run for each, and the file that keeps them."""
+
+import csv
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from gradysim.config.reader import read_ini
+from gradysim.config.scenario import load_scenarios
+from gradysim.config.sections import config_names
+from gradysim.integrated.run import run
+
+ROOT = Path(__file__).resolve().parents[2]
+KEPT = Path(__file__).with_name("fingerprints.csv")
+SEEDS = (0, 1)
+SIM_TIME_LIMIT = "600s"
+
+
+class Example(NamedTuple):
+    """One run: a configuration, its seed and how long it is simulated (a quantity of an .ini file)."""
+
+    file: str
+    config: str
+    seed: int
+    sim_time_limit: str
+
+    def fingerprint(self) -> str:
+        """Run it in integrated mode."""
+        overrides = [f"seed-set = {self.seed}", f"sim-time-limit = {self.sim_time_limit}"]
+        (scenario,) = load_scenarios(ROOT / self.file, self.config, runs=[0], overrides=overrides)
+        fingerprint = run(scenario).fingerprint
+        assert fingerprint is not None
+        return fingerprint
+
+
+def examples() -> Iterator[Example]:
+    """Every configuration of the files in configs/, with each seed."""
+    for file in sorted((ROOT / "configs").glob("*.ini")):
+        for config in config_names(read_ini(file)):
+            for seed in SEEDS:
+                yield Example(file.relative_to(ROOT).as_posix(), config, seed, SIM_TIME_LIMIT)
+
+
+def read() -> dict[Example, str]:
+    """Return the fingerprints that are kept."""
+    with KEPT.open(encoding="utf-8", newline="") as lines:
+        return {
+            Example(row["file"], row["config"], int(row["seed"]), row["sim_time_limit"]): row["fingerprint"]
+            for row in csv.DictReader(lines)
+        }
+
+
+def write(fingerprints: Iterable[tuple[Example, str]]) -> None:
+    """Keep these fingerprints instead of the present ones."""
+    with KEPT.open("w", encoding="utf-8", newline="") as lines:
+        writer = csv.writer(lines, lineterminator="\n")
+        writer.writerow([*Example._fields, "fingerprint"])
+        writer.writerows([*example, fingerprint] for example, fingerprint in fingerprints)

@@ -1,0 +1,32 @@
+"""Rewrites fingerprints.csv from what the engine does now, and says what has changed: `make fingerprints`.
+
+A fingerprint is a hash of everything that happened on the air and in the protocols. When one changes, a user
+who repeats a run gets other results. So rewriting is legitimate only if that is meant:
+
+- the model or its default values were changed or corrected, and CHANGELOG.md says so under "Changed
+  behaviour" or "Fixed";
+- an example (configs/, examples/) was changed, added or removed;
+- what goes into the fingerprint was changed.
+
+It is not legitimate to make a test pass after a change that was to have no effect: a refactoring, something
+made faster, other tools, another machine. Then the test has found a mistake. Commit the rewritten file
+together with its cause, and name the cause in the message.
+"""
+
+import fingerprint_file
+
+
+def main() -> None:
+    """Run all examples and rewrite the file."""
+    before = fingerprint_file.read() if fingerprint_file.KEPT.exists() else {}
+    now = {example: example.fingerprint() for example in fingerprint_file.examples()}
+    fingerprint_file.write(now.items())
+    changed = [example for example in before.keys() | now.keys() if before.get(example) != now.get(example)]
+    for example in sorted(changed):
+        old, new = before.get(example, "none"), now.get(example, "none")
+        print(f"{example.file} {example.config} seed {example.seed}: {old} -> {new}")
+    print(f"{len(changed)} of {len(now)} fingerprints changed")
+
+
+if __name__ == "__main__":
+    main()

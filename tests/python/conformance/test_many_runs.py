@@ -1,0 +1,106 @@
+"""Integrated runs leave nothing behind, however many a process makes."""
+
+import gc
+import sys
+import threading
+import weakref
+from collections.abc import Callable
+from contextlib import suppress
+
+import pytest
+from perfect_channel import Case
+
+from gradysim.config.scenario import Scenario
+from gradysim.integrated.run import IntegratedRun
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+
+RUNS = 200
+CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (20.0, 0.0, 0.0)], telemetry_interval_s=0.1)
+
+alive: weakref.WeakSet[IProtocol] = weakref.WeakSet()
+
+
+class Chatty(IProtocol):
+    """Sends and sets timers to the end, so that both are pending then."""
+
+    def __init__(self) -> None:
+        alive.add(self)
+
+    def initialize(self) -> None:
+        self.provider.tracked_variables["heard"] = 0
+        self.provider.schedule_timer("talk", 0.1)
+
+    def handle_timer(self, timer: str) -> None:
+        self.provider.send_communication_command(BroadcastMessageCommand("hello"))
+        self.provider.schedule_timer("talk", self.provider.current_time() + 0.1)
+
+    def handle_packet(self, message: str) -> None:
+        self.provider.tracked_variables["heard"] += 1
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        self.last = telemetry
+
+    def finish(self) -> None: ...
+
+
+class Failing(Chatty):
+    def handle_packet(self, message: str) -> None:
+        raise LookupError("no way out")
+
+
+def complete(scenario: Scenario) -> None:
+    run = IntegratedRun(scenario)
+    run.execute()
+    assert run.result().sim_time_s == CASE.duration_s
+
+
+def failed(scenario: Scenario) -> None:
+    with suppress(LookupError):
+        IntegratedRun(scenario).execute()
+
+
+def stopped(scenario: Scenario) -> None:
+    IntegratedRun(scenario).execute(should_stop=lambda: True)
+
+
+def never_started(scenario: Scenario) -> None:
+    IntegratedRun(scenario)
+
+
+ENDS = [(complete, Chatty), (failed, Failing), (stopped, Chatty), (never_started, Chatty)]
+
+
+@pytest.mark.parametrize(("make", "protocol"), ENDS)
+def test_protocols_do_not_outlive_their_runs(
+    make: Callable[[Scenario], None], protocol: type[IProtocol]
+) -> None:
+    scenario = CASE.scenario(protocol)
+    for _ in range(RUNS):
+        make(scenario)
+    gc.collect()
+    assert len(alive) == 0
+
+
+@pytest.mark.parametrize(("make", "protocol"), ENDS)
+def test_no_object_of_python_is_kept_for_each_run(
+    make: Callable[[Scenario], None], protocol: type[IProtocol]
+) -> None:
+    scenario = CASE.scenario(protocol)
+
+    def blocks_after(runs: int) -> int:
+        for _ in range(runs):
+            make(scenario)
+        gc.collect()
+        return sys.getallocatedblocks()
+
+    before = blocks_after(10)  # what is made once has been made by then
+    assert blocks_after(RUNS) - before < RUNS
+
+
+def test_no_thread_is_left() -> None:
+    before = threading.active_count()
+    for _ in range(10):
+        complete(CASE.scenario(Chatty))
+    assert threading.active_count() == before
