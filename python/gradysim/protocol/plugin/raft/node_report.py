@@ -127,7 +127,7 @@ def state_info(node: RaftNode) -> dict[str, Any]:
         "last_log_index": persistent.log.last_index,
         "last_log_term": persistent.log.last_term,
         "known_nodes": sorted(node.membership.known),
-        "active_timers": sorted(node.timers),
+        "active_timers": sorted(node.timers.pending),
         "cluster_id": node.cluster_id,
         "failure_detection": node.activity.detector.get_detection_summary(),
     }
@@ -143,7 +143,7 @@ def statistics(node: RaftNode) -> dict[str, Any]:
         "leader_id": node.leader_id,
         "consensus_variables": list(node.config.get_consensus_variables()),
         "committed_values_count": len(committed_values(node)),
-        "active_timers_count": len(node.timers),
+        "active_timers_count": len(node.timers.pending),
     }
 
 

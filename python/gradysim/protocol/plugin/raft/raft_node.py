@@ -3,8 +3,7 @@
 It follows "In Search of an Understandable Consensus Algorithm" (Ongaro, Ousterhout 2014), "Raft" below, and
 the chapters on elections of Ongaro's dissertation (2014). What differs, and why it is as safe:
 
-- A term belongs to one node (`term`), so two leaders of one term cannot be, whatever anybody counts as a
-majority.
+- A term belongs to one node (`term`), so two leaders of one term cannot be, whoever counts what as a majority.
 - Every heartbeat carries the whole log (`raft_log`): the committed values and the few entries after them. It
   is both AppendEntries and InstallSnapshot of the papers, and one that arrives makes up for all that were
   lost.
@@ -22,6 +21,15 @@ from gradysim.protocol.plugin.raft.election import Discovery, Election
 from gradysim.protocol.plugin.raft.environment import Environment
 from gradysim.protocol.plugin.raft.leadership import Leadership
 from gradysim.protocol.plugin.raft.membership import Membership, majority_of
+from gradysim.protocol.plugin.raft.node_timers import (
+    DISCOVERY_ROUNDS,
+    DISCOVERY_TIMER,
+    ELECTION_TIMER,
+    HEARTBEAT_TIMER,
+    REPLY_TIMER,
+    NodeTimers,
+)
+from gradysim.protocol.plugin.raft.outbox import Outbox
 from gradysim.protocol.plugin.raft.persistent_state import PersistentState
 from gradysim.protocol.plugin.raft.raft_config import RaftConfig
 from gradysim.protocol.plugin.raft.raft_log import Entry
@@ -30,7 +38,6 @@ from gradysim.protocol.plugin.raft.raft_message import (
     AppendEntriesResponse,
     DiscoveryHeartbeat,
     DiscoveryHeartbeatResponse,
-    RaftMessage,
     RequestVote,
     RequestVoteResponse,
     parse_message,
@@ -40,16 +47,6 @@ from gradysim.protocol.plugin.raft.term import next_own_term
 from gradysim.protocol.plugin.raft.value import same_value
 
 _logger = logging.getLogger(__name__)
-
-ELECTION_TIMER = "election_timeout"
-HEARTBEAT_TIMER = "heartbeat"
-DISCOVERY_TIMER = "discovery_timeout"
-REPLY_TIMER = "reply"
-
-_DISCOVERY_ROUNDS = 6
-# Everybody answers a broadcast: not all at once. Of a heartbeat interval, and at most so many seconds.
-_REPLY_SPREAD = 0.1
-_REPLY_SPREAD_MAX_S = 0.005
 
 
 class RaftNode:
@@ -63,8 +60,10 @@ class RaftNode:
         leader_id: The leader of the present term, if it is known.
         is_running: Between `start` and `stop`.
         is_active: False while `set_active` keeps it silent and deaf.
-        cluster_id: Nodes of other clusters are not heard.
-        timers: Names of the pending timers.
+        timers: Its timers.
+        discovery: While it looks round.
+        election: While it is a candidate.
+        leadership: While it is the leader.
     """
 
     def __init__(
@@ -82,15 +81,14 @@ class RaftNode:
         self.leader_id: int | None = None
         self.is_running = False
         self.is_active = True
-        self.cluster_id: int | None = None
-        self.timers: set[str] = set()
+        self.timers = NodeTimers(config, environment)
         self.discovery: Discovery | None = None
         self.election: Election | None = None
         self.leadership: Leadership | None = None
         self._environment = environment
+        self._outbox = Outbox(environment, self.membership, self.timers)
         self._leader_heard_s: float | None = None
         self._clusters: dict[int, int | None] = {}
-        self._replies: list[tuple[RaftMessage, int]] = []
 
     # ---- what its owner does -------------------------------------------------------------------------------
 
@@ -98,7 +96,7 @@ class RaftNode:
         """Begin to take part, as a follower; while it does already, only its election timeout begins anew."""
         self.is_running = True
         if self.is_active and self.state is not RaftState.LEADER:
-            self._restart_election_timer()
+            self.timers.restart_election()
 
     def stop(self) -> None:
         """Fall silent and deaf. What is known stays, and `start` goes on from there."""
@@ -114,7 +112,7 @@ class RaftNode:
         self.is_active = active
         if active:
             if self.is_running:
-                self._restart_election_timer()
+                self.timers.restart_election()
         else:
             self._fall_silent()
 
@@ -148,6 +146,15 @@ class RaftNode:
         if node_id in self._clusters:
             return self._clusters[node_id] == self.cluster_id
         return node_id in self.membership.known
+
+    @property
+    def cluster_id(self) -> int | None:
+        """Cluster of the node: those of others are not heard."""
+        return self._outbox.cluster_id
+
+    @cluster_id.setter
+    def cluster_id(self, cluster_id: int | None) -> None:
+        self._outbox.cluster_id = cluster_id
 
     # ---- what it knows -------------------------------------------------------------------------------------
 
@@ -189,7 +196,7 @@ class RaftNode:
 
     def handle_timer(self, name: str) -> None:
         """One of the node's timers is due."""
-        self.timers.discard(name)
+        self.timers.pending.discard(name)
         if not (self.is_running and self.is_active):
             return
         if name == ELECTION_TIMER:
@@ -198,15 +205,15 @@ class RaftNode:
             self._handle_discovery_timeout()
         elif name == HEARTBEAT_TIMER:
             self._handle_heartbeat()
-        elif name == REPLY_TIMER and self._replies:
-            self._send_reply()
+        elif name == REPLY_TIMER:
+            self._outbox.send_reply()
 
     def _handle_election_timeout(self) -> None:
         if self.state is RaftState.LEADER:
             return
         self._become_follower()
         self._leader_heard_s = None
-        self.discovery = Discovery(_DISCOVERY_ROUNDS)
+        self.discovery = Discovery(DISCOVERY_ROUNDS)
         self._log(logging.DEBUG, "no leader heard, looking round")
         if self.membership.is_alone_by_choice:
             self._conclude_discovery()
@@ -222,7 +229,7 @@ class RaftNode:
             return
         discovery.rounds_left -= 1
         log = self.persistent.log
-        self._broadcast(
+        self._outbox.broadcast(
             DiscoveryHeartbeat(
                 self.persistent.current_term,
                 self.node_id,
@@ -231,8 +238,7 @@ class RaftNode:
                 answered=sorted(discovery.answered),
             )
         )
-        round_s = self.config.get_failure_config().get_timeout_ms() / 1000 / _DISCOVERY_ROUNDS
-        self._set_timer(DISCOVERY_TIMER, round_s * self._environment.random.uniform(0.9, 1.1))
+        self.timers.restart_discovery_round()
 
     def _handle_heartbeat(self) -> None:
         if self.election is not None:
@@ -246,7 +252,7 @@ class RaftNode:
                 self._log(logging.INFO, "resigning: not enough nodes answer")
                 self._become_follower()
                 self.leader_id = None
-                self._restart_election_timer()
+                self.timers.restart_election()
 
     def _leads_enough(self) -> bool:
         """Whether the followers that a leader needs are still there."""
@@ -286,8 +292,8 @@ class RaftNode:
                 if self.node_id not in message.answered:
                     would_vote = self._would_vote(message, knew)
                     if would_vote and self.discovery is None:
-                        self._restart_election_timer()  # the asking node goes first
-                    self._reply(
+                        self.timers.restart_election()  # the asking node goes first
+                    self._outbox.reply(
                         DiscoveryHeartbeatResponse(self.persistent.current_term, self.node_id, would_vote),
                         sender,
                     )
@@ -304,7 +310,7 @@ class RaftNode:
         if message.term < persistent.current_term or (
             message.term == persistent.current_term and self.state is RaftState.LEADER
         ):
-            self._reply(AppendEntriesResponse(persistent.current_term, False, self.node_id, 0), leader)
+            self._outbox.reply(AppendEntriesResponse(persistent.current_term, False, self.node_id, 0), leader)
             return
         self._adopt_term(message.term)
         if self.leader_id != leader:
@@ -312,7 +318,7 @@ class RaftNode:
         self._become_follower()
         self.leader_id = leader
         self._leader_heard_s = self._environment.now_s()
-        self._restart_election_timer()
+        self.timers.restart_election()
         if message.active_nodes_count is not None:
             nodes = message.active_nodes_list
             self.activity.shared = SharedView(
@@ -332,11 +338,12 @@ class RaftNode:
         if accepted:
             log.follow(theirs)
         matched = theirs.last_index if accepted else 0
-        self._reply(AppendEntriesResponse(persistent.current_term, accepted, self.node_id, matched), leader)
+        self._outbox.reply(
+            AppendEntriesResponse(persistent.current_term, accepted, self.node_id, matched), leader
+        )
 
     def _handle_entries_response(self, message: AppendEntriesResponse) -> None:
-        if self._adopt_term(message.term):
-            self._restart_election_timer()
+        self._adopt_term(message.term)
         leadership = self.leadership
         if leadership is None or message.term != self.persistent.current_term:
             return
@@ -367,8 +374,8 @@ class RaftNode:
         discovery = self.discovery
         assert discovery is not None
         self.discovery = None
-        self._cancel_timer(DISCOVERY_TIMER)
-        self._restart_election_timer()
+        self.timers.cancel(DISCOVERY_TIMER)
+        self.timers.restart_election()
         seen = {*discovery.answered, self.node_id}
         electorate = self.membership.known if self.config.is_classic_mode() else frozenset(seen)
         if not self.has_majority({*discovery.willing, self.node_id}, electorate):
@@ -385,10 +392,10 @@ class RaftNode:
 
     def _request_votes(self) -> None:
         log = self.persistent.log
-        self._broadcast(
+        self._outbox.broadcast(
             RequestVote(self.persistent.current_term, self.node_id, log.last_index, log.last_term)
         )
-        self._set_heartbeat_timer()
+        self.timers.restart_heartbeat()
 
     def _handle_vote_request(self, message: RequestVote, knew: frozenset[int]) -> None:
         persistent = self.persistent
@@ -399,8 +406,10 @@ class RaftNode:
             if granted:
                 persistent.voted_for = message.candidate_id
                 self._stop_discovery()
-                self._restart_election_timer()
-        self._reply(RequestVoteResponse(persistent.current_term, granted, self.node_id), message.candidate_id)
+                self.timers.restart_election()
+        self._outbox.reply(
+            RequestVoteResponse(persistent.current_term, granted, self.node_id), message.candidate_id
+        )
 
     def _would_vote(self, message: RequestVote | DiscoveryHeartbeat, knew: frozenset[int]) -> bool:
         """Whether a node deserves a vote: no leader is there, its log is as good, its members are as many."""
@@ -442,7 +451,7 @@ class RaftNode:
         self.leader_id = self.node_id
         self.leadership = Leadership(self.node_id, term, self._environment.now_s(), election.votes)
         self.activity.begin_to_lead(election.seen)
-        self._cancel_timer(ELECTION_TIMER)
+        self.timers.cancel(ELECTION_TIMER)
         self._log(logging.INFO, "leader of term %s with %s votes", term, len(election.votes))
         # Entries of earlier terms are committed with one of this term (Raft, section 8).
         log.append(Entry(term, None, None))
@@ -452,40 +461,37 @@ class RaftNode:
 
     # ---- steps ---------------------------------------------------------------------------------------------
 
-    def _adopt_term(self, term: int) -> bool:
-        """Go to a higher term, as a follower that has not voted yet; whether that ended an office."""
+    def _adopt_term(self, term: int) -> None:
+        """Go to a higher term, as a follower that has not voted yet; no-op for one that is not higher."""
         if term <= self.persistent.current_term:
-            return False
+            return
         self.persistent.current_term = term
         self.persistent.voted_for = None
         self.leader_id = None
         self._leader_heard_s = None
-        if self.state is RaftState.FOLLOWER:
-            return False
-        self._become_follower()
-        self._restart_election_timer()
-        return True
+        if self.state is not RaftState.FOLLOWER:
+            self._become_follower()
+            self.timers.restart_election()
 
     def _become_follower(self) -> None:
         self._stop_discovery()
         self.state = RaftState.FOLLOWER
         self.election = None
         self.leadership = None
-        self._cancel_timer(HEARTBEAT_TIMER)
+        self.timers.cancel(HEARTBEAT_TIMER)
 
     def _stop_discovery(self) -> None:
         if self.discovery is not None:
             self.discovery = None
-            self._cancel_timer(DISCOVERY_TIMER)
+            self.timers.cancel(DISCOVERY_TIMER)
 
     def _fall_silent(self) -> None:
         self._become_follower()
         self.leader_id = None
         self._leader_heard_s = None
         self.activity.shared = None
-        self._replies.clear()
-        self._cancel_timer(ELECTION_TIMER)
-        self._cancel_timer(REPLY_TIMER)
+        self.timers.cancel(ELECTION_TIMER)
+        self._outbox.clear()
 
     def _commit_what_can_be(self) -> None:
         leadership = self.leadership
@@ -500,7 +506,7 @@ class RaftNode:
         log = self.persistent.log
         active = sorted(self.active_nodes())
         self.leadership.sent_s = self._environment.now_s()
-        self._broadcast(
+        self._outbox.broadcast(
             AppendEntries(
                 self.persistent.current_term,
                 self.node_id,
@@ -513,48 +519,7 @@ class RaftNode:
                 log.entries,
             )
         )
-        self._set_heartbeat_timer()
-
-    def _broadcast(self, message: RaftMessage) -> None:
-        self._send(message, None)
-
-    def _reply(self, message: RaftMessage, destination: int) -> None:
-        """Answer a broadcast a little later: others are answering it too."""
-        self._replies.append((message, destination))
-        spread_s = min(_REPLY_SPREAD * self.config.heartbeat_interval_ms / 1000, _REPLY_SPREAD_MAX_S)
-        self.timers.add(REPLY_TIMER)
-        self._environment.set_timer(REPLY_TIMER, self._environment.random.uniform(0, spread_s))
-
-    def _send_reply(self) -> None:
-        self._send(*self._replies.pop(0))
-        if self._replies:
-            self.timers.add(REPLY_TIMER)
-
-    def _send(self, message: RaftMessage, destination: int | None) -> None:
-        message.cluster_id = self.cluster_id
-        if not self.membership.is_fixed:
-            message.known_nodes = sorted(self.membership.known)
-        self._environment.send(message.to_json(), destination)
-
-    def _restart_election_timer(self) -> None:
-        timeout_ms = self._environment.random.uniform(
-            self.config.election_timeout_min_ms, self.config.election_timeout_max_ms
-        )
-        self._set_timer(ELECTION_TIMER, timeout_ms / 1000)
-
-    def _set_heartbeat_timer(self) -> None:
-        interval_s = self.config.heartbeat_interval_ms / 1000
-        self._set_timer(HEARTBEAT_TIMER, interval_s * self._environment.random.uniform(0.9, 1.1))
-
-    def _set_timer(self, name: str, delay_s: float) -> None:
-        self._cancel_timer(name)
-        self.timers.add(name)
-        self._environment.set_timer(name, delay_s)
-
-    def _cancel_timer(self, name: str) -> None:
-        if name in self.timers:
-            self.timers.discard(name)
-            self._environment.cancel_timer(name)
+        self.timers.restart_heartbeat()
 
     def _log(self, level: int, text: str, *arguments: object) -> None:
         lowest = self.config.log_level
