@@ -18,7 +18,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build bench clean distclean system-gtest system-benchmark
+.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build bench fingerprints clean distclean system-gtest system-benchmark
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -62,6 +62,9 @@ bench: build system-benchmark  ## Benchmarks, with the distance to their goals.
 	cmake --build build/bench
 	build/bench/netsim_bench
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
+
+fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
+	$(BIN)/python tests/fingerprints/update.py
 
 clean:  ## Remove what was built; .venv stays.
 	rm -rf build dist $(STAMPS)/editable
