@@ -18,7 +18,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build bench fingerprints clean distclean system-gtest system-benchmark
+.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -38,7 +38,7 @@ test-python: build $(STAMPS)/test  ## Python tests, in parallel.
 
 lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
 
-lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
+lint-python: build $(STAMPS)/verify $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
 	ruff check $(python_checked)
 	ruff format --check $(python_checked)
 	mypy
@@ -56,6 +56,9 @@ format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
 	clang-format -i $(cpp_checked)
 
 build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the engine compiled.
+
+verify: build $(STAMPS)/verify  ## Compare with INET, ns-3 and closed forms; draws docs/verification.
+	$(BIN)/python -m pytest tests/verification --verify
 
 bench: build system-benchmark  ## Benchmarks, with the distance to their goals.
 	cmake -S cpp --preset bench --log-level=WARNING
@@ -99,7 +102,7 @@ $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
 
 # Which packages, and which version of each: [dependency-groups] of pyproject.toml.
-$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/python
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/verify $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/python
 	@mkdir -p $(STAMPS)
 	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
 	$(BIN)/pip install --quiet --group $(@F)

@@ -1,0 +1,66 @@
+"""What the comparisons share: they report findings, and with --verify they draw pictures of them."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from verification.finding import Finding, table
+
+_PAGES = Path(__file__).parents[2] / "docs" / "verification"
+_BLOCK = re.compile(r"(<!-- table: written by `make verify` -->\n).*?(<!-- end of table -->)", re.DOTALL)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--verify",
+        action="store_true",
+        help="print the findings, draw the pictures and write the table of docs/verification",
+    )
+
+
+@pytest.fixture(autouse=True)
+def _engine() -> None:
+    pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+
+
+@pytest.fixture
+def report(record_property: Callable[[str, object], None]) -> Callable[[Finding], None]:
+    """`report(finding)` writes the finding down, and fails the test if it does not agree."""
+
+    def write_down(finding: Finding) -> None:
+        record_property("finding", finding.to_json())
+        assert finding.agrees, str(finding)
+
+    return write_down
+
+
+@pytest.fixture
+def picture(request: pytest.FixtureRequest) -> Callable[[str, Callable[[Path], None]], None]:
+    """`picture(name, draw)` calls `draw(path of the file)`, when pictures are wanted."""
+
+    def draw_if_wanted(name: str, draw: Callable[[Path], None]) -> None:
+        if request.config.getoption("--verify"):
+            draw(_PAGES / name)
+
+    return draw_if_wanted
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    if not config.getoption("--verify"):
+        return
+    findings = [
+        Finding.from_json(str(value))
+        for outcome in ("passed", "failed")
+        for report in terminalreporter.getreports(outcome)
+        for name, value in report.user_properties
+        if name == "finding"
+    ]
+    terminalreporter.section("findings")
+    for finding in findings:
+        terminalreporter.write_line(str(finding))
+    is_complete = not config.getoption("keyword") and len(config.args) == 1 and "::" not in config.args[0]
+    if is_complete and Path(config.args[0]).resolve() == Path(__file__).parent:
+        page = _PAGES / "README.md"
+        page.write_text(_BLOCK.sub(lambda block: block[1] + table(findings) + block[2], page.read_text()))

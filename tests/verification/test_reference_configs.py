@@ -1,0 +1,50 @@
+"""Every configuration of configs/reference runs, in both modes."""
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import gradysim.integrated.run
+import gradysim.prototype.run
+from gradysim.config import Scenario, load_scenarios
+from gradysim.config.reader import read_ini
+from gradysim.config.sections import config_names
+from gradysim.results.run_result import RunResult
+
+FOLDER = Path(__file__).parents[2] / "configs" / "reference"
+BASES = {"Sensitivity", "Noise"}
+FILES = {"beacons", "link", "saturation", "sir", "synchronised"}
+MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
+
+
+def runnable() -> list[tuple[str, str]]:
+    """All configurations but those to extend, and General where the others complete it."""
+    return [
+        (file.stem, config)
+        for file in sorted(FOLDER.glob("*.ini"))
+        for config in config_names(read_ini(file))
+        if not file.stem.endswith("_positions")
+        and config not in BASES
+        and (config != "General" or file.stem not in ("link", "saturation"))
+    ]
+
+
+@cache
+def short_run(name: str, config: str) -> Scenario:
+    (scenario,) = load_scenarios(FOLDER / f"{name}.ini", config, overrides=["sim-time-limit = 1.5s"])
+    return scenario
+
+
+def test_every_comparison_has_its_file() -> None:
+    assert {name for name, _ in runnable()} == FILES
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize(("name", "config"), runnable())
+def test_it_runs(name: str, config: str, mode: str) -> None:
+    run: Callable[[Scenario], RunResult] = MODES[mode]
+    result = run(short_run(name, config))
+    assert not result.interrupted
+    assert sum(sum(fates.values()) for fates in result.fates["messages"].values()) > 0
