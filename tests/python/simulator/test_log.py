@@ -1,4 +1,5 @@
 import logging
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -91,3 +92,60 @@ def test_a_table_is_as_wide_as_its_cells():
         "long  1",
         "x     2",
     ]
+
+
+# Several simulations
+
+
+@pytest.fixture
+def two(root, tmp_path):
+    """Two formatters that log to a file each, and a function that reads a file."""
+    formatters = [setup_simulation_formatter(False, tmp_path / name) for name in ("first", "second")]
+    yield *formatters, lambda name: (tmp_path / name).read_text()
+    for formatter in formatters:
+        formatter.remove()
+
+
+def test_a_line_of_the_one_that_is_running_is_its_own(root, two):
+    first, _, text = two
+    first.thread = threading.get_ident()
+    root.info("hello")
+    assert (text("first"), text("second")) == ("INFO     hello\n", "")
+
+
+def test_a_line_of_none_is_written_once(root, two):
+    _, _, text = two
+    root.info("hello")
+    assert (text("first"), text("second")) == ("", "INFO     hello\n")
+
+
+def test_what_runs_in_another_thread_does_not_count(root, two):
+    first, _, text = two
+    first.thread = threading.get_ident() + 1
+    root.info("hello")
+    assert text("first") == ""
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_the_level_is_as_before_in_whatever_order_they_end(root, order):
+    before = root.level
+    formatters = [setup_simulation_formatter(debug, None) for debug in (False, True)]
+    assert root.level == logging.DEBUG
+    for index in order:
+        formatters[index].remove()
+    assert root.level == before
+
+
+def test_a_level_that_somebody_else_set_meanwhile_stays(root):
+    before = root.level
+    formatter = setup_simulation_formatter(True, None)
+    root.setLevel(logging.CRITICAL)
+    formatter.remove()
+    after = root.level
+    root.setLevel(before)
+    assert after == logging.CRITICAL
+
+
+def test_a_log_file_that_cannot_be_written_leaves_nothing_behind(root, tmp_path):
+    with pytest.raises(OSError, match="missing"):
+        setup_simulation_formatter(False, tmp_path / "missing" / "log")

@@ -42,3 +42,10 @@ def test_who_is_late_does_not_sleep(clock):
     clock.now += 11.0
     pacer.wait_until(10.0)
     assert clock.sleeps == []
+
+
+def test_what_was_held_up_on_purpose_is_not_caught_up_on(clock):
+    pacer = pacing.RealTimePacer(2.0)
+    clock.now += 7.0
+    pacer.held_up_s = 4.0
+    assert (pacer.elapsed_s, pacer.remaining_s(10.0)) == (3.0, 2.0)

@@ -1,7 +1,10 @@
+import asyncio
+import csv
 import gc
 import logging
 import math
 import random
+import time
 import weakref
 
 import pytest
@@ -12,7 +15,7 @@ from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin
 from gradysim.simulator import pacing, simulation
 from gradysim.simulator.handler.communication import CommunicationHandler
-from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 from gradysim.simulator.handler.mobility import MobilityHandler
 from gradysim.simulator.handler.timer import TimerException, TimerHandler
 from gradysim.simulator.simulation import (
@@ -88,8 +91,8 @@ def protocol(**methods):
 
 def timers(*times):
     def initialize(self):
-        for time in times:
-            self.provider.schedule_timer(f"{time:g}", time)
+        for due in times:
+            self.provider.schedule_timer(f"{due:g}", due)
 
     return protocol(initialize=initialize)
 
@@ -497,7 +500,177 @@ def test_turning_real_time_off_ends_with_the_context(wall):
     assert wall.now == 10
 
 
+# The timing report
+
+
+def report_of(folder):
+    with (folder / "timing_report.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_the_timing_report(wall, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+
+    def late(self, timer):
+        wall.now += 3.0 if timer == "4" else 0.0
+
+    tested = timers(4, 6, 20)
+    tested.handle_timer = late
+    build(tested, real_time=2, timing_report=True).start_simulation()
+    columns = ["iteration", "simulation_time", "real_time", "time_until_next_event", "time_drift"]
+    assert [[float(line[column]) for column in columns] for line in report_of(tmp_path)] == [
+        [0, 4, 2, 2, 0],
+        [1, 6, 5, -2, 2],
+        [2, 20, 10, 5, 0],
+    ]
+    assert "2 asked for, 2.0000 reached" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("configuration", [{"real_time": True}, {"timing_report": True}])
+def test_there_is_a_timing_report_only_in_real_time_and_if_asked_for(
+    wall, tmp_path, monkeypatch, configuration
+):
+    monkeypatch.chdir(tmp_path)
+    build(timers(1), **configuration).start_simulation()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_timing_report_is_there_after_a_failure(wall, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    tested = timers(1)
+    tested.handle_timer = lambda self, timer: 1 / 0
+    with pytest.raises(ZeroDivisionError):
+        build(tested, real_time=True, timing_report=True).start_simulation()
+    assert len(report_of(tmp_path)) == 1
+
+
+# Asyncio
+
+
+class Asynchronous(IAsyncNodeHandler):
+    """Runs a coroutine function, given itself, from `initialize` on."""
+
+    def __init__(self, work=None):
+        self.work = work
+        self.calls = []
+
+    @staticmethod
+    def get_label():
+        return "asynchronous"
+
+    def inject(self, event_loop):
+        self.event_loop = event_loop
+        self.calls.append("inject")
+
+    def inject_async(self, asyncio_loop, real_time):
+        self.asyncio_loop = asyncio_loop
+        self.calls.append(("inject_async", real_time, asyncio_loop.is_running()))
+
+    def register_node(self, node):
+        self.calls.append("register_node")
+
+    def initialize(self):
+        if self.work is not None:
+            self.task = self.asyncio_loop.create_task(self.work(self))
+
+
+@pytest.mark.parametrize(("real_time", "factor"), [(False, 0.0), (True, 1.0), (2, 2.0)])
+def test_an_asyncio_handler_gets_the_loop_after_inject(real_time, factor):
+    handler = Asynchronous()
+    build(protocol(), handlers=[handler], real_time=real_time)
+    assert handler.calls == ["inject", ("inject_async", factor, False), "register_node"]
+
+
+def test_tasks_run_between_events():
+    async def work(handler):
+        for _ in range(10):
+            handler.calls.append(handler.event_loop.current_time)
+            await asyncio.sleep(0)
+
+    handler = Asynchronous(work)
+    build(timers(1, 2, 3), handlers=[handler]).start_simulation()
+    assert handler.calls[3:] == [0.0, 1.0, 2.0, 3.0]
+
+
+def test_a_task_brings_an_event_forward_in_real_time():
+    async def work(handler):
+        handler.event_loop.schedule_event(0.001, lambda: handler.calls.append("brought forward"))
+
+    handler = Asynchronous(work)
+    simulator = build(timers(3600), handlers=[handler], real_time=True)
+    simulator.run_events(1)
+    assert handler.calls[-1] == "brought forward"
+    simulator.finalize()
+
+
+def test_in_real_time_events_come_when_they_are_due(monkeypatch):
+    handler = Asynchronous()
+    simulator = build(timers(0.01, 0.03), handlers=[handler], real_time=True)
+    start = time.monotonic()
+    simulator.start_simulation()
+    assert time.monotonic() - start >= 0.03
+
+
+def test_what_a_task_raises_ends_the_simulation():
+    async def work(handler):
+        raise RuntimeError("of a task")
+
+    handler = Asynchronous(lambda handler: work(handler))
+    simulator = build(timers(1, 2, 3), handlers=[handler])
+
+    def forget():
+        handler.task = None
+
+    handler.initialize = lambda: (Asynchronous.initialize(handler), forget())
+    with pytest.raises(RuntimeError, match="of a task"):
+        simulator.start_simulation()
+
+
+def test_in_the_end_tasks_are_cancelled_and_the_loop_is_closed():
+    async def work(handler):
+        try:
+            await asyncio.Event().wait()
+        finally:
+            handler.calls.append("cancelled")
+
+    handler = Asynchronous(work)
+    build(timers(1), handlers=[handler]).start_simulation()
+    assert (handler.calls[-1], handler.asyncio_loop.is_closed()) == ("cancelled", True)
+
+
+def test_handlers_may_use_the_loop_in_their_own_methods():
+    handler = Asynchronous()
+    handler.finalize = lambda: handler.asyncio_loop.run_until_complete(asyncio.sleep(0))
+    build(timers(1), handlers=[handler]).start_simulation()
+
+
+def test_a_simulation_that_never_began_leaves_no_open_loop():
+    handler = Asynchronous()
+    simulator = build(protocol(), handlers=[handler])
+    del simulator
+    gc.collect()
+    assert handler.asyncio_loop.is_closed()
+
+
 # The log
+
+
+def test_simulations_stepped_in_turn_log_their_own_lines(tmp_path):
+    def logs(name):
+        def handle_timer(self, timer):
+            logging.getLogger(name).info("%s at %s", name, timer)
+
+        tested = timers(1, 2)
+        tested.handle_timer = handle_timer
+        return tested
+
+    simulators = [build(logs(name), log_file=tmp_path / name) for name in ("first", "second")]
+    while sum(simulator.step_simulation() for simulator in simulators) > 0:
+        pass
+    for name in ("first", "second"):
+        lines = (tmp_path / name).read_text().splitlines()
+        assert [line.split("] ")[-1] for line in lines[1:3]] == [f"{name} at 1", f"{name} at 2"]
+        assert sum("finished" in line for line in lines) == sum("started" in line for line in lines) == 1
 
 
 def test_lines_say_when_and_to_whom(capsys):

@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 
 
 class Minimal(INodeHandler):
@@ -27,3 +27,9 @@ def test_three_methods_are_needed(missing):
     methods = {name: method for name, method in vars(Minimal).items() if name[0] != "_" and name != missing}
     with pytest.raises(TypeError, match=missing):
         type("Incomplete", (INodeHandler,), methods)()
+
+
+def test_an_asyncio_handler_needs_no_more():
+    methods = {name: method for name, method in vars(Minimal).items() if name[0] != "_"}
+    handler = type("Asynchronous", (IAsyncNodeHandler,), methods)()
+    handler.inject_async(None, 0.0)

@@ -20,7 +20,7 @@ def test_when_they_become_many_the_last_of_each_kind_and_node_stay():
     queue = CommandQueue()
     for color in range(10_001):
         queue.put(paint(color % 3, color))
-    assert taken(queue) == [paint(0, 9999), paint(1, 10000), paint(2, 9998)] or taken(queue) == []
+    assert taken(queue) == [paint(2, 9998), paint(0, 9999), paint(1, 10000)]
 
 
 def test_its_length_is_bounded():

@@ -1,0 +1,47 @@
+"""Extensions of prototype mode in integrated mode: what works there, and what says that it does not."""
+
+import pytest
+
+from gradysim.integrated.run import run
+
+CAMERA = """
+from gradysim.simulator.extension.camera import CameraConfiguration, CameraHardware
+class Tested(Quiet):
+    def initialize(self):
+        self.camera = CameraHardware(self, CameraConfiguration(100, 10, 90, 0))
+        if self.provider.get_id() == 1:
+            self.provider.send_mobility_command(GotoCoordsMobilityCommand(50, 0, 0))
+    def finish(self):
+        self.provider.tracked_variables["seen"] = self.camera.take_picture()
+"""
+
+RADIO = """
+from gradysim.simulator.extension.radio import Radio
+class Tested(Quiet):
+    def initialize(self): Radio(self)
+"""
+
+VISUALIZATION = """
+from gradysim.simulator.extension.visualization_controller import VisualizationController
+class Tested(Quiet):
+    def initialize(self): VisualizationController(self).paint_node(0, (255, 0, 0))
+"""
+
+
+def test_a_camera_sees_where_the_engine_has_the_nodes(make_scenario):
+    result = run(make_scenario(CAMERA))
+    (seen,) = result.nodes[0].tracked_variables["seen"]
+    assert seen == {"position": pytest.approx((30, 0, 0)), "type": "node"}
+
+
+def test_a_camera_sees_nothing_behind_it(make_scenario):
+    assert run(make_scenario(CAMERA)).nodes[1].tracked_variables["seen"] == []
+
+
+def test_a_radio_says_in_which_mode_it_does_not_work(make_scenario):
+    with pytest.raises(TypeError, match=r"prototype mode only.* integrated mode"):
+        run(make_scenario(RADIO))
+
+
+def test_the_visualization_controller_does_nothing(make_scenario):
+    run(make_scenario(VISUALIZATION))

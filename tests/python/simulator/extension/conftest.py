@@ -1,0 +1,54 @@
+import pytest
+
+from gradysim.encapsulator.interop import InteropEncapsulator
+from gradysim.protocol.interface import IProtocol
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+
+
+class Idle(IProtocol):
+    """Does nothing by itself."""
+
+    def initialize(self): ...
+    def handle_timer(self, timer): ...
+    def handle_packet(self, message): ...
+    def handle_telemetry(self, telemetry): ...
+    def finish(self): ...
+
+
+@pytest.fixture(scope="module")
+def idle():
+    return Idle
+
+
+@pytest.fixture
+def simulation():
+    """Make a simulation of nodes at these points, with these handlers, that has not begun."""
+
+    def make(points, *handlers, protocol=Idle):
+        builder = SimulationBuilder(SimulationConfiguration(execution_logging=False, seed=1))
+        for handler in handlers:
+            builder.add_handler(handler)
+        for point in points:
+            builder.add_node(protocol, point)
+        return builder.build()
+
+    return make
+
+
+@pytest.fixture
+def protocols(simulation):
+    """The protocols of such a simulation."""
+
+    def make(points, *handlers, protocol=Idle):
+        nodes = simulation(points, *handlers, protocol=protocol).nodes
+        return [node.protocol_encapsulator.protocol for node in nodes]
+
+    return make
+
+
+@pytest.fixture
+def hosted():
+    """A protocol that neither simulator runs."""
+    encapsulator = InteropEncapsulator()
+    encapsulator.encapsulate(Idle)
+    return encapsulator.protocol
