@@ -3,7 +3,7 @@
 It follows "In Search of an Understandable Consensus Algorithm" (Ongaro, Ousterhout 2014), "Raft" below, and
 the chapters on elections of Ongaro's dissertation (2014). What differs, and why it is as safe:
 
-- A term belongs to one node (`term`), so two leaders of one term cannot be, whoever counts what as a majority.
+- A term belongs to one node (`term`), so no term has two leaders, whatever anybody counts as a majority.
 - Every heartbeat carries the whole log (`raft_log`): the committed values and the few entries after them. It
   is both AppendEntries and InstallSnapshot of the papers, and one that arrives makes up for all that were
   lost.

@@ -170,7 +170,8 @@ class Network:
             for _ in range(1 + (chance() < faults.duplication)):
                 delay_s = faults.long_delay_s if chance() < faults.long_delay else faults.delay_s
                 self.schedule(
-                    self.random.uniform(*delay_s), lambda target=target: self._deliver(target, source, message)
+                    self.random.uniform(*delay_s),
+                    lambda target=target: self._deliver(target, source, message),
                 )
 
     def _deliver(self, target, source, message):
@@ -260,7 +261,9 @@ class Network:
                     self.crash(draw.choice([draw.choice(leaders), draw.randrange(self.count)]))
                 case 4 | 5:
                     self.restart(draw.randrange(self.count))
-                    self.nodes.get(draw.randrange(self.count), next(iter(self.nodes.values()))).set_active(True)
+                    self.nodes.get(draw.randrange(self.count), next(iter(self.nodes.values()))).set_active(
+                        True
+                    )
                 case 6:
                     self.faults = Faults(
                         loss=draw.choice([0.0, 0.1, 0.3, 0.6]),

@@ -1,0 +1,119 @@
+import pytest
+
+from gradysim.protocol.plugin.raft import FailureConfig
+from gradysim.protocol.plugin.raft.failure_detection import HeartbeatDetector
+
+
+class Watch:
+    """A detector of nodes 1 and 2 with heartbeats every 50 ms."""
+
+    def __init__(self):
+        self.time_s = 0.0
+        self.news = []
+        config = FailureConfig()
+        config.set_heartbeat_interval_reference(50)
+        self.detector = HeartbeatDetector(
+            config,
+            {1, 2},
+            lambda node_id: self.news.append(("failed", node_id)),
+            lambda node_id: self.news.append(("recovered", node_id)),
+            lambda: self.time_s,
+        )
+
+    def beat(self, count, *answering):
+        for _ in range(count):
+            self.time_s += 0.05
+            for node_id in (1, 2):
+                self.detector.record_heartbeat_sent(node_id)
+            self.detector.on_heartbeat_sent()
+            for node_id in answering:
+                self.detector.record_heartbeat_response(node_id, True, 3.0)
+
+
+@pytest.fixture
+def watch():
+    return Watch()
+
+
+def test_who_answers_stays_active(watch):
+    watch.beat(40, 1, 2)
+    assert watch.detector.get_active_nodes() == {1, 2}
+
+
+def test_who_falls_silent_is_failed(watch):
+    watch.beat(4, 1, 2)
+    watch.beat(12, 1)
+    assert (watch.detector.get_failed_nodes(), watch.news) == ({2}, [("failed", 2)])
+
+
+def test_who_never_answered_is_failed(watch):
+    watch.beat(14, 1)
+    assert watch.detector.is_node_failed(2)
+
+
+def test_a_few_lost_answers_are_no_failure(watch):
+    watch.beat(4, 1, 2)
+    watch.beat(5, 1)
+    watch.beat(1, 1, 2)
+    watch.beat(5, 1)
+    assert watch.news == []
+
+
+def test_who_answers_again_recovers(watch):
+    watch.beat(14, 1)
+    watch.beat(1, 1, 2)
+    before = watch.detector.is_node_failed(2)
+    watch.beat(1, 1, 2)
+    assert (before, watch.news) == (True, [("failed", 2), ("recovered", 2)])
+
+
+def test_failures_can_be_recorded_without_a_clock():
+    config = FailureConfig()
+    config.set_absolute_timeout(100)
+    detector = HeartbeatDetector(config, {1})
+    for _ in range(3):
+        detector.record_heartbeat_response(1, False)
+    detector.on_heartbeat_sent()
+    detector.on_heartbeat_sent()
+    assert detector.get_failed_nodes() == {1}
+
+
+def test_strangers_are_ignored(watch):
+    watch.detector.record_heartbeat_response(9, True)
+    watch.detector.remove_node(9)
+    watch.detector.reset_node(9)
+    assert (watch.detector.is_node_failed(9), watch.detector.get_node_statistics(9)) == (False, {})
+
+
+def test_nodes_come_and_go(watch):
+    watch.detector.add_node(3)
+    watch.detector.remove_node(1)
+    assert watch.detector.get_active_nodes() == {2, 3}
+
+
+def test_who_was_not_found_is_failed_until_it_answers(watch):
+    watch.detector.mark_failed(2)
+    watch.beat(2, 1, 2)
+    assert (watch.detector.get_failed_nodes(), watch.news) == (set(), [("recovered", 2)])
+
+
+def test_the_summary_counts(watch):
+    watch.beat(14, 1)
+    summary = watch.detector.get_detection_summary()
+    assert (summary["total_nodes"], summary["active_nodes"], summary["failed_nodes"]) == (2, 1, 1)
+    assert summary["performance"]["total_heartbeats_sent"] == 28
+    assert summary["performance"]["average_response_time_ms"] == 3.0
+    assert summary["detection_stats"] == {"total_failures_detected": 1, "total_recoveries_detected": 0}
+    assert summary["node_details"][2]["status"] == "FAILED"
+    assert summary["node_details"][1]["recent_response_times"] == [3.0] * 5
+
+
+def test_the_metrics_count(watch):
+    watch.beat(14, 1)
+    metrics = watch.detector.get_detection_metrics()
+    assert metrics["performance"]["total_successful_responses"] == 14
+    assert metrics["performance"]["success_rate_percent"] == 100.0
+    assert metrics["detection"]["heartbeat_counter"] == 14
+    assert metrics["configuration"]["timeout_ms"] == 200
+    assert metrics["node_histories"][2]["last_failure"] == pytest.approx(0.6)
+    assert "time_since_last_failure" not in metrics["node_histories"][1]
