@@ -1,5 +1,7 @@
 #include "proxy_protocol/python_protocol.hpp"
 
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 #include "proxy_protocol/python_text.hpp"
@@ -54,11 +56,15 @@ void PythonProtocol::handle_telemetry(const netsim::Position& position) {
     }
     const double values[] = {position.x, position.y, position.z};
     for (Py_ssize_t index = 0; index < 3; ++index) {
+        PyObject* old = PyTuple_GET_ITEM(coordinates_.ptr(), index);
+        if (old != nullptr && std::bit_cast<std::uint64_t>(PyFloat_AS_DOUBLE(old)) ==
+                                  std::bit_cast<std::uint64_t>(values[index])) {
+            continue;  // vehicles often fly along an axis, and stand still
+        }
         PyObject* value = PyFloat_FromDouble(values[index]);
         if (value == nullptr) {
             throw py::error_already_set();
         }
-        PyObject* old = PyTuple_GET_ITEM(coordinates_.ptr(), index);
         PyTuple_SET_ITEM(coordinates_.ptr(), index, value);
         Py_XDECREF(old);
     }
