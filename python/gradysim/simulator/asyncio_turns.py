@@ -46,6 +46,9 @@ class AsyncioTurns:
         loop = self.asyncio_loop
         if loop.is_closed():
             return
+        if _is_inside_another_loop():
+            loop.close()  # By the garbage collector: no loop can run within another.
+            return
         try:
             tasks = asyncio.all_tasks(loop)
             for task in tasks:
@@ -64,6 +67,14 @@ class AsyncioTurns:
         elif self._failure is None:
             self._failure = exception
             self.wake()
+
+
+def _is_inside_another_loop() -> bool:
+    try:
+        asyncio.get_running_loop()
+    except RuntimeError:
+        return False
+    return True
 
 
 class WakingEventLoop(EventLoop):

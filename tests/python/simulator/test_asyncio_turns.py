@@ -90,6 +90,16 @@ def test_closing_twice_does_nothing():
     turns.close()
 
 
+def test_inside_another_loop_it_is_closed_without_a_turn():
+    turns = AsyncioTurns()
+
+    async def close():
+        turns.close()
+
+    asyncio.run(close())
+    assert turns.asyncio_loop.is_closed()
+
+
 def test_an_event_that_a_task_schedules_ends_the_turn(turns):
     event_loop = WakingEventLoop(turns)
     turns.asyncio_loop.call_soon(lambda: event_loop.schedule_event(1.0, lambda: None))

@@ -19,9 +19,9 @@ from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 
-P = TypeVar("P", bound=IProtocol)
+_P = TypeVar("_P", bound=IProtocol)
 
-_NodePredicate = Callable[[Node[P]], bool]
+_NodePredicate = Callable[[Node[_P]], bool]
 _SimulationPredicate = Callable[[list[Node[Any]]], bool]
 
 
@@ -51,8 +51,8 @@ class SimulationTestCase(ABC):  # noqa: B024 (both methods are optional)
 
 
 def assert_always_true_for_protocol(
-    protocol_type: type[P], name: str, description: str = ""
-) -> Callable[[_NodePredicate[P]], type[SimulationTestCase]]:
+    protocol_type: type[_P], name: str, description: str = ""
+) -> Callable[[_NodePredicate[_P]], type[SimulationTestCase]]:
     """Demand that the predicate is true of every node of a protocol after every event.
 
     Args:
@@ -61,7 +61,7 @@ def assert_always_true_for_protocol(
         description: More words for that message.
     """
 
-    def decorate(predicate: _NodePredicate[P]) -> type[SimulationTestCase]:
+    def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
         class Case(SimulationTestCase):
             def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
                 for node in _of_type(nodes, protocol_type):
@@ -74,15 +74,15 @@ def assert_always_true_for_protocol(
 
 
 def assert_eventually_true_for_protocol(
-    protocol_type: type[P], name: str, description: str = ""
-) -> Callable[[_NodePredicate[P]], type[SimulationTestCase]]:
+    protocol_type: type[_P], name: str, description: str = ""
+) -> Callable[[_NodePredicate[_P]], type[SimulationTestCase]]:
     """Demand that the predicate is true of each node of a protocol after at least one event.
 
     The arguments are those of `assert_always_true_for_protocol`. Without such nodes, or any event, there
     is nothing to fail.
     """
 
-    def decorate(predicate: _NodePredicate[P]) -> type[SimulationTestCase]:
+    def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
         class Case(SimulationTestCase):
             def __init__(self) -> None:
                 self._waiting: list[Node[Any]] | None = None
