@@ -1,4 +1,4 @@
-"""A network of Raft nodes in memory, with everything going wrong that a seed draws, and the rules that must hold."""
+"""A network of Raft nodes in memory, where all goes wrong that a seed draws, and the rules that must hold."""
 
 import copy
 import heapq
@@ -17,7 +17,7 @@ from gradysim.protocol.plugin.raft.raft_node import RaftNode
 
 @dataclass
 class Faults:
-    """What happens to messages; a long delay is one after which hardly anything about a message is still true."""
+    """What happens to messages; after a long delay hardly anything that they say is still true."""
 
     loss: float = 0.0
     duplication: float = 0.0
@@ -29,8 +29,9 @@ class Faults:
 class Rules:
     """Watches all nodes, after every event.
 
-    Of the Raft paper: Election Safety, Log Matching, Leader Completeness, State Machine Safety. The last two and
-    that no node takes back what it committed are not promised without a common majority: `partial` leaves them out.
+    Of the Raft paper: Election Safety, Log Matching, Leader Completeness, State Machine Safety. The last two
+    and that no node takes back what it committed are not promised without a common majority: `partial` leaves
+    them out.
     """
 
     def __init__(self, partial=False):
@@ -281,14 +282,11 @@ class Network:
             self.run(draw.uniform(0.0, 0.16))
 
     def check_recovery(self):
-        """Liveness: once nothing goes wrong any more, there is a leader, and what it proposes arrives everywhere."""
+        """Liveness: when all is well again there is a leader, and what it proposes arrives everywhere."""
         self.heal()
         leader = self.elect(within_s=6.0)
         assert leader.propose("v", -1)
         assert self.run(4.0, until=lambda: self.agree_on("v", -1)), "a value does not arrive everywhere"
-        bases = {
-            (node.persistent.log.base_index, node.persistent.log.base_term) for node in self.nodes.values()
-        }
         self.run(0.5)
         bases = {
             (node.persistent.log.base_index, json.dumps(node.persistent.log.values, sort_keys=True))

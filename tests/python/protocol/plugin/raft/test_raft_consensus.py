@@ -1,0 +1,302 @@
+import json
+import logging
+
+import pytest
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import CommunicationCommandType
+from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftMode, RaftState
+from gradysim.protocol.plugin.raft.raft_log import Entry
+from gradysim.protocol.plugin.raft.raft_message import (
+    AppendEntries,
+    AppendEntriesResponse,
+    DiscoveryHeartbeatResponse,
+    RequestVoteResponse,
+)
+
+
+class Provider:
+    """Has what the plugin asks for, and no more."""
+
+    def __init__(self, node_id=3):
+        self.node_id = node_id
+        self.sent = []
+        self.timers = {}
+
+    def send_communication_command(self, command):
+        self.sent.append(command)
+
+    def schedule_timer(self, timer, timestamp):
+        self.timers[timer] = timestamp
+
+    def cancel_timer(self, timer):
+        self.timers.pop(timer, None)
+
+    def current_time(self):
+        return 7.0
+
+    def get_id(self):
+        return self.node_id
+
+
+class Recorder(IProtocol):
+    def __init__(self):
+        self.calls = []
+
+    def initialize(self):
+        pass
+
+    def handle_timer(self, timer):
+        self.calls.append(timer)
+
+    def handle_packet(self, message):
+        self.calls.append(message)
+
+    def handle_telemetry(self, telemetry):
+        pass
+
+    def finish(self):
+        pass
+
+
+@pytest.fixture
+def provider():
+    return Provider()
+
+
+@pytest.fixture
+def protocol(provider):
+    return Recorder.instantiate(provider)
+
+
+@pytest.fixture
+def config():
+    return (
+        RaftConfig()
+        .add_consensus_variable("v", int)
+        .add_consensus_variable("path", tuple)
+        .set_raft_mode(RaftMode.CLASSIC)
+        .set_logging(False)
+    )
+
+
+@pytest.fixture
+def plugin(config, protocol):
+    plugin = RaftConsensusPlugin(config, protocol)
+    plugin.set_known_nodes([1, 2, 3])
+    plugin.start()
+    return plugin
+
+
+def send(protocol, message):
+    protocol.handle_packet("__RAFT__:" + message.to_json())
+
+
+def elect(plugin, protocol):
+    protocol.handle_timer("__RAFT__:election_timeout")
+    send(protocol, DiscoveryHeartbeatResponse(0, 1))
+    send(protocol, RequestVoteResponse(plugin.get_current_term(), True, 1))
+
+
+@pytest.fixture
+def leader(plugin, protocol):
+    elect(plugin, protocol)
+    return plugin
+
+
+def test_a_configuration_must_be_valid(protocol):
+    with pytest.raises(ValueError, match="at least one consensus variable"):
+        RaftConsensusPlugin(RaftConfig(), protocol)
+
+
+def test_a_configuration_must_be_one(protocol):
+    with pytest.raises(ValueError, match="RaftConfig"):
+        RaftConsensusPlugin({"v": int}, protocol)
+
+
+def test_a_protocol_must_have_its_provider(config):
+    with pytest.raises(ValueError, match=r"initialize\(\)"):
+        RaftConsensusPlugin(config, Recorder())
+
+
+def test_a_provider_must_have_what_is_needed(config, protocol, provider):
+    provider.cancel_timer = None
+    with pytest.raises(ValueError, match="Provider has no cancel_timer"):
+        RaftConsensusPlugin(config, protocol)
+
+
+@pytest.mark.parametrize("node_id", [-1, "3", True, None])
+def test_a_node_must_have_a_proper_id(config, node_id):
+    with pytest.raises(ValueError, match="integer id >= 0"):
+        RaftConsensusPlugin(config, Recorder.instantiate(Provider(node_id)))
+
+
+def test_timers_have_the_prefix_and_absolute_times(plugin, provider):
+    assert 7.15 <= provider.timers["__RAFT__:election_timeout"] <= 7.3
+
+
+def test_the_timers_of_the_published_package_are_there(plugin, protocol, provider):
+    protocol.handle_timer("__RAFT__:election_timeout")
+    discovering = set(provider.timers)
+    send(protocol, DiscoveryHeartbeatResponse(0, 1))
+    assert "__RAFT__:discovery_timeout" in discovering
+    assert {"__RAFT__:heartbeat", "__RAFT__:election_timeout"} <= set(provider.timers)
+
+
+def test_messages_have_the_prefix(leader, provider):
+    messages = [json.loads(command.message.removeprefix("__RAFT__:")) for command in provider.sent]
+    assert [message["type"] for message in messages] == ["DiscoveryHeartbeat", "RequestVote", "AppendEntries"]
+    assert {message["sender_id"] for message in messages} == {3}
+    assert messages[2]["consensus_values"] == {"v": None, "path": None}
+
+
+def test_the_protocol_gets_only_what_is_its_own(plugin, protocol):
+    for text in ("__RAFT__:garbage", "own"):
+        protocol.handle_packet(text)
+        protocol.handle_timer(text)
+    assert protocol.calls == ["own", "own"]
+
+
+def test_configuring_again_changes_nothing(leader, protocol, provider):
+    leader.configure_handle_message()
+    leader.configure_handle_timer()
+    sent = len(provider.sent)
+    protocol.handle_timer("__RAFT__:heartbeat")
+    assert len(provider.sent) == sent + 1
+
+
+def test_messages_and_timers_can_be_handed_over_by_hand(plugin):
+    assert [plugin.handle_timer("own"), plugin.handle_message("own")] == [False, False]
+    assert plugin.handle_timer("__RAFT__:election_timeout")
+    assert plugin.handle_message("__RAFT__:" + DiscoveryHeartbeatResponse(0, 1).to_json())
+    assert plugin.get_current_state() is RaftState.CANDIDATE
+
+
+def test_a_follower_takes_no_proposal(plugin):
+    assert plugin.propose_value("v", 1) is False
+
+
+def test_a_leader_commits_what_the_majority_has(leader, protocol):
+    assert leader.propose_value("v", 42) is True
+    before = leader.get_committed_value("v")
+    send(protocol, AppendEntriesResponse(leader.get_current_term(), True, 1, 2))
+    assert (before, leader.get_committed_value("v")) == (None, 42)
+    assert leader.get_all_committed_values() == {"v": 42, "path": None}
+    assert leader.has_majority_confirmation()
+
+
+def test_a_value_has_the_type_of_its_variable(leader, protocol):
+    leader.propose_value("path", (1, 2))
+    send(protocol, AppendEntriesResponse(leader.get_current_term(), True, 1, 2))
+    assert leader.get_committed_value("path") == (1, 2)
+
+
+@pytest.mark.parametrize(
+    ("value", "complaint"), [("x", "type int, got 'x'"), (None, "type int"), (1.0, "type int")]
+)
+def test_a_proposal_of_another_type_is_an_error(plugin, value, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        plugin.propose_value("v", value)
+
+
+@pytest.mark.parametrize("call", ["propose", "get"])
+def test_an_unknown_variable_is_an_error(plugin, call):
+    with pytest.raises(ValueError, match="no consensus variable 'w', only v, path"):
+        plugin.propose_value("w", 1) if call == "propose" else plugin.get_committed_value("w")
+
+
+@pytest.mark.parametrize("ids", [["x"], [-1], [True], [1.5]])
+def test_known_nodes_must_have_proper_ids(plugin, ids):
+    with pytest.raises(ValueError, match="integer >= 0"):
+        plugin.set_known_nodes(ids)
+
+
+def test_a_leader_knows_that_it_is(leader):
+    assert (leader.is_leader(), leader.get_leader_id(), leader.get_node_id()) == (True, 3, 3)
+    assert (leader.get_current_term(), leader.get_current_state()) == (10, RaftState.LEADER)
+    assert str(leader.get_current_state()) == "LEADER"
+
+
+def test_stopping_ends_leadership(leader, provider):
+    leader.stop()
+    leader.stop()
+    assert (leader.is_leader(), leader.get_leader_id(), provider.timers) == (False, None, {})
+
+
+def test_send_broadcast_adds_the_prefix(plugin, provider):
+    plugin.send_broadcast("hello")
+    command = provider.sent[-1]
+    assert (command.command_type, command.message) == (CommunicationCommandType.BROADCAST, "__RAFT__:hello")
+
+
+def test_send_broadcast_takes_text_only(plugin):
+    with pytest.raises(ValueError, match="must be a str, got 5"):
+        plugin.send_broadcast(5)
+
+
+@pytest.mark.parametrize("setter", ["set_simulation_active", "set_is_active"])
+def test_a_node_can_play_dead(leader, protocol, provider, setter):
+    getattr(leader, setter)(3, False)
+    provider.sent.clear()
+    leader.send_broadcast("text")
+    for timer in ("election_timeout", "heartbeat", "discovery_timeout", "reply"):
+        protocol.handle_timer("__RAFT__:" + timer)
+    send(protocol, AppendEntries(100, 1, {"v": 1}, 0))
+    assert (provider.sent, leader.is_leader(), leader.get_current_term()) == ([], False, 11)
+    assert (leader.get_is_active(3), leader.is_simulation_active(3)) == (False, False)
+    assert (leader.get_simulation_active_nodes(), leader.get_active_nodes()) == ({1, 2}, {1, 2})
+
+
+def test_a_node_that_played_dead_can_rise(plugin, provider):
+    plugin.set_simulation_active(3, False)
+    provider.timers.clear()
+    plugin.set_simulation_active(3, True)
+    assert (plugin.get_is_active(3), list(provider.timers)) == (True, ["__RAFT__:election_timeout"])
+
+
+def test_of_others_nobody_can_say_whether_they_play_dead(plugin, caplog):
+    with caplog.at_level(logging.WARNING):
+        plugin.set_simulation_active(1, False)
+    assert (plugin.get_is_active(1), plugin.is_simulation_active(99)) == (True, True)
+    assert "node 3 cannot make node 1" in caplog.text
+
+
+def test_active_is_a_bool(plugin):
+    with pytest.raises(ValueError, match="True or False, got 'no'"):
+        plugin.set_simulation_active(3, "no")
+
+
+def test_clusters(plugin, protocol):
+    plugin.set_cluster_id(4)
+    send(protocol, RequestVoteResponse(0, False, 1, cluster_id=4))
+    send(protocol, RequestVoteResponse(0, False, 2, cluster_id=5))
+    same = [plugin.is_in_same_cluster(node_id) for node_id in (1, 2, 3, 99)]
+    assert (plugin.get_cluster_id(), same) == (4, [True, False, True, False])
+
+
+@pytest.mark.parametrize("cluster_id", ["x", -1, True])
+def test_a_cluster_has_a_proper_id(plugin, cluster_id):
+    with pytest.raises(ValueError, match="cluster id"):
+        plugin.set_cluster_id(cluster_id)
+
+
+def test_the_configuration_can_be_asked_for(plugin, config):
+    assert plugin.get_configuration() == config.to_dict()
+    assert plugin.get_consensus_variables() == {"v": int, "path": tuple}
+    assert (plugin.has_consensus_variable("v"), plugin.has_consensus_variable("w")) == (True, False)
+    assert (plugin.get_consensus_variable_type("v"), plugin.get_consensus_variable_type("w")) == (int, None)
+    assert plugin.is_ready()
+
+
+def test_a_follower_takes_over_what_its_leader_has(plugin, protocol, provider):
+    send(protocol, AppendEntries(2, 1, {"v": 7}, 5, 2, [1, 3], 4, 2, [Entry(2, "v", 8)]))
+    protocol.handle_timer("__RAFT__:reply")
+    answer = json.loads(provider.sent[-1].message.removeprefix("__RAFT__:"))
+    assert (plugin.get_leader_id(), plugin.get_committed_value("v")) == (1, 7)
+    assert (answer["success"], answer["term_number"], provider.sent[-1].destination) == (True, 5, 1)
+
+
+def test_in_classic_mode_a_committed_value_is_not_given_up(plugin, protocol):
+    send(protocol, AppendEntries(2, 1, {"v": 7}, 4, commit_index=4, commit_term=2))
+    send(protocol, AppendEntries(5, 2, {}, 4, commit_index=4, commit_term=5))
+    assert plugin.get_committed_value("v") == 7
