@@ -80,7 +80,10 @@ class EventLoop:
         if not callable(callback):
             raise EventLoopException(f"an event's callback must be callable, got {callback!r}")
         event = (callback, context)
-        events = self._events.get(timestamp)
+        try:
+            events = self._events.get(timestamp)
+        except TypeError:  # As a list is not hashable.
+            events = None
         if events is None:
             events = self._open(timestamp)
         events.append(event)

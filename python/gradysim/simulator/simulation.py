@@ -16,6 +16,7 @@ from gradysim.encapsulator.python import PythonEncapsulator
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
+from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
@@ -345,7 +346,7 @@ class SimulationBuilder:
 
     def __init__(self, configuration: SimulationConfiguration | None = None) -> None:
         """Without a configuration the defaults of `SimulationConfiguration` hold."""
-        self._configuration = configuration or SimulationConfiguration()
+        self._configuration = checked_configuration(configuration, SimulationConfiguration)
         self._handlers: dict[str, INodeHandler] = {}
         self._nodes: list[tuple[type[IProtocol], Position]] = []
 

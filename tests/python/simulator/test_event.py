@@ -85,7 +85,7 @@ def test_popping_from_an_empty_loop_is_an_error():
         EventLoop().pop_event()
 
 
-@pytest.mark.parametrize("timestamp", [0.9, -1, math.nan, math.inf, "2", None])
+@pytest.mark.parametrize("timestamp", [0.9, -1, math.nan, math.inf, "2", None, [2]])
 def test_a_time_that_cannot_be_is_refused(timestamp):
     loop = EventLoop()
     loop.schedule_event(1, nothing)

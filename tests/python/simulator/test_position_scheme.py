@@ -23,6 +23,7 @@ def test_the_default_box():
     assert 0 <= z <= 10
 
 
-def test_a_range_the_wrong_way_round_is_refused():
+@pytest.mark.parametrize("wrong", [(5, -5), 5, (1, 2, 3), (0, float("nan")), ("a", "b"), None])
+def test_what_is_no_range_is_refused(wrong):
     with pytest.raises(ValueError, match="y_range"):
-        PositionScheme.random(y_range=(5, -5))
+        PositionScheme.random(y_range=wrong)

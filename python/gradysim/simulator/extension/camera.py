@@ -7,6 +7,7 @@ from typing import TypedDict
 from gradysim.encapsulator.node_positions import NodePositions
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
+from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.extension.extension import Extension, mode_of, provider_of
 from gradysim.simulator.number_range import is_in_range
 
@@ -69,7 +70,7 @@ class CameraHardware(Extension):
         provider.node_positions()  # Says now what is missing, not at the first picture.
         self._world = provider
         self._node_id = protocol.provider.get_id()
-        self._configuration = configuration
+        self._configuration = checked_configuration(configuration, CameraConfiguration)
         self._axis = _axis(configuration)
 
     def take_picture(self) -> list[DetectedNode]:

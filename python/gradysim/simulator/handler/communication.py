@@ -11,6 +11,7 @@ from typing import Any
 from gradysim.encapsulator.random_stream import random_stream
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.position import Position, squared_distance
+from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
@@ -65,6 +66,17 @@ def can_transmit(
     return (stream or random).random() >= medium.failure_rate
 
 
+class CommunicationSource:
+    """A node as sender of messages."""
+
+    def __init__(self, node: Node[Any]) -> None:
+        self.node = node
+
+    def hand_over_message(self, message: str, endpoint: "CommunicationDestination") -> None:
+        """Have the endpoint receive the message now."""
+        endpoint.receive_message(message, self)
+
+
 class CommunicationDestination:
     """A node as receiver of messages."""
 
@@ -74,8 +86,8 @@ class CommunicationDestination:
         # Losses are the receiver's draws: what others hear does not depend on it.
         self.stream = random_stream(getattr(node, "seed", 0), node.id, "communication")
 
-    def receive_message(self, message: str) -> None:
-        """Hand the message to the node's protocol."""
+    def receive_message(self, message: str, source: CommunicationSource) -> None:
+        """Hand the message to the node's protocol, which is not told whose it is."""
         self.node.protocol_encapsulator.handle_packet(message)
 
 
@@ -88,8 +100,9 @@ class CommunicationHandler(INodeHandler):
 
     def __init__(self, communication_medium: CommunicationMedium | None = None) -> None:
         """Without a medium the defaults of `CommunicationMedium` hold."""
-        self.default_medium = communication_medium or CommunicationMedium()
+        self.default_medium = checked_configuration(communication_medium, CommunicationMedium)
         self._event_loop: EventLoop | None = None
+        self._sources: dict[int, CommunicationSource] = {}
         self._destinations: dict[int, CommunicationDestination] = {}
 
     @staticmethod
@@ -100,6 +113,7 @@ class CommunicationHandler(INodeHandler):
     def inject(self, event_loop: EventLoop) -> None:
         """Take the event loop of a new simulation."""
         self._event_loop = event_loop
+        self._sources = {}
         self._destinations = {}
 
     def register_node(self, node: Node[Any]) -> None:
@@ -110,6 +124,7 @@ class CommunicationHandler(INodeHandler):
         """
         if self._event_loop is None:
             raise CommunicationException(f"cannot register node {node.id}: inject an event loop first")
+        self._sources[node.id] = CommunicationSource(node)
         self._destinations[node.id] = CommunicationDestination(node)
 
     def handle_command(
@@ -151,7 +166,7 @@ class CommunicationHandler(INodeHandler):
             raise CommunicationException(f"node {sender.id} gave an unknown communication command: {kind!r}")
         _logger.debug("%s sends to %s: %s", sender.id, command.destination, message)
         medium = medium or self.default_medium
-        copies = _copies(message, sender, destinations, medium)
+        copies = _copies(message, self._sources[sender.id], destinations, medium)
         if copies:
             event_loop.schedule_events(event_loop.current_time + medium.delay, copies)
 
@@ -175,13 +190,14 @@ class CommunicationHandler(INodeHandler):
 
 def _copies(
     message: str,
-    sender: Node[Any],
+    source: CommunicationSource,
     destinations: Iterable[CommunicationDestination],
     medium: CommunicationMedium,
 ) -> list[ScheduledEvent]:
     """Make an event for each destination that the message gets to: `can_transmit`, written out for speed."""
     reach_squared = medium.transmission_range * medium.transmission_range
     failure_rate = medium.failure_rate
+    sender = source.node
     x, y, z = sender.position
     copies: list[ScheduledEvent] = []
     for destination in destinations:
@@ -196,5 +212,5 @@ def _copies(
             continue
         if failure_rate > 0 and destination.stream.random() < failure_rate:
             continue
-        copies.append((partial(destination.receive_message, message), destination.context))
+        copies.append((partial(destination.receive_message, message, source), destination.context))
     return copies

@@ -67,7 +67,7 @@ class TimerHandler(INodeHandler):
             event = self._event_loop.schedule_event(
                 timestamp, partial(self.fire_timer, message, node, serial), self._contexts[node.id]
             )
-        except (EventLoopException, TypeError):
+        except EventLoopException:
             raise TimerException(
                 f"cannot set timer {message!r} of node {node.id} for {timestamp!r}: expected an absolute "
                 f"time in seconds, not before now, {self._event_loop.current_time} s"
@@ -78,9 +78,12 @@ class TimerHandler(INodeHandler):
         """Remove every pending timer of that name; no-op if there is none.
 
         Raises:
-            TimerException: The node is not registered.
+            TimerException: The node is not registered, or the name is no text.
         """
-        timers = self._timers_of(node).pop(message, None)
+        pending = self._timers_of(node)
+        if not isinstance(message, str):
+            raise TimerException(f"the name of a timer must be a str, got {message!r}")
+        timers = pending.pop(message, None)
         if timers is not None and self._event_loop is not None:
             for timestamp, event in timers.values():
                 self._event_loop.cancel_event(timestamp, event)

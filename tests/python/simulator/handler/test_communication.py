@@ -155,11 +155,14 @@ def test_another_node_does_not_change_the_losses_of_the_first_ones(world):
     [
         (SendMessageCommand("hi", 0), "itself"),
         (SendMessageCommand("hi", 9), "node 9, which does not exist: there are 3 nodes, 0 to 2"),
+        (SendMessageCommand("hi", "1"), "node '1', which does not exist"),
+        (SendMessageCommand("hi", [1]), r"node \[1\], which does not exist"),
         (SendMessageCommand("hi", None), "without a destination"),
         (CommunicationCommand(CommunicationCommandType.SEND, "hi"), "without a destination"),
         (CommunicationCommand(7, "hi"), "unknown communication command: 7"),
         (BroadcastMessageCommand(b"hi"), "text only, got a bytes"),
         (BroadcastMessageCommand({"a": 1}), "text only, got a dict"),
+        ("hi", "a CommunicationCommand, got 'hi'"),
     ],
 )
 def test_a_command_that_makes_no_sense_is_refused(network, command, text):
@@ -189,11 +192,22 @@ def test_nodes_come_after_the_event_loop(world):
         {"failure_rate": -0.1},
         {"failure_rate": 1.1},
         {"failure_rate": math.nan},
+        {"transmission_range": "far"},
+        {"delay": None},
     ],
 )
 def test_a_wrong_medium_is_refused(wrong):
     with pytest.raises(ValueError, match=next(iter(wrong))):
         CommunicationMedium(**wrong)
+
+
+def test_an_unlimited_range_is_possible():
+    assert CommunicationMedium(transmission_range=math.inf).transmission_range == math.inf
+
+
+def test_what_is_no_medium_is_refused():
+    with pytest.raises(TypeError, match="expected a CommunicationMedium, got 60"):
+        CommunicationHandler(60)
 
 
 coordinates = st.floats(-100, 100)

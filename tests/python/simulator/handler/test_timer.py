@@ -109,7 +109,7 @@ def test_a_callback_can_set_its_own_name_again(world, handler, node):
     assert fired == [1, 2, 3]
 
 
-@pytest.mark.parametrize("timestamp", [0.5, -1, math.nan, math.inf, "2", None])
+@pytest.mark.parametrize("timestamp", [0.5, -1, math.nan, math.inf, "2", None, [2]])
 def test_a_time_that_cannot_be_is_refused(world, handler, node, timestamp):
     handler.set_timer("first", 1, node)
     world.run()
@@ -127,6 +127,11 @@ def test_a_refused_timer_is_not_pending(world, handler, node):
 def test_a_name_that_is_no_text_is_refused(handler, node):
     with pytest.raises(TimerException, match="must be a str, got 5"):
         handler.set_timer(5, 1, node)
+
+
+def test_a_name_that_is_no_text_cannot_be_cancelled(handler, node):
+    with pytest.raises(TimerException, match="must be a str, got 5"):
+        handler.cancel_timer(5, node)
 
 
 def test_a_stranger_is_refused(world, handler):

@@ -7,6 +7,7 @@ from typing import Any, TypeGuard
 
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
@@ -63,7 +64,7 @@ class MasslessMobilityHandler(INodeHandler):
 
     def __init__(self, configuration: MasslessMobilityConfiguration | None = None) -> None:
         """Without a configuration the defaults of `MasslessMobilityConfiguration` hold."""
-        self._configuration = configuration or MasslessMobilityConfiguration()
+        self._configuration = checked_configuration(configuration, MasslessMobilityConfiguration)
         self._times = UpdateTimes(self._configuration.update_rate)
         self._settings: dict[int, _NodeSettings] = {}
         self._event_loop: EventLoop | None = None
@@ -158,7 +159,7 @@ class MasslessMobilityHandler(INodeHandler):
         if node.id not in self.nodes:
             raise MasslessMobilityException(f"node {node.id} is not registered with the mobility handler")
         kind = getattr(command, "command_type", None)
-        if kind is None:
+        if kind is None or not hasattr(command, "param_1"):
             raise MasslessMobilityException(
                 f"node {node.id} can carry out a MobilityCommand, was given {command!r}"
             )

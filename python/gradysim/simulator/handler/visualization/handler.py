@@ -5,6 +5,7 @@ import weakref
 import webbrowser
 from typing import Any
 
+from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.visualization.command_queue import CommandQueue
@@ -30,7 +31,7 @@ class VisualizationHandler(INodeHandler):
 
     def __init__(self, configuration: VisualizationConfiguration | None = None) -> None:
         """Without a configuration the defaults of `VisualizationConfiguration` hold."""
-        self._configuration = configuration or VisualizationConfiguration()
+        self._configuration = checked_configuration(configuration, VisualizationConfiguration)
         self.command_queue = CommandQueue()
         self._event_loop: EventLoop | None = None
         self.nodes: dict[int, Node[Any]] = {}

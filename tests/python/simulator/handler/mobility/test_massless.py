@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     GotoGeoCoordsMobilityCommand,
@@ -182,6 +183,8 @@ def test_a_step_is_speed_times_update_rate_along_the_line(new_world, start, targ
         (SetSpeedMobilityCommand(math.inf), "speed inf"),
         (SetSpeedMobilityCommand(None), "speed None"),
         (SetVelocityMobilityCommand(1, 2, 3), "velocity.*massless"),
+        ("land", "a MobilityCommand, was given 'land'"),
+        (BroadcastMessageCommand("hi"), "a MobilityCommand, was given BroadcastMessageCommand"),
         (MobilityCommand(9), "unknown mobility command: 9"),
     ],
 )
@@ -206,11 +209,26 @@ def test_a_new_event_loop_forgets_the_nodes(world, handler):
 
 @pytest.mark.parametrize(
     "wrong",
-    [{"update_rate": 0}, {"update_rate": math.nan}, {"default_speed": -1}, {"default_speed": math.inf}],
+    [
+        {"update_rate": 0},
+        {"update_rate": math.nan},
+        {"update_rate": "often"},
+        {"default_speed": -1},
+        {"default_speed": math.inf},
+        {"reference_coordinates": (91, 0, 0)},
+        {"reference_coordinates": (0, math.nan, 0)},
+        {"reference_coordinates": (0, 0)},
+        {"reference_coordinates": None},
+    ],
 )
 def test_a_wrong_configuration_is_refused(wrong):
     with pytest.raises(ValueError, match=next(iter(wrong))):
         MasslessMobilityConfiguration(**wrong)
+
+
+def test_what_is_no_configuration_is_refused():
+    with pytest.raises(TypeError, match=r"expected a MasslessMobilityConfiguration, got 0\.1"):
+        MasslessMobilityHandler(0.1)
 
 
 class TestNodesOfTheirOwnKind:

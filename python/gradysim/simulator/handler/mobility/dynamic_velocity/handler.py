@@ -36,6 +36,8 @@ class DynamicVelocityMobilityHandler(INodeHandler):
     """
 
     def __init__(self, config: DynamicVelocityMobilityConfiguration) -> None:
+        if not isinstance(config, DynamicVelocityMobilityConfiguration):
+            raise TypeError(f"expected a DynamicVelocityMobilityConfiguration, got {config!r}")
         self._config = config
         self._event_loop: EventLoop | None = None
         self._times = UpdateTimes(config.update_rate)
