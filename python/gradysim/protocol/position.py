@@ -5,6 +5,7 @@ y to the East, z up.
 """
 
 import math
+from collections.abc import Sequence
 
 Position = tuple[float, float, float]
 """(x, y, z) in metres."""
@@ -21,25 +22,27 @@ def squared_distance(start: Position, end: Position) -> float:
     return dx * dx + dy * dy + dz * dz
 
 
-def geo_to_cartesian(reference: Position, target: Position) -> Position:
+def geo_to_cartesian(ref_coord: Position, target_coord: Position) -> Position:
     """Place a geographic point in the frame whose origin is another one.
 
     Args:
-        reference: (latitude deg, longitude deg, altitude m) of the origin.
-        target: (latitude deg, longitude deg, altitude m) of the point.
+        ref_coord: (latitude deg, longitude deg, altitude m) of the origin.
+        target_coord: (latitude deg, longitude deg, altitude m) of the point.
 
     Returns:
-        (x, y, z) in metres: North, East and up of the reference. x is the length of the meridian between
-        the two latitudes, y the great-circle distance between the two longitudes at the reference's latitude.
+        (x, y, z) in metres: North, East and up of the origin. x is the length of the meridian between
+        the two latitudes, y the great-circle distance between the two longitudes at the origin's latitude.
     """
-    north = _haversine_distance(reference[0], reference[1], target[0], reference[1])
-    east = _haversine_distance(reference[0], reference[1], reference[0], target[1])
+    latitude, longitude, altitude = ref_coord
+    target_latitude, target_longitude, target_altitude = target_coord
+    north = _haversine_distance((latitude, longitude), (target_latitude, longitude))
+    east = _haversine_distance((latitude, longitude), (latitude, target_longitude))
     # The shorter way round decides the side: 179.9 deg W lies East of 179.9 deg E.
-    longitude_difference = (target[1] - reference[1] + 180.0) % 360.0 - 180.0
+    longitude_difference = (target_longitude - longitude + 180.0) % 360.0 - 180.0
     return (
-        math.copysign(north, target[0] - reference[0]),
+        math.copysign(north, target_latitude - latitude),
         math.copysign(east, longitude_difference),
-        target[2] - reference[2],
+        target_altitude - altitude,
     )
 
 
@@ -51,11 +54,11 @@ def rotate_position_2d(position: Position, angle_degrees: float) -> Position:
     return (x * cosine - y * sine, x * sine + y * cosine, z)
 
 
-def _haversine_distance(lat_1: float, lon_1: float, lat_2: float, lon_2: float) -> float:
-    """Great-circle distance in metres between two points given in degrees (haversine formula)."""
-    phi_1 = math.radians(lat_1)
-    phi_2 = math.radians(lat_2)
+def _haversine_distance(coord1: Sequence[float], coord2: Sequence[float]) -> float:
+    """Great-circle distance in metres between two points (latitude deg, longitude deg), by the haversine."""
+    phi_1 = math.radians(coord1[0])
+    phi_2 = math.radians(coord2[0])
     sin_lat = math.sin((phi_2 - phi_1) / 2.0)
-    sin_lon = math.sin(math.radians(lon_2 - lon_1) / 2.0)
+    sin_lon = math.sin(math.radians(coord2[1] - coord1[1]) / 2.0)
     square = sin_lat * sin_lat + math.cos(phi_1) * math.cos(phi_2) * sin_lon * sin_lon
     return 2.0 * EARTH_RADIUS_M * math.asin(min(1.0, math.sqrt(square)))
