@@ -1,4 +1,4 @@
-"""Nine nodes in prototype mode, 10 ms apart, every fifth message lost: where consensus is easily gotten wrong."""
+"""Nine nodes in prototype mode, 10 ms apart, every fifth message lost: consensus is easily got wrong there."""
 
 import pytest
 

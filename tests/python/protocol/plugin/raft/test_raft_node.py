@@ -183,6 +183,16 @@ def test_members_find_each_other(network_type):
     assert {node.membership.known for node in network.nodes.values()} == {frozenset(range(5))}
 
 
+@BOTH_MODES
+@pytest.mark.parametrize("known", [True, False])
+def test_long_delays_need_long_timeouts_only(network_type, faults_type, mode, known):
+    network = network_type(5, 1, mode, faults_type(delay_s=(0.1, 0.1)), known=known)
+    network.config.set_election_timeout(1000, 2000).set_heartbeat_interval(300)
+    leader = network.elect(within_s=20.0)
+    assert leader.propose("v", 42)
+    assert network.run(1.0, until=lambda: network.agree_on("v", 42))
+
+
 def test_strangers_are_not_heard(network_type):
     network = network_type(3, 1)
     leader = network.elect()

@@ -1,0 +1,37 @@
+"""What docs/guides/raft.md shows is what happens."""
+
+import importlib
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+from gradysim.config import load_scenarios
+
+GUIDE = Path(__file__).parents[5] / "docs/guides/raft.md"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with the guide's two files, as a reader would save them."""
+    for language, name in [("python", "agreement.py"), ("ini", "agreement.ini")]:
+        (block,) = re.findall(rf"^```{language}\n(.*?)^```", GUIDE.read_text(), re.MULTILINE | re.DOTALL)
+        (tmp_path / name).write_text(block)
+    return tmp_path
+
+
+def test_the_program_agrees(folder, capsys):
+    runpy.run_path(str(folder / "agreement.py"), run_name="__main__")
+    assert capsys.readouterr().out.splitlines() == [
+        f"node {node_id} departs at 1.0 s" for node_id in range(5)
+    ]
+
+
+@pytest.mark.parametrize("mode", ["prototype", "integrated"])
+def test_the_scenario_agrees_in_both_modes(folder, mode):
+    if mode == "integrated":
+        pytest.importorskip("gradysim._netsim")
+    (scenario,) = load_scenarios(folder / "agreement.ini")
+    result = importlib.import_module(f"gradysim.{mode}.run").run(scenario)
+    assert [node.tracked_variables["departure_s"] for node in result.nodes] == [1.0] * 5
