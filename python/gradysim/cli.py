@@ -11,6 +11,7 @@ import contextlib
 import json
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TextIO
 
@@ -81,6 +82,9 @@ def run(
         Mode, Parameter(help="The 802.11 network of the compiled engine, or the plain simulator in Python.")
     ] = "integrated",
     settings: SetOption = (),
+    seed: Annotated[
+        int | None, Parameter(help="Seed of run 0, to which run N adds N; by default the file's seed-set.")
+    ] = None,
     result_dir: Annotated[
         Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.json.")
     ] = None,
@@ -101,7 +105,7 @@ def run(
         try:
             if result_dir is not None:
                 result_dir.mkdir(parents=True, exist_ok=True)
-            scenarios = load(file, config, runs, settings)
+            scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode)
             for scenario in scenarios:
                 check(scenario)
@@ -138,11 +142,19 @@ def say_mistake(mistake: Exception) -> int:
     return MISTAKE
 
 
-def load(file: Path, config: str, runs: str | None, settings: Sequence[str]) -> "list[Scenario]":
+def load(
+    file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
+) -> "list[Scenario]":
     """Return one scenario per run. Raises ConfigError."""
+    from gradysim.config.error import ConfigError
     from gradysim.config.scenario import load_scenarios
 
-    return load_scenarios(file, config, runs, settings)
+    scenarios = load_scenarios(file, config, runs, settings)
+    if seed is None:
+        return scenarios
+    if seed < 0:
+        raise ConfigError(f"--seed {seed}: expected 0 or more")
+    return [replace(scenario, seed=seed + scenario.run_number) for scenario in scenarios]
 
 
 def simulator(mode: Mode) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":

@@ -228,6 +228,16 @@ def test_set_comes_before_the_file(gradysim):
     assert (run["sim_time_s"], len(run["nodes"])) == (5.0, 3)
 
 
+def test_the_seed_of_the_first_run_counts_on_in_the_next(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--seed", "40", "-r", "0,2", "--json")
+    assert [run["seed"] for run in objects(done.stdout)] == [40, 42]
+
+
+def test_a_negative_seed_is_refused(gradysim):
+    done = gradysim("run", "test.ini", "--seed=-1")
+    assert (done.returncode, done.stderr.strip()) == (2, "--seed -1: expected 0 or more")
+
+
 def test_the_result_directory(gradysim, folder):
     done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0,2", "--result-dir", "out/here")
     assert sorted(path.name for path in (folder / "out" / "here").iterdir()) == [
