@@ -137,3 +137,10 @@ def test_simulations_that_are_shown_leave_no_thread():
         handler = VisualizationHandler(VisualizationConfiguration(host="127.0.0.1", port=0))
         build(handlers=[handler]).start_simulation()
     assert [thread.name for thread in threading.enumerate() if "visualization" in thread.name] == []
+
+
+def test_a_failing_simulation_that_is_shown_leaves_no_thread():
+    handler = VisualizationHandler(VisualizationConfiguration(host="127.0.0.1", port=0))
+    with pytest.raises(RuntimeError, match="as it should"):
+        build(Failing, handlers=[handler]).start_simulation()
+    assert [thread.name for thread in threading.enumerate() if "visualization" in thread.name] == []
