@@ -11,7 +11,7 @@ REPLY_TIMER = "reply"
 DISCOVERY_ROUNDS = 6
 """How often a node asks who is there.
 
-The rounds take as long as the failure detection's timeout, or the shortest election timeout if that is longer.
+The rounds take as long as the failure detection's timeout, or as the shortest election timeout if longer.
 """
 
 _JITTER = (0.9, 1.1)

@@ -57,7 +57,7 @@ class RaftNode:
         persistent: What outlives a crash.
         membership: Who belongs to the cluster.
         activity: Who is taken for active.
-        leader_id: The leader of the present term, if it is known.
+        leader_id: The leader of the present term, if one is known and was heard lately.
         is_running: Between `start` and `stop`.
         is_active: False while `set_active` keeps it silent and deaf.
         timers: Its timers.
@@ -212,6 +212,7 @@ class RaftNode:
         if self.state is RaftState.LEADER:
             return
         self._become_follower()
+        self.leader_id = None
         self._leader_heard_s = None
         self.discovery = Discovery(DISCOVERY_ROUNDS)
         self._log(logging.DEBUG, "no leader heard, looking round")

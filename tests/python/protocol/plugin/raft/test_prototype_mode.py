@@ -1,4 +1,4 @@
-"""Nine nodes in prototype mode, 10 ms apart, every fifth message lost: consensus is easily got wrong there."""
+"""Nine nodes in prototype mode, 10 ms apart, every fifth message lost: where consensus easily goes wrong."""
 
 import pytest
 

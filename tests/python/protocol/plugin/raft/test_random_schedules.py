@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from gradysim.protocol.plugin.raft import RaftMode
 
 CHUNK = 50
-CLASSIC_SCHEDULES = int(os.environ.get("RAFT_SCHEDULES", 2000))
-OTHER_SCHEDULES = int(os.environ.get("RAFT_SCHEDULES", 500))
+CLASSIC_SCHEDULES = int(os.environ.get("RAFT_SCHEDULES", 1600))
+OTHER_SCHEDULES = int(os.environ.get("RAFT_SCHEDULES", 400))
 
 
 def chunks(count):
