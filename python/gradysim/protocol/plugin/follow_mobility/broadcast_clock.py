@@ -24,7 +24,8 @@ class BroadcastClock:
 
     def next(self, now: float) -> float:
         """Time of the next broadcast, s, >= `now`. Intervals that have gone by unused are left out."""
-        elapsed = math.ceil((now - self._start) / self._interval)
+        # Not quite: a broadcast at the very end of its interval, rounded up, has not used up the next one.
+        elapsed = math.ceil((now - self._start) / self._interval - 1e-6)
         self._number = max(self._number + 1, elapsed)
         delay = self._random.uniform(0, self._jitter)
         return max(now, self._start + (self._number + delay) * self._interval)

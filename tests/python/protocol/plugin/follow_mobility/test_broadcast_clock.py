@@ -38,6 +38,15 @@ def test_intervals_that_have_gone_by_are_left_out():
     assert [clock.next(0.0), clock.next(7.5), clock.next(8.0)] == [1.0, 8.0, 9.0]
 
 
+def test_a_broadcast_at_the_very_end_of_its_interval_leaves_the_next_one_its_own():
+    class Latest(Random):
+        def uniform(self, a, b):
+            return b
+
+    clock = BroadcastClock(546.97, 1.0, 0.0, Latest())
+    assert times(clock, 0.0, 50) == pytest.approx([546.97 * (number + 1) for number in range(1, 51)])
+
+
 def test_without_jitter_it_is_periodic():
     assert times(BroadcastClock(0.5, 0.0, 2.0, Random(0)), 2.0, 4) == [2.5, 3.0, 3.5, 4.0]
 
