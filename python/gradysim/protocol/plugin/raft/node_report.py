@@ -35,6 +35,13 @@ def active_nodes(node: RaftNode) -> set[int]:
     return simulation_active_nodes(node) & communication_active_nodes(node)
 
 
+def shares_cluster_with(node: RaftNode, other_id: int) -> bool:
+    """Whether another node is in the same cluster, by its last message; a silent one is if it is a member."""
+    if other_id == node.node_id or not node.cluster.knows(other_id):
+        return other_id in node.membership.known
+    return node.cluster.has(other_id)
+
+
 def has_quorum(node: RaftNode) -> bool:
     """Whether enough members are active for there to be a leader: two, or one that is all by choice."""
     return len(active_nodes(node)) >= 2 or (node.membership.is_alone_by_choice and node.is_active)
@@ -128,7 +135,7 @@ def state_info(node: RaftNode) -> dict[str, Any]:
         "last_log_term": persistent.log.last_term,
         "known_nodes": sorted(node.membership.known),
         "active_timers": sorted(node.timers.pending),
-        "cluster_id": node.cluster_id,
+        "cluster_id": node.cluster.cluster_id,
         "failure_detection": node.activity.detector.get_detection_summary(),
     }
 

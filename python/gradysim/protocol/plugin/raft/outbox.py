@@ -2,6 +2,7 @@
 
 from collections import deque
 
+from gradysim.protocol.plugin.raft.cluster import Cluster
 from gradysim.protocol.plugin.raft.environment import Environment
 from gradysim.protocol.plugin.raft.membership import Membership
 from gradysim.protocol.plugin.raft.node_timers import REPLY_TIMER, NodeTimers
@@ -9,14 +10,12 @@ from gradysim.protocol.plugin.raft.raft_message import RaftMessage
 
 
 class Outbox:
-    """Sends messages with what all of them carry.
+    """Sends messages with what all of them carry."""
 
-    Attributes:
-        cluster_id: Cluster that the node was put into.
-    """
-
-    def __init__(self, environment: Environment, membership: Membership, timers: NodeTimers) -> None:
-        self.cluster_id: int | None = None
+    def __init__(
+        self, environment: Environment, membership: Membership, cluster: Cluster, timers: NodeTimers
+    ) -> None:
+        self._cluster = cluster
         self._environment = environment
         self._membership = membership
         self._timers = timers
@@ -44,7 +43,7 @@ class Outbox:
         self._timers.cancel(REPLY_TIMER)
 
     def _send(self, message: RaftMessage, destination: int | None) -> None:
-        message.cluster_id = self.cluster_id
+        message.cluster_id = self._cluster.cluster_id
         if not self._membership.is_fixed:
             message.known_nodes = sorted(self._membership.known)
         self._environment.send(message.to_json(), destination)

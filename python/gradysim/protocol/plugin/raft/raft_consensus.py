@@ -287,15 +287,15 @@ class RaftConsensusPlugin:
         """
         if cluster_id is not None and not _is_id(cluster_id):
             raise ValueError(f"a cluster id must be an integer >= 0 or None, got {cluster_id!r}")
-        self._node.cluster_id = cluster_id
+        self._node.cluster.cluster_id = cluster_id
 
     def get_cluster_id(self) -> int | None:
         """Return the cluster that the node was put into."""
-        return self._node.cluster_id
+        return self._node.cluster.cluster_id
 
     def is_in_same_cluster(self, other_node_id: int) -> bool:
         """Whether a node is in this one's cluster, by its last message; a silent one is if it is a member."""
-        return self._node.shares_cluster_with(other_node_id)
+        return node_report.shares_cluster_with(self._node, other_node_id)
 
     # ---- messages and timers -------------------------------------------------------------------------------
 

@@ -17,6 +17,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from gradysim.protocol.plugin.raft.activity import Activity, SharedView
+from gradysim.protocol.plugin.raft.cluster import Cluster
 from gradysim.protocol.plugin.raft.election import Discovery, Election
 from gradysim.protocol.plugin.raft.environment import Environment
 from gradysim.protocol.plugin.raft.leadership import Leadership
@@ -55,7 +56,8 @@ class RaftNode:
     Attributes:
         state: Follower, candidate or leader.
         persistent: What outlives a crash.
-        membership: Who belongs to the cluster.
+        membership: Who counts.
+        cluster: Which of those in reach are heard.
         activity: Who is taken for active.
         leader_id: The leader of the present term, if one is known and was heard lately.
         is_running: Between `start` and `stop`.
@@ -74,6 +76,7 @@ class RaftNode:
         self.node_id = environment.node_id
         self.persistent = persistent or PersistentState()
         self.membership = Membership(self.node_id)
+        self.cluster = Cluster()
         self.activity = Activity(
             self.node_id, self.membership, config.get_failure_config(), environment.now_s
         )
@@ -86,9 +89,8 @@ class RaftNode:
         self.election: Election | None = None
         self.leadership: Leadership | None = None
         self._environment = environment
-        self._outbox = Outbox(environment, self.membership, self.timers)
+        self._outbox = Outbox(environment, self.membership, self.cluster, self.timers)
         self._leader_heard_s: float | None = None
-        self._clusters: dict[int, int | None] = {}
 
     # ---- what its owner does -------------------------------------------------------------------------------
 
@@ -138,23 +140,6 @@ class RaftNode:
         """Broadcast something that is no message of the consensus."""
         if self.is_active:
             self._environment.send(text, None)
-
-    def shares_cluster_with(self, node_id: int) -> bool:
-        """Whether a node is in the same cluster, by its last message; a silent one is if it is a member."""
-        if node_id == self.node_id:
-            return True
-        if node_id in self._clusters:
-            return self._clusters[node_id] == self.cluster_id
-        return node_id in self.membership.known
-
-    @property
-    def cluster_id(self) -> int | None:
-        """Cluster of the node: those of others are not heard."""
-        return self._outbox.cluster_id
-
-    @cluster_id.setter
-    def cluster_id(self, cluster_id: int | None) -> None:
-        self._outbox.cluster_id = cluster_id
 
     # ---- what it knows -------------------------------------------------------------------------------------
 
@@ -275,10 +260,7 @@ class RaftNode:
             self._log(logging.WARNING, "ignoring a message: %s", error)
             return
         sender = message.sender_id
-        if sender == self.node_id or not self.membership.accepts(sender):
-            return
-        self._clusters[sender] = message.cluster_id
-        if message.cluster_id != self.cluster_id:
+        if sender == self.node_id or not self.membership.accepts(sender) or not self.cluster.accepts(message):
             return
         knew = self.membership.known
         self.membership.learn([sender, *(message.known_nodes or ())])

@@ -4,6 +4,7 @@ from random import Random
 import pytest
 
 from gradysim.protocol.plugin.raft import RaftConfig
+from gradysim.protocol.plugin.raft.cluster import Cluster
 from gradysim.protocol.plugin.raft.membership import Membership
 from gradysim.protocol.plugin.raft.node_timers import NodeTimers
 from gradysim.protocol.plugin.raft.outbox import Outbox
@@ -41,8 +42,13 @@ def membership():
 
 
 @pytest.fixture
-def outbox(environment, membership):
-    return Outbox(environment, membership, NodeTimers(RaftConfig(), environment))
+def cluster():
+    return Cluster()
+
+
+@pytest.fixture
+def outbox(environment, membership, cluster):
+    return Outbox(environment, membership, cluster, NodeTimers(RaftConfig(), environment))
 
 
 def test_a_broadcast_goes_at_once_to_everybody(outbox, environment):
@@ -88,7 +94,7 @@ def test_messages_name_the_members_known_until_they_are_set(outbox, environment,
     assert [message.get("known_nodes") for message, _ in environment.sent] == [[4, 7], None]
 
 
-def test_messages_name_the_cluster(outbox, environment):
-    outbox.cluster_id = 6
+def test_messages_name_the_cluster(outbox, environment, cluster):
+    cluster.cluster_id = 6
     outbox.broadcast(RequestVote(1, 4))
     assert environment.sent[0][0]["cluster_id"] == 6
