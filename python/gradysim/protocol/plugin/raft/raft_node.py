@@ -234,6 +234,7 @@ class RaftNode:
                 self.activity.heartbeat_sent()
                 self._commit_what_can_be()
                 self._send_entries()
+                self.timers.restart_heartbeat()
             else:
                 self._log(logging.INFO, "resigning: not enough nodes answer")
                 self._become_follower()
@@ -440,6 +441,7 @@ class RaftNode:
         log.append(Entry(term, None, None))
         self._commit_what_can_be()
         self._send_entries()
+        self.timers.restart_heartbeat()
         return True
 
     # ---- steps ---------------------------------------------------------------------------------------------
@@ -502,7 +504,6 @@ class RaftNode:
                 log.entries,
             )
         )
-        self.timers.restart_heartbeat()
 
     def _log(self, level: int, text: str, *arguments: object) -> None:
         lowest = self.config.log_level
