@@ -1,4 +1,4 @@
-"""A user's protocols, handler and script, `scout.py`, written against the package, satisfy `mypy --strict`."""
+"""A user's protocols, handler and script, `scout.py`, satisfy `mypy --strict` against the package."""
 
 import shutil
 import subprocess

@@ -1,6 +1,8 @@
-"""Where the project lies and which files belong to it."""
+"""Where the project lies, which files belong to it, and what its documents show."""
 
+import re
 import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -34,3 +36,35 @@ def project_files(root: Path) -> Callable[..., list[Path]]:
         return [file for file in files if not suffixes or file.suffix in suffixes]
 
     return with_suffix
+
+
+@pytest.fixture(scope="session")
+def code_blocks(root: Path) -> Callable[[str, str], list[str]]:
+    """`code_blocks("docs/migration.md", "python")`: all blocks of a language in a document, at least one."""
+
+    def blocks(document: str, language: str) -> list[str]:
+        text = (root / document).read_text()
+        found: list[str] = re.findall(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+        assert found
+        return found
+
+    return blocks
+
+
+@pytest.fixture(scope="session")
+def type_errors(root: Path) -> Callable[[Path], str]:
+    """`type_errors(file)`: what mypy --strict says against a file, run in its folder; empty for nothing."""
+    pytest.importorskip("mypy")
+
+    def errors(file: Path) -> str:
+        check = subprocess.run(
+            [sys.executable, "-m", "mypy", "--strict", "--config-file=", file.name],
+            cwd=file.parent,
+            env={"MYPYPATH": str(root / "python"), "PATH": ""},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        return "" if check.returncode == 0 else check.stdout + check.stderr
+
+    return errors
