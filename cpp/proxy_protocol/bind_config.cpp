@@ -49,6 +49,8 @@ void bind_config(py::module_& module) {
         .def_readwrite("op_mode", &MacConfig::op_mode)
         .def_readwrite("bitrate_bps", &MacConfig::bitrate_bps)
         .def_readwrite("multicast_bitrate_bps", &MacConfig::multicast_bitrate_bps)
+        .def_readwrite("control_bitrate_bps", &MacConfig::control_bitrate_bps)
+        .def_readwrite("rts_threshold_bytes", &MacConfig::rts_threshold_bytes)
         .def_readwrite("short_retry_limit", &MacConfig::short_retry_limit)
         .def_readwrite("long_retry_limit", &MacConfig::long_retry_limit)
         .def_readwrite("cw_min", &MacConfig::cw_min)
@@ -56,6 +58,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("queue_capacity", &MacConfig::queue_capacity)
         .def_readwrite("mtu_bytes", &MacConfig::mtu_bytes)
         .def_readwrite("backoff_optimization", &MacConfig::backoff_optimization)
+        .def_readwrite("own_frames_set_nav", &MacConfig::own_frames_set_nav)
         .def("validate", &MacConfig::validate);
 
     py::class_<MobilityConfig>(module, "MobilityConfig")

@@ -22,6 +22,8 @@ void MacConfig::validate() const {
     check_name("mac.op_mode", op_mode, op_mode_names);
     check_bitrate("mac.bitrate_bps", bitrate_bps);
     check_bitrate("mac.multicast_bitrate_bps", multicast_bitrate_bps);
+    check_bitrate("mac.control_bitrate_bps", control_bitrate_bps);
+    check_between("mac.rts_threshold_bytes", rts_threshold_bytes, 0, 1'000'000, "B");
     check_between("mac.short_retry_limit", short_retry_limit, 1, 255, "");
     check_between("mac.long_retry_limit", long_retry_limit, 1, 255, "");
     check_default_or_between("mac.cw_min", cw_min, of_the_mode, 0, largest_window);

@@ -17,15 +17,18 @@ struct MacConfig {
     std::string op_mode = "g(mixed)";   // one of op_mode_names
     double bitrate_bps = -1;            // of data frames; -1: the fastest mandatory one; otherwise > 0
     double multicast_bitrate_bps = -1;  // of broadcast frames; -1: as data; otherwise > 0
+    double control_bitrate_bps = -1;    // of RTS frames; -1: the fastest mandatory one; otherwise > 0
 
-    int short_retry_limit = 7;  // failures at which a frame is given up; 1 … 255
-    int long_retry_limit = 4;   // the same from the RTS threshold on; 1 … 255
+    int rts_threshold_bytes = 2346;  // unicast frames (MPDU) of this length on begin with RTS; 0 … 1000000
+    int short_retry_limit = 7;       // failures at which RTS, or a shorter frame, is given up; 1 … 255
+    int long_retry_limit = 4;        // the same for frames from the RTS threshold on; 1 … 255
     int cw_min = -1;  // smallest contention window in slots; -1: of the operation mode; otherwise 0 … 32767
     int cw_max = -1;  // largest one; -1: of the operation mode; otherwise cw_min … 32767
 
     int queue_capacity = 100;  // waiting frames, without the one in progress; 1 … 1000000
     int mtu_bytes = 2304;      // largest IP packet; 29 … 2304: 28 B of IPv4 and UDP headers and a payload
     bool backoff_optimization = true;  // immediate access: idle time before the frame counts towards its wait
+    bool own_frames_set_nav = true;    // as INET has it; the standard: only frames of others do
 
     // Throws ConfigError for the first field out of its range: "mac.cw_min = -2: expected …".
     void validate() const;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "netsim/error.hpp"
+#include "netsim/mac/control_frames.hpp"
 
 namespace netsim {
 
@@ -14,6 +15,10 @@ const Mode& multicast_mode(const MacConfig& config, const ModeSet& modes, const 
     return config.multicast_bitrate_bps < 0
                ? data_mode
                : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
+}
+
+const Mode& rts_mode(const MacConfig& config, const ModeSet& modes) {
+    return modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps");
 }
 
 int cw_min(const MacConfig& config, const ModeSet& modes) {
@@ -40,20 +45,22 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       timing_(modes_),
       data_mode_(modes_.mode_for_bitrate(config.bitrate_bps)),
       multicast_mode_(multicast_mode(config, modes_, data_mode_)),
-      retry_limit_(config.short_retry_limit),
+      rts_mode_(rts_mode(config, modes_)),
+      rts_threshold_bytes_(config.rts_threshold_bytes),
       mtu_bytes_(config.mtu_bytes),
-      cw_min_(cw_min(config, modes_)),
-      cw_max_(cw_max(config, modes_)),
+      own_frames_set_nav_(config.own_frames_set_nav),
       queue_(config.queue_capacity),
       contention_(simulator, timing_, config.backoff_optimization,
                   RandomStream(seed, static_cast<std::uint32_t>(radio.id()), Purpose::backoff), *this),
-      cw_(cw_min_) {
+      retry_({config.short_retry_limit, config.long_retry_limit},
+             {cw_min(config, modes_), cw_max(config, modes_)}) {
     radio_.set_listener(*this);
 }
 
 void Dcf::check(const MacConfig& config) {
     const ModeSet& modes = mode_set(config.op_mode);
     multicast_mode(config, modes, modes.mode_for_bitrate(config.bitrate_bps));
+    rts_mode(config, modes);
     if (cw_max(config, modes) < cw_min(config, modes)) {
         throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) +
                           " and mac.cw_max = " + std::to_string(cw_max(config, modes)) +
@@ -78,7 +85,7 @@ void Dcf::send(NodeId destination, Payload payload) {
     frame.psdu_bytes = data_psdu_bytes(payload_bytes);
     frame.payload = std::move(payload);
     if (destination != broadcast_id) {
-        frame.duration_field = timing_.sifs + modes_.response_mode(data_mode_).duration(ack_bytes);
+        frame.duration_field = data_duration_field(timing_, modes_, data_mode_);
     }
     const MessageKind kind = message_kind(frame);
     fates_.accept(kind);
@@ -93,7 +100,7 @@ void Dcf::send(NodeId destination, Payload payload) {
 
 void Dcf::contend_for_next() {
     if ((in_progress_ || !queue_.empty()) && !contention_.in_progress()) {
-        contention_.start(cw_);
+        contention_.start(retry_.contention_window());
     }
 }
 
@@ -102,6 +109,24 @@ void Dcf::channel_granted() {
     if (!in_progress_) {
         in_progress_ = queue_.pop();
     }
+    if (needs_rts(*in_progress_)) {
+        send_rts();
+    } else {
+        send_in_progress();
+    }
+}
+
+bool Dcf::needs_rts(const Frame& frame) const {
+    return frame.receiver != broadcast_id && frame.psdu_bytes >= rts_threshold_bytes_;
+}
+
+void Dcf::send_rts() {
+    exchange_ = Exchange::sending_rts;
+    rts_ = std::make_shared<const Frame>(make_rts(*in_progress_, timing_, modes_, rts_mode_, data_mode_));
+    transmit(rts_, rts_mode_);
+}
+
+void Dcf::send_in_progress() {
     exchange_ = Exchange::sending;
     transmit(in_progress_, in_progress_->receiver == broadcast_id ? multicast_mode_ : data_mode_);
 }
@@ -115,21 +140,34 @@ void Dcf::transmit(std::shared_ptr<const Frame> frame, const Mode& mode) {
 void Dcf::transmission_ended() {
     if (response_ == Response::sending) {
         response_ = Response::none;
-        return;
+        own_frame_ended(*response_frame_);
+    } else if (exchange_ == Exchange::sending_rts) {
+        own_frame_ended(*rts_);
+        await_answer(Exchange::awaiting_cts, modes_.response_mode(rts_mode_));
+    } else {
+        NETSIM_ASSERT(exchange_ == Exchange::sending);
+        if (in_progress_->receiver == broadcast_id) {
+            retry_.forget_failures();
+            finish(MessageFate::sent);
+            return;
+        }
+        own_frame_ended(*in_progress_);
+        await_answer(Exchange::awaiting_ack, modes_.response_mode(data_mode_));
     }
-    NETSIM_ASSERT(exchange_ == Exchange::sending);
-    if (in_progress_->receiver == broadcast_id) {
-        finish(MessageFate::sent);
-        return;
-    }
-    exchange_ = Exchange::awaiting_ack;
-    set_nav(in_progress_->duration_field);
-    ack_timeout_ = simulator_.schedule_after(timing_.response_timeout(modes_.response_mode(data_mode_)),
-                                             [this] { ack_timed_out(); });
 }
 
-void Dcf::ack_timed_out() {
-    // A frame that is being received may be the ACK: its end decides.
+void Dcf::await_answer(Exchange awaiting, const Mode& answer) {
+    exchange_ = awaiting;
+    answer_timeout_ =
+        simulator_.schedule_after(timing_.response_timeout(answer), [this] { answer_timed_out(); });
+}
+
+bool Dcf::is_awaiting_answer() const {
+    return exchange_ == Exchange::awaiting_cts || exchange_ == Exchange::awaiting_ack;
+}
+
+void Dcf::answer_timed_out() {
+    // A frame that is being received may be the answer: its end decides.
     if (!radio_.is_receiving()) {
         attempt_failed();
     }
@@ -142,54 +180,74 @@ void Dcf::frame_received(const Transmission& transmission) {
     if (!for_this_station) {
         set_nav(frame.duration_field);
     }
-    if (exchange_ == Exchange::awaiting_ack) {
-        if (frame.kind == FrameKind::ack && for_this_station) {
-            simulator_.cancel(ack_timeout_);
-            cw_ = cw_min_;
-            finish(MessageFate::acknowledged);
+    if (is_awaiting_answer()) {
+        const FrameKind awaited = exchange_ == Exchange::awaiting_cts ? FrameKind::cts : FrameKind::ack;
+        if (frame.kind == awaited && for_this_station) {
+            answered();
         } else {
             attempt_failed();
         }
     }
-    if (frame.kind == FrameKind::unicast && for_this_station) {
-        response_ = Response::waiting_sifs;
-        const Mode* mode = &modes_.response_mode(*transmission.mode);
-        simulator_.schedule_after(timing_.sifs,
-                                  [this, receiver = frame.transmitter, mode] { send_ack(receiver, *mode); });
+    if (frame.kind == FrameKind::broadcast) {
+        listener_.message_received(frame.transmitter, frame.payload);
+    } else if (for_this_station) {
+        addressed_here(frame, *transmission.mode);
+    }
+}
+
+void Dcf::answered() {
+    simulator_.cancel(answer_timeout_);
+    if (exchange_ == Exchange::awaiting_cts) {
+        exchange_ = Exchange::waiting_sifs;
+        simulator_.schedule_after(timing_.sifs, [this] { send_in_progress(); });
+    } else {
+        retry_.start_afresh();
+        finish(MessageFate::acknowledged);
+    }
+}
+
+void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
+    if (frame.kind == FrameKind::rts && !is_nav_set()) {
+        const Mode& cts_mode = modes_.response_mode(mode);
+        respond_after_sifs(make_cts(frame, timing_, cts_mode), cts_mode);
+    } else if (frame.kind == FrameKind::unicast) {
+        respond_after_sifs(make_ack(frame), modes_.response_mode(mode));
         if (!duplicates_.is_duplicate(frame)) {
             listener_.message_received(frame.transmitter, frame.payload);
         }
-    } else if (frame.kind == FrameKind::broadcast) {
-        listener_.message_received(frame.transmitter, frame.payload);
     }
 }
 
 void Dcf::frame_corrupted() {
     contention_.frame_corrupted();
-    if (exchange_ == Exchange::awaiting_ack && !simulator_.is_pending(ack_timeout_)) {
+    if (is_awaiting_answer() && !simulator_.is_pending(answer_timeout_)) {
         attempt_failed();
     }
 }
 
-void Dcf::send_ack(NodeId receiver, const Mode& mode) {
-    response_ = Response::sending;
-    Frame ack;
-    ack.kind = FrameKind::ack;
-    ack.transmitter = radio_.id();
-    ack.receiver = receiver;
-    ack.psdu_bytes = ack_bytes;
-    transmit(std::make_shared<const Frame>(std::move(ack)), mode);
+void Dcf::respond_after_sifs(Frame response, const Mode& mode) {
+    NETSIM_ASSERT(response_ == Response::none);
+    response_ = Response::waiting_sifs;
+    response_frame_ = std::make_shared<const Frame>(std::move(response));
+    response_mode_ = &mode;
+    simulator_.schedule_after(timing_.sifs, [this] {
+        response_ = Response::sending;
+        transmit(response_frame_, *response_mode_);
+    });
 }
 
 void Dcf::attempt_failed() {
-    simulator_.cancel(ack_timeout_);
-    if (++failures_ >= retry_limit_) {
-        cw_ = cw_min_;
+    simulator_.cancel(answer_timeout_);
+    const bool was_sent = exchange_ == Exchange::awaiting_ack;
+    const bool may_go_on = was_sent && in_progress_->psdu_bytes >= rts_threshold_bytes_
+                               ? retry_.long_failed()
+                               : retry_.short_failed();
+    if (!may_go_on) {
+        retry_.start_afresh();
         finish(MessageFate::retry_limit);
         return;
     }
-    cw_ = std::min(2 * cw_ + 1, cw_max_);
-    if (!in_progress_->retry) {
+    if (was_sent && !in_progress_->retry) {
         Frame again = *in_progress_;
         again.retry = true;
         in_progress_ = std::make_shared<const Frame>(std::move(again));
@@ -201,9 +259,14 @@ void Dcf::attempt_failed() {
 void Dcf::finish(MessageFate fate) {
     fates_.book(message_kind(*in_progress_), fate);
     in_progress_.reset();
-    failures_ = 0;
     exchange_ = Exchange::none;
     contend_for_next();
+}
+
+void Dcf::own_frame_ended(const Frame& frame) {
+    if (own_frames_set_nav_) {
+        set_nav(frame.duration_field);
+    }
 }
 
 void Dcf::set_nav(SimTime duration) {
@@ -222,7 +285,7 @@ void Dcf::channel_busy_changed(bool) {
 }
 
 void Dcf::update_contention() {
-    const bool busy = radio_.is_channel_busy() || nav_end_ > simulator_.now();
+    const bool busy = radio_.is_channel_busy() || is_nav_set();
     if (busy != contention_sees_busy_) {
         contention_sees_busy_ = busy;
         contention_.channel_busy_changed(busy);

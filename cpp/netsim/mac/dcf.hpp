@@ -1,15 +1,26 @@
 // An 802.11 station without QoS: the distributed coordination function.
 //
-// Sends the frames of its queue one by one (contention, frame, ACK, retries), answers data frames with an ACK after
-// SIFS, keeps the NAV and drops duplicates.
+// Sends the frames of its queue one by one (contention, RTS and CTS from the RTS threshold on, frame, ACK, retries),
+// answers data frames with an ACK and RTS frames with a CTS after SIFS, keeps the NAV and drops duplicates.
 //
 // States of the exchange that this station originates:
-//   NONE --channel granted--> SENDING --end of a broadcast--> NONE
-//                                |
-//                       end of a unicast --> AWAITING_ACK --ACK: done; time-out or another frame: retry--> NONE
-// Beside it, the response to a received unicast frame: NONE --received--> WAITING_SIFS --> SENDING --> NONE.
 //
-// Source: IEEE 802.11-2020, 10.3 (DCF); the choices where the standard leaves room are those of INET 4.5.
+//   NONE --channel granted, frame below the RTS threshold or broadcast--> SENDING
+//    |                                                                     ^   |
+//    +--channel granted, unicast from the threshold on--> SENDING_RTS      |   +--end of a broadcast: done--> NONE
+//                                                              | end       |   |
+//          NONE <--time-out or another frame: retry-- AWAITING_CTS         |   | end of a unicast
+//                                                              | CTS       |   v
+//                                                              v           |  AWAITING_ACK --ACK: done--> NONE
+//                                                         WAITING_SIFS ----+   |
+//                                                                              +--time-out or another frame: retry--> NONE
+//
+// Beside it, the response to a received unicast frame or RTS: NONE --received--> WAITING_SIFS --> SENDING --> NONE.
+// An RTS is answered only if the NAV is not set.
+//
+// Source: IEEE 802.11-2020, 10.3 (DCF); the choices where the standard leaves room are those of INET 4.5. One of
+// INET's goes against the standard and has a switch, own_frames_set_nav: that a station's own frames set its NAV, so
+// that one whose RTS failed stays silent for as long as the exchange would have taken.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +30,7 @@
 #include "netsim/mac/contention.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/link.hpp"
+#include "netsim/mac/retry.hpp"
 #include "netsim/mac/timing.hpp"
 #include "netsim/mac/tx_queue.hpp"
 #include "netsim/phy/radio.hpp"
@@ -40,7 +52,7 @@ public:
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
 
 private:
-    enum class Exchange { none, sending, awaiting_ack };
+    enum class Exchange { none, sending_rts, awaiting_cts, waiting_sifs, sending, awaiting_ack };
     enum class Response { none, waiting_sifs, sending };
 
     void channel_busy_changed(bool busy) override;
@@ -49,11 +61,20 @@ private:
     void transmission_ended() override;
     void channel_granted() override;
 
-    void send_ack(NodeId receiver, const Mode& mode);
-    void ack_timed_out();
+    bool needs_rts(const Frame& frame) const;
+    bool is_awaiting_answer() const;
+    void send_rts();
+    void send_in_progress();
+    void await_answer(Exchange awaiting, const Mode& answer);
+    void answer_timed_out();
+    void answered();
     void attempt_failed();
     void finish(MessageFate fate);
     void contend_for_next();
+    void addressed_here(const Frame& frame, const Mode& mode);
+    void respond_after_sifs(Frame response, const Mode& mode);
+    bool is_nav_set() const { return nav_end_ > simulator_.now(); }
+    void own_frame_ended(const Frame& frame);
     void set_nav(SimTime duration);
     void update_contention();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
@@ -66,10 +87,10 @@ private:
     MacTiming timing_;
     const Mode& data_mode_;
     const Mode& multicast_mode_;
-    int retry_limit_;
+    const Mode& rts_mode_;
+    int rts_threshold_bytes_;
     int mtu_bytes_;
-    int cw_min_;
-    int cw_max_;
+    bool own_frames_set_nav_;
 
     TxQueue queue_;
     DuplicateFilter duplicates_;
@@ -79,11 +100,15 @@ private:
     EventHandle nav_event_;
 
     Exchange exchange_ = Exchange::none;
-    Response response_ = Response::none;
     std::shared_ptr<const Frame> in_progress_;  // granted once, not finished yet
-    EventHandle ack_timeout_;
-    int failures_ = 0;  // of the frame in progress
-    int cw_;
+    std::shared_ptr<const Frame> rts_;          // on the air
+    EventHandle answer_timeout_;
+    Retry retry_;  // of the frame in progress
+
+    Response response_ = Response::none;
+    std::shared_ptr<const Frame> response_frame_;
+    const Mode* response_mode_ = nullptr;
+
     std::uint32_t next_sequence_ = 0;
 };
 

@@ -23,6 +23,8 @@ constexpr int llc_snap_bytes = 8;
 constexpr int ipv4_header_bytes = 20;
 constexpr int udp_header_bytes = 8;
 constexpr int ack_bytes = 14;
+constexpr int rts_bytes = 20;
+constexpr int cts_bytes = 14;
 
 // Length of the MPDU that carries a payload: 100 B make 164 B.
 constexpr int data_psdu_bytes(int payload_bytes) {
@@ -42,7 +44,7 @@ struct Frame {
     bool retry = false;
     SimTime duration_field;  // how long the exchange goes on after this frame: sets the NAV of others
     int psdu_bytes = 0;
-    Payload payload;  // none in an ACK
+    Payload payload;  // of data frames only
 };
 
 }  // namespace netsim

@@ -17,9 +17,10 @@ namespace netsim {
 using NodeId = std::int32_t;
 constexpr NodeId broadcast_id = -1;
 
-enum class FrameKind : std::uint8_t { broadcast, unicast, ack };
-constexpr std::size_t frame_kind_count = 3;
-constexpr std::array<const char*, frame_kind_count> frame_kind_names{"broadcast", "unicast", "ack"};
+enum class FrameKind : std::uint8_t { broadcast, unicast, ack, rts, cts };
+constexpr std::size_t frame_kind_count = 5;
+constexpr std::array<const char*, frame_kind_count> frame_kind_names{"broadcast", "unicast", "ack", "rts",
+                                                                     "cts"};
 
 enum class FrameFate : std::uint8_t {
     delivered,              // decoded by that radio, whoever it was for

@@ -30,6 +30,8 @@ TEST(MacConfig, ValidateNamesTheField) {
               "mac.multicast_bitrate_bps = -2 bps: expected more than 0 bps");
     EXPECT_EQ(text_with(&MacConfig::short_retry_limit, 0),
               "mac.short_retry_limit = 0: expected from 1 to 255");
+    EXPECT_EQ(text_with(&MacConfig::rts_threshold_bytes, -1),
+              "mac.rts_threshold_bytes = -1 B: expected from 0 B to 1000000 B");
     EXPECT_EQ(text_with(&MacConfig::long_retry_limit, 256),
               "mac.long_retry_limit = 256: expected from 1 to 255");
     EXPECT_EQ(text_with(&MacConfig::cw_min, -2),

@@ -588,6 +588,9 @@ TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnError) {
     MacConfig mac;
     mac.multicast_bitrate_bps = 7e6;
     EXPECT_THROW(Dcf::check(mac), ConfigError);
+    mac.multicast_bitrate_bps = -1;
+    mac.control_bitrate_bps = 7e6;
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
 }
 
 TEST(DcfCheck, AWindowBeyondThatOfTheModeIsAnError) {

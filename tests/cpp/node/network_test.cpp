@@ -1,6 +1,7 @@
 #include "netsim/node/network.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -167,10 +168,13 @@ std::uint64_t sum_of(const auto& counts) {
     return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
 }
 
+constexpr std::array all_frame_kinds{FrameKind::broadcast, FrameKind::unicast, FrameKind::ack, FrameKind::rts,
+                                     FrameKind::cts};
+
 class Balance : public testing::TestWithParam<std::uint64_t> {
 protected:
     static void expect_balance(const Network& network) {
-        for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
+        for (const FrameKind kind : all_frame_kinds) {
             for (const bool overheard : {false, true}) {
                 EXPECT_EQ(sum_of(network.frame_fates().counts(kind, overheard)),
                           network.frame_fates().copies(kind, overheard));
@@ -190,7 +194,7 @@ protected:
     }
     // Fates at the receivers, without those that are kept only in sum.
     static void expect_nodes_add_up(const Network& network) {
-        for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
+        for (const FrameKind kind : all_frame_kinds) {
             FrameFates::Counts sums{};
             for (const bool overheard : {false, true}) {
                 const auto counts = network.frame_fates().counts(kind, overheard);
@@ -224,7 +228,7 @@ TEST_P(Balance, NothingIsLeftWhenTheAirIsDrained) {
     ScenarioRun run(scenario);
     run.network.run_until(long_after(scenario));
     expect_balance(run.network);
-    for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
+    for (const FrameKind kind : all_frame_kinds) {
         for (const bool overheard : {false, true}) {
             EXPECT_EQ(run.network.frame_fates().counts(
                           kind, overheard)[static_cast<std::size_t>(FrameFate::in_air)],
@@ -237,7 +241,7 @@ TEST_P(Balance, NothingIsLeftWhenTheAirIsDrained) {
     }
 }
 
-TEST_P(Balance, AFrameOnTheAirIsAMessageOrItsAck) {
+TEST_P(Balance, AFrameOnTheAirIsAMessageOrAnAnswer) {
     const RandomScenario scenario = test::make_random_scenario(GetParam());
     ScenarioRun run(scenario);
     run.network.run_until(long_after(scenario));
@@ -246,6 +250,22 @@ TEST_P(Balance, AFrameOnTheAirIsAMessageOrItsAck) {
     EXPECT_EQ(frames.frames(FrameKind::broadcast), broadcasts[static_cast<std::size_t>(MessageFate::sent)]);
     const auto unicasts = frames.counts(FrameKind::unicast, false);
     EXPECT_EQ(frames.frames(FrameKind::ack), unicasts[static_cast<std::size_t>(FrameFate::delivered)]);
+    const auto requests = frames.counts(FrameKind::rts, false);
+    EXPECT_LE(frames.frames(FrameKind::cts), requests[static_cast<std::size_t>(FrameFate::delivered)]);
+}
+
+TEST(RandomScenario, AsksAndPermitsOften) {
+    std::uint64_t requests = 0;
+    std::uint64_t permissions = 0;
+    for (std::uint64_t seed = 100'000; seed < 100'060; ++seed) {
+        const RandomScenario scenario = test::make_random_scenario(seed);
+        ScenarioRun run(scenario);
+        run.network.run_until(long_after(scenario));
+        requests += run.network.frame_fates().frames(FrameKind::rts);
+        permissions += run.network.frame_fates().frames(FrameKind::cts);
+    }
+    EXPECT_GE(requests, 1000U);
+    EXPECT_GE(permissions, 300U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, Balance, testing::Range<std::uint64_t>(100'000, 100'060));

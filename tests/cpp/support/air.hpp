@@ -76,6 +76,20 @@ struct BareRadio {
         radio.transmit(std::make_shared<const Frame>(std::move(frame)), label, psdu_bytes,
                        mode_set("a").slowest_mandatory(), duration);
     }
+    // An RTS or CTS, in the mode that g has for it by default.
+    void send_control(FrameKind kind, NodeId receiver, SimTime duration_field) {
+        const Mode& mode = mode_set("g(mixed)").fastest_mandatory();
+        Frame frame;
+        frame.kind = kind;
+        frame.transmitter = id();
+        frame.receiver = receiver;
+        frame.psdu_bytes = kind == FrameKind::rts ? rts_bytes : cts_bytes;
+        frame.duration_field = duration_field;
+        const FrameLabel label{kind, receiver};
+        const int psdu_bytes = frame.psdu_bytes;
+        radio.transmit(std::make_shared<const Frame>(std::move(frame)), label, psdu_bytes, mode,
+                       mode.duration(psdu_bytes));
+    }
 
     Trajectory trajectory;
     Radio radio;

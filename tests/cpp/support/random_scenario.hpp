@@ -51,6 +51,10 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     const double lattice_m = chance(0.3) ? area_m / 4 : 0;  // equal distances, shared places
     const bool short_backoffs = chance(0.3);                // many frames in one instant
 
+    // From a stream of its own, so that scenarios without RTS are what they were before there was RTS.
+    RandomStream rts_draws(seed, 1, Purpose{1001});
+    const bool with_rts = rts_draws.uniform() < 0.5;
+
     const int count = fewest_nodes + static_cast<int>(draws.uniform_int(most_nodes - fewest_nodes + 1));
     for (int id = 0; id < count; ++id) {
         NodeConfig node("node " + std::to_string(id));
@@ -81,6 +85,11 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         }
         node.mac.backoff_optimization = chance(0.8);
         node.mac.queue_capacity = chance(0.8) ? 100 : 2;
+        if (with_rts) {
+            node.mac.rts_threshold_bytes = static_cast<int>(rts_draws.uniform_int(600));
+            node.mac.control_bitrate_bps = rts_draws.uniform() < 0.5 ? -1 : node.mac.bitrate_bps;
+            node.mac.own_frames_set_nav = rts_draws.uniform() < 0.7;
+        }
         node.mobility.telemetry_interval_s = 0;
         scenario.nodes.push_back(node);
     }

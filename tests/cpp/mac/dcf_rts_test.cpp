@@ -1,0 +1,420 @@
+// RTS and CTS of the Dcf. As in dcf_test.cpp, the instants are worked out by hand from the durations of IEEE
+// 802.11, which are written out here.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netsim/mac/dcf.hpp"
+#include "support/air.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Air;
+using test::BareRadio;
+using test::Heard;
+using test::light_microsecond_m;
+using test::Sniffer;
+using test::Station;
+
+constexpr SimTime us(std::int64_t microseconds) {
+    return SimTime::from_us(microseconds);
+}
+
+// Every unicast with RTS and CTS.
+MacConfig with_rts(const char* op_mode = "g(mixed)", double bitrate_bps = -1) {
+    MacConfig config;
+    config.op_mode = op_mode;
+    config.bitrate_bps = bitrate_bps;
+    config.rts_threshold_bytes = 0;
+    return config;
+}
+
+// No backoff: every wait is an interframe space.
+MacConfig with_rts_without_backoff() {
+    MacConfig config = with_rts();
+    config.cw_min = 0;
+    config.cw_max = 0;
+    return config;
+}
+
+// g(mixed), all at 24 Mbps, a payload of 100 B.
+constexpr SimTime sifs = us(10);
+constexpr SimTime difs = us(50);
+constexpr SimTime rts_duration = us(34);
+constexpr SimTime cts_duration = us(34);
+constexpr SimTime data_duration = us(82);
+constexpr SimTime ack_duration = us(34);
+constexpr SimTime cts_timeout = us(55);
+constexpr SimTime rts_field = sifs + cts_duration + sifs + data_duration + sifs + ack_duration;
+
+std::vector<SimTime> starts(const Sniffer& sniffer, FrameKind kind) {
+    std::vector<SimTime> times;
+    for (const Heard& heard : sniffer.heard) {
+        if (heard.kind == kind) {
+            times.push_back(heard.start);
+        }
+    }
+    return times;
+}
+
+struct Exchange {
+    const char* op_mode;
+    double bitrate_bps;
+    double control_bitrate_bps;
+    int sifs_us;
+    int rts_us;   // 20 B
+    int cts_us;   // 14 B, in the mode of the RTS
+    int data_us;  // 164 B
+    int ack_us;   // 14 B
+};
+
+class RtsExchange : public testing::TestWithParam<Exchange> {};
+
+TEST_P(RtsExchange, TakesPlaceInTheInstantsOfTheStandard) {
+    const Exchange& exchange = GetParam();
+    const SimTime flight = us(1);
+    Air air;
+    MacConfig mac = with_rts(exchange.op_mode, exchange.bitrate_bps);
+    mac.control_bitrate_bps = exchange.control_bitrate_bps;
+    Station& sender = air.add_station({0, 0, 0}, mac);
+    Station& receiver = air.add_station({light_microsecond_m, 0, 0}, mac);
+    Sniffer& at_sender = air.add_sniffer({0, 0, 0});
+    Sniffer& at_receiver = air.add_sniffer({light_microsecond_m, 0, 0});
+    const SimTime start = SimTime::from_ps(1'234'567'890'123);
+    air.at(start, [&] { sender.send(receiver.id(), 100); });
+    air.run();
+
+    struct Step {
+        FrameKind kind;
+        SimTime duration;
+        bool from_sender;
+    };
+    const std::vector<Step> steps{{FrameKind::rts, us(exchange.rts_us), true},
+                                  {FrameKind::cts, us(exchange.cts_us), false},
+                                  {FrameKind::unicast, us(exchange.data_us), true},
+                                  {FrameKind::ack, us(exchange.ack_us), false}};
+    ASSERT_EQ(at_sender.heard.size(), steps.size());
+    ASSERT_EQ(at_receiver.heard.size(), steps.size());
+    SimTime begin = start;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        SCOPED_TRACE("frame " + std::to_string(i));
+        const auto& [kind, duration, from_sender] = steps[i];
+        const Heard& near = (from_sender ? at_sender : at_receiver).heard[i];
+        const Heard& far = (from_sender ? at_receiver : at_sender).heard[i];
+        EXPECT_EQ(near.kind, kind);
+        EXPECT_EQ(near.start, begin);
+        EXPECT_EQ(near.end, begin + duration);
+        EXPECT_EQ(far.start, begin + flight);
+        EXPECT_EQ(far.end, begin + duration + flight);
+        begin = far.end + us(exchange.sifs_us);
+    }
+    ASSERT_EQ(receiver.received.size(), 1U);
+    EXPECT_EQ(receiver.received[0].time, at_receiver.heard[2].end);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Modes, RtsExchange,
+    testing::Values(
+        Exchange{"b", 1e6, -1, 10, 207, 203, 1504, 304}, Exchange{"b", 11e6, -1, 10, 207, 203, 312, 203},
+        Exchange{"b", 11e6, 1e6, 10, 352, 304, 312, 203}, Exchange{"b", 11e6, 2e6, 10, 272, 248, 312, 203},
+        Exchange{"b", 11e6, 5.5e6, 10, 222, 213, 312, 203}, Exchange{"g(erp)", 6e6, -1, 10, 34, 34, 250, 50},
+        Exchange{"g(erp)", 54e6, -1, 10, 34, 34, 54, 34}, Exchange{"g(erp)", 54e6, 6e6, 10, 58, 50, 54, 34},
+        Exchange{"g(erp)", 54e6, 9e6, 10, 50, 50, 54, 34},  // answered at 6 Mbps
+        Exchange{"g(erp)", 54e6, 12e6, 10, 42, 38, 54, 34},
+        Exchange{"g(mixed)", 24e6, -1, 10, 34, 34, 82, 34},
+        Exchange{"g(mixed)", 6e6, 6e6, 10, 58, 50, 250, 50},
+        Exchange{"g(mixed)", 24e6, 1e6, 10, 352, 304, 82, 34}, Exchange{"a", 6e6, -1, 16, 28, 28, 244, 44},
+        Exchange{"a", 54e6, -1, 16, 28, 28, 48, 28}, Exchange{"a", 54e6, 6e6, 16, 52, 44, 48, 28}),
+    [](const auto& param_info) {
+        const auto in_100_kbps = [](double bps) {
+            return bps < 0 ? std::string("default") : std::to_string(static_cast<int>(bps / 1e5));
+        };
+        std::string name = std::string(param_info.param.op_mode) + "_" +
+                           in_100_kbps(param_info.param.bitrate_bps) + "_" +
+                           in_100_kbps(param_info.param.control_bitrate_bps);
+        std::erase_if(name, [](char character) { return character == '(' || character == ')'; });
+        return name;
+    });
+
+class RtsThreshold : public testing::Test {
+protected:
+    std::uint64_t rts_frames(int threshold_bytes, int payload_bytes, bool broadcast = false) {
+        MacConfig mac;
+        mac.rts_threshold_bytes = threshold_bytes;
+        Air air;
+        Station& a = air.add_station({0, 0, 0}, mac);
+        Station& b = air.add_station({light_microsecond_m, 0, 0}, mac);
+        a.send(broadcast ? broadcast_id : b.id(), payload_bytes);
+        air.run();
+        EXPECT_EQ(b.received.size(), 1U);
+        EXPECT_EQ(air.frame_fates.frames(FrameKind::cts), air.frame_fates.frames(FrameKind::rts));
+        return air.frame_fates.frames(FrameKind::rts);
+    }
+};
+
+TEST_F(RtsThreshold, AFrameOfItsLengthBeginsWithRts) {
+    EXPECT_EQ(rts_frames(164, 100), 1U);
+}
+
+TEST_F(RtsThreshold, AShorterFrameDoesNot) {
+    EXPECT_EQ(rts_frames(165, 100), 0U);
+}
+
+TEST_F(RtsThreshold, ABroadcastNeverDoes) {
+    EXPECT_EQ(rts_frames(0, 100, true), 0U);
+}
+
+TEST_F(RtsThreshold, ByDefaultTheLongestFrameIsBelowIt) {
+    EXPECT_EQ(rts_frames(MacConfig().rts_threshold_bytes, 2276), 0U);
+}
+
+// A station and a bare radio, both at the same place, that speaks to it by hand.
+class RtsTest : public testing::Test {
+protected:
+    void add(const MacConfig& mac, double distance_m = 0) {
+        station = &air.add_station({0, 0, 0}, mac);
+        peer = &air.add_radio({distance_m, 0, 0});
+        sniffer = &air.add_sniffer({0, 0, 0});
+    }
+    void peer_sends(SimTime time, FrameKind kind, NodeId receiver, SimTime duration_field = SimTime()) {
+        air.at(time, [this, kind, receiver, duration_field] {
+            peer->send_control(kind, receiver, duration_field);
+        });
+    }
+    std::uint64_t given_up() const {
+        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
+    }
+
+    static constexpr NodeId stranger = 99;
+
+    Air air;
+    Station* station = nullptr;
+    BareRadio* peer = nullptr;
+    Sniffer* sniffer = nullptr;
+};
+
+TEST_F(RtsTest, AnRtsForAnotherStationSetsTheNav) {
+    add(with_rts_without_backoff());
+    peer_sends(us(0), FrameKind::rts, stranger, us(1000));
+    air.at(us(20), [&] { station->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(starts(*sniffer, FrameKind::broadcast), std::vector{rts_duration + us(1000) + difs});
+}
+
+TEST_F(RtsTest, ACtsForAnotherStationSetsTheNav) {
+    add(with_rts_without_backoff());
+    peer_sends(us(0), FrameKind::cts, stranger, us(1000));
+    air.at(us(20), [&] { station->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(starts(*sniffer, FrameKind::broadcast), std::vector{cts_duration + us(1000) + difs});
+}
+
+TEST_F(RtsTest, AnAnnouncementThatEndsEarlierDoesNotShortenTheNav) {
+    add(with_rts_without_backoff());
+    peer_sends(us(0), FrameKind::rts, stranger, us(1000));
+    peer_sends(us(100), FrameKind::cts, stranger, us(10));
+    air.at(us(20), [&] { station->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(starts(*sniffer, FrameKind::broadcast), std::vector{rts_duration + us(1000) + difs});
+}
+
+TEST_F(RtsTest, AnRtsIsAnsweredAfterSifs) {
+    add(MacConfig());
+    peer_sends(us(0), FrameKind::rts, station->id(), rts_field);
+    air.run();
+    EXPECT_EQ(starts(*sniffer, FrameKind::cts), std::vector{rts_duration + sifs});
+}
+
+TEST_F(RtsTest, AnRtsIsNotAnsweredWhileTheNavIsSet) {
+    add(MacConfig());
+    peer_sends(us(0), FrameKind::cts, stranger, us(166) + SimTime::from_ps(1));
+    peer_sends(us(166), FrameKind::rts, station->id(), rts_field);  // ends 1 ps before the NAV
+    air.run();
+    EXPECT_TRUE(starts(*sniffer, FrameKind::cts) == std::vector{us(0)});
+}
+
+TEST_F(RtsTest, AnRtsThatEndsWithTheNavIsAnswered) {
+    add(MacConfig());
+    peer_sends(us(0), FrameKind::cts, stranger, us(166));
+    peer_sends(us(166), FrameKind::rts, station->id(), rts_field);
+    air.run();
+    EXPECT_EQ(starts(*sniffer, FrameKind::cts), (std::vector{us(0), us(166) + rts_duration + sifs}));
+}
+
+// The CTS announces what is left of the RTS's announcement. The third station hears the responder only.
+TEST_F(RtsTest, TheCtsSilencesThoseWhoDoNotHearTheRts) {
+    add(MacConfig());
+    RadioConfig near_deaf;  // hears what is twice as strong as anything from two hops away
+    near_deaf.sensitivity_w = near_deaf.energy_detection_w =
+        2 * RadioConfig().tx_power_w *
+        make_path_loss(MediumConfig()).gain(2 * light_microsecond_m, RadioConfig().carrier_hz);
+    Station& third = air.add_station({0, -light_microsecond_m, 0}, with_rts_without_backoff(), near_deaf);
+    BareRadio& asking = air.add_radio({0, light_microsecond_m, 0});
+    Sniffer& at_third = air.add_sniffer({0, -light_microsecond_m, 0});
+    air.at(us(0), [&] { asking.send_control(FrameKind::rts, station->id(), us(1000)); });
+    air.at(us(60), [&] { third.send(broadcast_id, 100); });
+    air.run();
+    const SimTime rts_end_at_responder = rts_duration + us(1);
+    EXPECT_EQ(starts(at_third, FrameKind::broadcast),
+              std::vector{rts_end_at_responder + us(1000) + us(1) + difs});
+}
+
+TEST_F(RtsTest, WithoutCtsTheDataIsNotSent) {
+    add(with_rts());
+    station->send(stranger, 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 0U);
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 7U);
+    EXPECT_EQ(given_up(), 1U);
+}
+
+TEST_F(RtsTest, GivesUpWhenTheCtsTimeoutOfTheLastAttemptIsOver) {
+    MacConfig mac = with_rts();
+    mac.short_retry_limit = 1;
+    add(mac);
+    station->send(stranger, 100);
+    air.run(rts_duration + cts_timeout - SimTime::from_ps(1));
+    EXPECT_EQ(given_up(), 0U);
+    air.run(rts_duration + cts_timeout);
+    EXPECT_EQ(given_up(), 1U);
+}
+
+TEST_F(RtsTest, ACtsThatHasBegunByTheTimeoutIsWaitedFor) {
+    // At 44 light microseconds to and fro, the CTS begins 54 us after the end of the RTS and ends at 88 us.
+    Station& a = air.add_station({0, 0, 0}, with_rts(), test::radio_of_power(100));
+    Station& b = air.add_station({22 * light_microsecond_m, 0, 0}, with_rts(), test::radio_of_power(100));
+    a.send(b.id(), 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+}
+
+TEST_F(RtsTest, ACtsThatBeginsAfterTheTimeoutIsTooLate) {
+    Station& a = air.add_station({0, 0, 0}, with_rts(), test::radio_of_power(100));
+    Station& b = air.add_station({23 * light_microsecond_m, 0, 0}, with_rts(), test::radio_of_power(100));
+    a.send(b.id(), 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 0U);
+    EXPECT_EQ(given_up(), 1U);
+}
+
+TEST_F(RtsTest, AnotherFrameInsteadOfTheCtsIsAFailure) {
+    MacConfig mac = with_rts();
+    mac.short_retry_limit = 1;
+    add(mac);
+    station->send(peer->id(), 100);
+    peer_sends(rts_duration + sifs, FrameKind::cts, stranger);
+    air.run(rts_duration + sifs + cts_duration);
+    EXPECT_EQ(given_up(), 1U);
+}
+
+// As INET has it: the next attempt comes when the exchange would have been over.
+TEST_F(RtsTest, AFailedRtsIsRepeatedAfterItsOwnNav) {
+    add(with_rts_without_backoff());
+    station->send(stranger, 100);
+    air.run();
+    std::vector<SimTime> expected;
+    for (int i = 0; i < 7; ++i) {
+        expected.push_back((rts_duration + rts_field + difs) * i);
+    }
+    EXPECT_EQ(starts(*sniffer, FrameKind::rts), expected);
+}
+
+// As the standard has it.
+TEST_F(RtsTest, AFailedRtsIsRepeatedDifsAfterTheTimeoutIfOwnFramesSetNoNav) {
+    MacConfig mac = with_rts_without_backoff();
+    mac.own_frames_set_nav = false;
+    mac.backoff_optimization = false;  // otherwise the timeout would count as idle time
+    add(mac);
+    station->send(stranger, 100);
+    air.run();
+    std::vector<SimTime> expected;
+    for (int i = 0; i < 7; ++i) {
+        expected.push_back(difs + (rts_duration + cts_timeout + difs) * i);
+    }
+    EXPECT_EQ(starts(*sniffer, FrameKind::rts), expected);
+}
+
+// The attempts of a station whose peer permits some of them, and never acknowledges.
+class RtsRetries : public RtsTest {
+protected:
+    static constexpr SimTime attempt = rts_duration + rts_field + difs;  // own NAV, no backoff
+
+    void expect_frames(const MacConfig& mac, const std::vector<int>& permitted, std::uint64_t rts,
+                       std::uint64_t data) {
+        add(mac);
+        station->send(peer->id(), 100);
+        for (const int i : permitted) {
+            peer_sends(attempt * i + rts_duration + sifs, FrameKind::cts, station->id());
+        }
+        air.run();
+        EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), rts);
+        EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), data);
+        EXPECT_EQ(given_up(), 1U);
+    }
+};
+
+TEST_F(RtsRetries, AFrameFromTheThresholdOnIsSentFourTimes) {
+    expect_frames(with_rts_without_backoff(), {0, 1, 2, 3, 4, 5, 6}, 4, 4);
+}
+
+TEST_F(RtsRetries, TheLongLimitIsConfigurable) {
+    MacConfig mac = with_rts_without_backoff();
+    mac.long_retry_limit = 6;
+    expect_frames(mac, {0, 1, 2, 3, 4, 5, 6}, 6, 6);
+}
+
+TEST_F(RtsRetries, ACtsDoesNotResetTheShortCounter) {
+    expect_frames(with_rts_without_backoff(), {3}, 8, 1);
+}
+
+TEST_F(RtsRetries, BothCountersRunBesideEachOther) {
+    expect_frames(with_rts_without_backoff(), {1, 3, 5, 7}, 8, 4);
+}
+
+TEST_F(RtsRetries, TheNextMessageHasAllAttempts) {
+    add(with_rts_without_backoff());
+    station->send(stranger, 100);
+    station->send(stranger, 100);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 14U);
+    EXPECT_EQ(given_up(), 2U);
+}
+
+// Two stations that ask each other at the same time: the later one's RTS meets a station that waits for a CTS.
+TEST_F(RtsTest, AnRtsThatComesInsteadOfTheCtsIsAnsweredIfOwnFramesSetNoNav) {
+    MacConfig mac = with_rts();
+    mac.own_frames_set_nav = false;
+    add(mac);
+    station->send(peer->id(), 100);
+    peer_sends(rts_duration + us(5), FrameKind::rts, station->id(), rts_field);
+    air.run(us(200));
+    EXPECT_EQ(starts(*sniffer, FrameKind::cts), std::vector{rts_duration + us(5) + rts_duration + sifs});
+}
+
+TEST_F(RtsTest, AnRtsThatComesInsteadOfTheCtsIsNotAnsweredUnderTheOwnNav) {
+    add(with_rts());
+    station->send(peer->id(), 100);
+    peer_sends(rts_duration + us(5), FrameKind::rts, station->id(), rts_field);
+    air.run(us(200));
+    EXPECT_TRUE(starts(*sniffer, FrameKind::cts).empty());
+}
+
+TEST_F(RtsTest, AnRtsAndItsCtsAreInTheLedger) {
+    Station& a = air.add_station({0, 0, 0}, with_rts());
+    Station& b = air.add_station({light_microsecond_m, 0, 0}, with_rts());
+    air.add_station({0, 100, 0});
+    a.send(b.id(), 100);
+    air.run();
+    for (const FrameKind kind : {FrameKind::rts, FrameKind::cts}) {
+        EXPECT_EQ(air.frame_count(kind, FrameFate::delivered, false), 1U);
+        EXPECT_EQ(air.frame_count(kind, FrameFate::delivered, true), 1U);
+    }
+}
+
+}  // namespace
+}  // namespace netsim
