@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include <pybind11/pybind11.h>
 
@@ -85,10 +86,21 @@ void bind_network(py::module_& module) {
                 return network.run_until(SimTime::from_seconds(time), max_events);
             },
             py::arg("time"), py::arg("max_events") = ~std::uint64_t{0})
+        .def(
+            "step", [](Network& network, double time) { return network.step(SimTime::from_seconds(time)); },
+            py::arg("time"))
+        .def(
+            "schedule",
+            [](Network& network, double time, py::function callback) {
+                network.schedule(SimTime::from_seconds(time),
+                                 [callback = std::move(callback)] { callback(); });
+            },
+            py::arg("time"), py::arg("callback"))
         .def("finish", &Network::finish)
         .def("release_protocols", &Network::release_protocols)
         .def_property_readonly("now", [](const Network& network) { return network.now().seconds(); })
         .def_property_readonly("event_count", &Network::event_count)
+        .def_property_readonly("pending_count", &Network::pending_count)
         .def_property_readonly("fingerprint", &fingerprint)
         .def("frame_fates", &frame_fates)
         .def("frame_fates_at", &frame_fates_at, py::arg("receiver"))

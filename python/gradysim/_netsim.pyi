@@ -91,14 +91,28 @@ class Network:
     def initialize(self) -> None: ...
     def run_until(self, time: float, max_events: int = ...) -> bool:
         """Run the events up to and including `time` (seconds). False when `max_events` came first."""
+    def step(self, time: float) -> bool:
+        """Run one event, if there is one up to and including `time` (seconds); otherwise return False."""
+    def schedule(self, time: float, callback: Callable[[], object]) -> None:
+        """Have `callback()` called as an event at `time`, in seconds of simulated time.
+
+        It comes after what is scheduled for that time already. What it raises leaves `run_until`.
+        SimulationError: the time is in the past, or no time.
+        """
     def finish(self) -> None: ...
     def release_protocols(self) -> None:
-        """Let go of the protocols, which refer back to the network. To be called in the end, in any case."""
+        """Let go of the protocols and of scheduled callbacks, which refer back to the network.
+
+        To be called in the end, in any case.
+        """
     @property
     def now(self) -> float:
         """Simulated time in seconds."""
     @property
     def event_count(self) -> int: ...
+    @property
+    def pending_count(self) -> int:
+        """Events that are scheduled now."""
     @property
     def fingerprint(self) -> str:
         """16 hexadecimal digits: a hash of what happened on the air and in the protocols."""

@@ -14,6 +14,13 @@ EventHandle Simulator::schedule_at_place(SimTime time, Place place, Action actio
     return queue_.push_at_place(time, Priority::normal, place, action);
 }
 
+inline void Simulator::run_next(SimTime time) {
+    now_ = time;
+    ++event_count_;
+    Action action = queue_.pop();
+    action();
+}
+
 bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
     std::uint64_t budget = max_events;
     while (!queue_.empty()) {
@@ -24,14 +31,19 @@ bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
         if (budget-- == 0) {
             return false;
         }
-        now_ = time;
-        ++event_count_;
-        Action action = queue_.pop();
-        action();
+        run_next(time);
     }
     if (limit > now_) {
         now_ = limit;
     }
+    return true;
+}
+
+bool Simulator::step(SimTime limit) {
+    if (queue_.empty() || queue_.next_time() > limit) {
+        return false;
+    }
+    run_next(queue_.next_time());
     return true;
 }
 

@@ -33,8 +33,12 @@ public:
     // Runs the events up to and including `limit`, then sets the clock to it. Returns false, with the clock at the
     // last event, when `max_events` have run before that.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0});
+    // Runs one event, if there is one up to and including `limit`; otherwise returns false, and the clock stays.
+    bool step(SimTime limit);
 
 private:
+    void run_next(SimTime time);
+
     EventQueue queue_;
     SimTime now_;
     std::uint64_t event_count_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
@@ -80,6 +81,14 @@ void Network::initialize() {
     }
 }
 
+void Network::schedule(SimTime time, std::function<void()> call) {
+    if (time < now()) {
+        throw SimulationError("cannot schedule a call at " + text_of(time.seconds()) + " s: it is " +
+                              text_of(now().seconds()) + " s now");
+    }
+    scheduled_calls_.add(time, std::move(call));
+}
+
 void Network::finish() {
     for (Node& node : nodes_) {
         node.finish();
@@ -90,6 +99,7 @@ void Network::release_protocols() {
     for (Node& node : nodes_) {
         node.set_protocol(nullptr);
     }
+    scheduled_calls_.drop();
 }
 
 }  // namespace netsim

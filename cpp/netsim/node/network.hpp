@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 
 #include "netsim/config/medium_config.hpp"
@@ -15,6 +16,7 @@
 #include "netsim/mac/unit_disk_link.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/node/node.hpp"
+#include "netsim/node/scheduled_calls.hpp"
 #include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
 #include "netsim/trace/frame_fates.hpp"
@@ -41,14 +43,20 @@ public:
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
         return simulator_.run_until(limit, max_events);
     }
+    // Runs one event, if there is one up to and including `limit`; otherwise returns false, and the clock stays.
+    bool step(SimTime limit) { return simulator_.step(limit); }
+    // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
+    // run_until. Throws SimulationError for a time in the past.
+    void schedule(SimTime time, std::function<void()> call);
     // Calls the protocols' finish, in the order of ids.
     void finish();
-    // Drops the protocols, which may own more than their memory (a Python object that refers back to its
-    // node).
+    // Drops the protocols and what was scheduled, which may own more than their memory (a Python object that
+    // refers back to its node).
     void release_protocols();
 
     SimTime now() const { return simulator_.now(); }
     std::uint64_t event_count() const { return simulator_.event_count(); }
+    std::size_t pending_count() const { return simulator_.pending_count(); }
     std::uint64_t fingerprint() const { return fingerprint_.value(); }
     const FrameFates& frame_fates() const { return frame_fates_; }
     const MessageFates& message_fates() const { return message_fates_; }
@@ -68,6 +76,7 @@ private:
     std::deque<Radio> radios_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
+    ScheduledCalls scheduled_calls_{simulator_};
     std::int32_t node_count_ = 0;
 };
 

@@ -6,7 +6,7 @@ other direction the calls of the provider are the engine's own bound methods, so
 for costs one call.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -46,6 +46,7 @@ class NetsimProvider(IProvider):
     message over the MTU.
 
     Attributes:
+        handlers: Handlers that watch the run, by their labels; for extensions.
         history: What the tracked variables were, with times.
         mode: Name of the mode, for people.
     """
@@ -53,7 +54,13 @@ class NetsimProvider(IProvider):
     mode = "integrated mode"
 
     def __init__(
-        self, node: "Node", *, seed: int, reference_coordinates: Position, nodes: Sequence["Node"] = ()
+        self,
+        node: "Node",
+        *,
+        seed: int,
+        reference_coordinates: Position,
+        nodes: Sequence["Node"] = (),
+        handlers: Mapping[str, Any] | None = None,
     ) -> None:
         """Serve the protocol of `node`.
 
@@ -63,9 +70,11 @@ class NetsimProvider(IProvider):
             reference_coordinates: latitude in degrees, longitude in degrees and altitude in metres of the
                 origin of the scene
             nodes: all nodes of the network, for extensions that look around
+            handlers: handlers that watch the run, by their labels
         """
         self._node = node
         self._nodes = nodes
+        self.handlers = {} if handlers is None else handlers
         self._reference_coordinates = reference_coordinates
         self._random = random_stream(seed, node.id, "protocol")
         self.history = TrackedHistory(node.current_time)
@@ -142,11 +151,16 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
         seed: int,
         reference_coordinates: Position = (0.0, 0.0, 0.0),
         nodes: Sequence["Node"] = (),
+        handlers: Mapping[str, Any] | None = None,
     ) -> None:
         """Prepare `node`; the arguments are those of `NetsimProvider`."""
         self._node = node
         self.provider = NetsimProvider(
-            node, seed=seed, reference_coordinates=reference_coordinates, nodes=nodes
+            node,
+            seed=seed,
+            reference_coordinates=reference_coordinates,
+            nodes=nodes,
+            handlers=handlers,
         )
 
     def encapsulate(self, protocol: type[T]) -> None:

@@ -6,26 +6,33 @@ object: `execute` may raise, `result` tells at any time how far the run came.
 
 import random
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.network import build_network
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.run_result import NodeResult, RunResult
 from gradysim.results.slices import run_in_slices
+from gradysim.simulator.handler.interface import INodeHandler
 
 
 class IntegratedRun:
     """A scenario on the compiled engine: built by the constructor, run once by `execute`."""
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, *, handlers: Iterable[INodeHandler] = ()) -> None:
         """Build the network and the protocols.
 
+        `handlers` watch the run, as those of prototype mode: assertions, a viewer, one's own. One of them
+        that overrides `after_simulation_step` gets its turn after every event of the engine, of which there
+        are several for each frame. The run is slow then, one event at a time; other handlers do not slow it.
+
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
-        accept a value of the scenario, and what the constructor of a protocol raises.
+        accept a value of the scenario, ValueError or TypeError when a handler cannot work in this mode, and
+        what the constructor of a protocol raises.
         """
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
@@ -35,6 +42,7 @@ class IntegratedRun:
         self._network, self._nodes = build_network(scenario)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
+        self._handlers = EngineHandlers(handlers, self._network)
         self._encapsulators: list[NetsimEncapsulator[IProtocol]] = []
         self._make_protocols()
 
@@ -46,9 +54,11 @@ class IntegratedRun:
                 seed=scenario.seed,
                 reference_coordinates=scenario.reference_coordinates,
                 nodes=self._nodes,
+                handlers=self._handlers.by_label,
             )
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
+            self._handlers.register_node(node, encapsulator, scenario.seed)
 
     def execute(
         self,
@@ -58,15 +68,17 @@ class IntegratedRun:
         """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
 
         `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
-        passed on, with a note of node, time and callback, and ends the run without `finish`.
+        passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
+        handler raises, as for an assertion that failed. Handlers are finalized in any case.
         """
         network, limit_s = self._network, self._scenario.sim_time_limit_s
         random.seed(self._scenario.seed)  # another run may have been built in between
         try:
             try:
+                self._handlers.initialize()
                 network.initialize()
                 self._complete = run_in_slices(
-                    lambda max_events: network.run_until(limit_s, max_events),
+                    self._handlers.advance(limit_s),
                     lambda: network.now,
                     progress,
                     should_stop,
@@ -74,10 +86,12 @@ class IntegratedRun:
             except KeyboardInterrupt:
                 self._complete = False
             network.finish()
+            self._handlers.finalize()
         except BaseException:
             self._complete = False
             raise
         finally:
+            self._handlers.finalize_after_failure()
             network.release_protocols()
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
 
@@ -116,8 +130,9 @@ def run(
     *,
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
+    handlers: Iterable[INodeHandler] = (),
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
-    integrated_run = IntegratedRun(scenario)
+    integrated_run = IntegratedRun(scenario, handlers=handlers)
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

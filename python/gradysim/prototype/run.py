@@ -5,30 +5,33 @@ object: `execute` may raise, `result` tells at any time how far the run came.
 """
 
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
 from gradysim.config.scenario import Scenario
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.run_result import NodeResult, RunResult
 from gradysim.results.slices import run_in_slices
+from gradysim.simulator.handler.interface import INodeHandler
 
 
 class PrototypeRun:
     """A scenario on the plain simulator: built by the constructor, run once by `execute`."""
 
-    def __init__(self, scenario: Scenario) -> None:
+    def __init__(self, scenario: Scenario, *, handlers: Iterable[INodeHandler] = ()) -> None:
         """Build the simulation and the protocols.
 
-        Raises ConfigError when the simulator does not accept a value of the scenario, and what the
-        constructor of a protocol raises.
+        `handlers` are added to those of communication, timers and mobility: assertions, a viewer, one's own.
+
+        Raises ConfigError when the simulator does not accept a value of the scenario, ValueError or TypeError
+        when one of the handlers cannot be added, and what the constructor of a protocol raises.
         """
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
         self._scenario = scenario
         self._complete = False
         random.seed(scenario.seed)
-        self._simulator, self._communication = build_simulation(scenario)
+        self._simulator, self._communication = build_simulation(scenario, handlers)
 
     def execute(
         self,
@@ -38,7 +41,8 @@ class PrototypeRun:
         """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
 
         `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
-        passed on, with a note of node, time and callback, and ends the run without `finish`.
+        passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
+        handler raises, as for an assertion that failed. Handlers are finalized in any case.
         """
         simulator = self._simulator
         try:
@@ -94,8 +98,9 @@ def run(
     *,
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
+    handlers: Iterable[INodeHandler] = (),
 ) -> RunResult:
     """Run `scenario` on the plain simulator and return its result; see `PrototypeRun` for the details."""
-    prototype_run = PrototypeRun(scenario)
+    prototype_run = PrototypeRun(scenario, handlers=handlers)
     prototype_run.execute(progress, should_stop)
     return prototype_run.result()

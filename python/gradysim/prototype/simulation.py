@@ -1,21 +1,31 @@
 """A scenario as a simulation of the plain simulator in Python."""
 
+from collections.abc import Iterable
+
 from gradysim.config.error import ConfigError
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import NodeSpec, Scenario
 from gradysim.prototype.counted_communication import CountedCommunication
 from gradysim.simulator.handler.communication import CommunicationMedium
+from gradysim.simulator.handler.given import given_handlers
+from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
 
 
-def build_simulation(scenario: Scenario) -> tuple[Simulator, CountedCommunication]:
+def build_simulation(
+    scenario: Scenario, handlers: Iterable[INodeHandler] = ()
+) -> tuple[Simulator, CountedCommunication]:
     """Return the simulation of `scenario`, ready to run, and its network, which knows the fates.
 
-    Raises ConfigError when a value is outside the simulator's range, and what the constructor of a protocol
-    raises.
+    `handlers` come beside those of communication, timers and mobility, and after them.
+
+    Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
+    handlers cannot be added, and what the constructor of a protocol raises.
     """
+    world = "its {label} handler follows from the scenario"
+    given = given_handlers(handlers, "prototype mode", world, asynchronous=True)
     communication = CountedCommunication(communication_medium(scenario))
     builder = SimulationBuilder(
         SimulationConfiguration(
@@ -23,6 +33,8 @@ def build_simulation(scenario: Scenario) -> tuple[Simulator, CountedCommunicatio
         )
     )
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility_handler(scenario))
+    for handler in given.values():
+        builder.add_handler(handler)
     for spec in scenario.nodes:
         builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
     return builder.build(), communication

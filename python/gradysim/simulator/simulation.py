@@ -19,6 +19,7 @@ from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.given import step_hooks
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
@@ -100,9 +101,7 @@ class Simulator:
         self._pacing: Pacing | None = None
         self._report: TimingReport | None = None
         self._profile = EventProfile() if configuration.profile else None
-        self._step_hooks = [
-            handler.after_simulation_step for handler in handlers.values() if _has_hook(handler)
-        ]
+        self._step_hooks = step_hooks(self._handlers.values())
         self._until_s = math.inf if configuration.duration is None else configuration.duration
         if self._turns is not None:
             self._guards.append(weakref.finalize(self, self._turns.close))
@@ -376,12 +375,6 @@ class SimulationBuilder:
         for identifier, (protocol, position) in enumerate(self._nodes):
             simulator.create_node(position, protocol, identifier)
         return simulator
-
-
-def _has_hook(handler: INodeHandler) -> bool:
-    """Whether a handler does something after each event; most do not, and are not called."""
-    function = getattr(handler.after_simulation_step, "__func__", None)
-    return function is not INodeHandler.after_simulation_step
 
 
 def _checked_protocol(protocol: type[IProtocol]) -> type[IProtocol]:

@@ -121,6 +121,28 @@ TEST(Simulator, AnExceptionLeavesItUsable) {
     EXPECT_EQ(runs, 1);
 }
 
+TEST(Simulator, AStepIsOneEventAndTheClockStandsAtIt) {
+    Simulator simulator;
+    int runs = 0;
+    simulator.schedule_at(us(1), [&] { ++runs; });
+    simulator.schedule_at(us(2), [&] { ++runs; });
+    EXPECT_TRUE(simulator.step(us(10)));
+    EXPECT_EQ(runs, 1);
+    EXPECT_EQ(simulator.now(), us(1));
+    EXPECT_EQ(simulator.event_count(), 1U);
+}
+
+TEST(Simulator, WithoutAnEventUpToTheLimitThereIsNoStep) {
+    Simulator simulator;
+    EXPECT_FALSE(simulator.step(us(10)));
+    simulator.schedule_at(us(2), [] {});
+    EXPECT_FALSE(simulator.step(us(1)));
+    EXPECT_EQ(simulator.now(), SimTime{});
+    EXPECT_TRUE(simulator.step(us(2)));
+    EXPECT_FALSE(simulator.step(us(10)));
+    EXPECT_EQ(simulator.now(), us(2));
+}
+
 TEST(SimulatorDeathTest, SchedulingInThePastIsAnInternalError) {
     Simulator simulator;
     simulator.run_until(us(10));

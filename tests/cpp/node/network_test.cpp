@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -136,6 +137,26 @@ TEST(Network, AnExceptionOfAProtocolEndsRunUntil) {
     network.initialize();
     EXPECT_THROW(network.run_until(s(10)), std::runtime_error);
     EXPECT_EQ(network.now(), s(2));
+}
+
+TEST(Network, RunsWhatIsScheduledBesideItsNodes) {
+    Network network(MediumConfig{}, 1);
+    SimTime ran;
+    network.schedule(s(2), [&] { ran = network.now(); });
+    EXPECT_EQ(network.pending_count(), 1U);
+    EXPECT_TRUE(network.step(s(5)));
+    EXPECT_FALSE(network.step(s(5)));
+    EXPECT_EQ(ran, s(2));
+    EXPECT_THROW(network.schedule(s(1), [] {}), SimulationError);
+}
+
+TEST(Network, WhatWasScheduledIsReleasedWithTheProtocols) {
+    Network network(MediumConfig{}, 1);
+    const auto owned = std::make_shared<int>();
+    network.schedule(s(2), [owned] {});
+    network.release_protocols();
+    EXPECT_EQ(owned.use_count(), 1);
+    EXPECT_EQ(network.pending_count(), 0U);
 }
 
 TEST(Network, ReleasedProtocolsAreGone) {

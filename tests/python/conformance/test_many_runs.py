@@ -15,6 +15,14 @@ from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.assertion import (
+    AssertionHandler,
+    FailedAssertionException,
+    assert_always_true_for_protocol,
+)
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.node import Node
 
 RUNS = 200
 CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (20.0, 0.0, 0.0)], telemetry_interval_s=0.1)
@@ -69,7 +77,51 @@ def never_started(scenario: Scenario) -> None:
     IntegratedRun(scenario)
 
 
-ENDS = [(complete, Chatty), (failed, Failing), (stopped, Chatty), (never_started, Chatty)]
+@assert_always_true_for_protocol(Chatty, "nobody hears anything")
+def nobody_hears(node: Node[Chatty]) -> bool:
+    return node.protocol_encapsulator.provider.tracked_variables.get("heard", 0) == 0
+
+
+class Ticking(INodeHandler):
+    """Has an event pending from the moment it is injected, to the end."""
+
+    @staticmethod
+    def get_label() -> str:
+        return "ticking"
+
+    def inject(self, event_loop: EventLoop) -> None:
+        self.event_loop = event_loop
+        self.tick()
+
+    def register_node(self, node: Node[Chatty]) -> None:
+        self.node = node
+
+    def tick(self) -> None:
+        self.event_loop.schedule_event(self.event_loop.current_time + 0.1, self.tick)
+
+
+def watched(scenario: Scenario) -> None:
+    IntegratedRun(scenario, handlers=[Ticking(), AssertionHandler([])]).execute()
+
+
+def assertion_failed(scenario: Scenario) -> None:
+    with suppress(FailedAssertionException):
+        IntegratedRun(scenario, handlers=[Ticking(), AssertionHandler([nobody_hears])]).execute()
+
+
+def watched_but_never_started(scenario: Scenario) -> None:
+    IntegratedRun(scenario, handlers=[Ticking()])
+
+
+ENDS = [
+    (complete, Chatty),
+    (failed, Failing),
+    (stopped, Chatty),
+    (never_started, Chatty),
+    (watched, Chatty),
+    (assertion_failed, Chatty),
+    (watched_but_never_started, Chatty),
+]
 
 
 @pytest.mark.parametrize(("make", "protocol"), ENDS)

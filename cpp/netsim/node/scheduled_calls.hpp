@@ -1,0 +1,61 @@
+// Calls that whoever runs the network has scheduled as events of it, beside what its nodes do.
+//
+// The kernel's actions hold only pointers and numbers; callables that own something (a Python object) are kept here,
+// from scheduling until they run or are dropped.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "netsim/kernel/simulator.hpp"
+
+namespace netsim {
+
+class ScheduledCalls {
+public:
+    explicit ScheduledCalls(Simulator& simulator) : simulator_(simulator) {}
+    ScheduledCalls(const ScheduledCalls&) = delete;
+    ScheduledCalls& operator=(const ScheduledCalls&) = delete;
+
+    // The caller sees to it that `time` is not in the past. What `call` throws leaves Simulator::run_until.
+    void add(SimTime time, std::function<void()> call) {
+        std::size_t number = calls_.size();
+        if (free_.empty()) {
+            calls_.emplace_back();
+        } else {
+            number = free_.back();
+            free_.pop_back();
+        }
+        calls_[number].function = std::move(call);
+        calls_[number].event = simulator_.schedule_at(time, [this, number] { run(number); });
+    }
+
+    // Cancels the pending ones and lets go of what they own, whose end may schedule new ones.
+    void drop() {
+        const std::vector<Call> dropped = std::exchange(calls_, {});
+        free_.clear();
+        for (const Call& call : dropped) {
+            simulator_.cancel(call.event);  // harmless for those that ran
+        }
+    }
+
+private:
+    struct Call {
+        std::function<void()> function;
+        EventHandle event;
+    };
+
+    void run(std::size_t number) {
+        const std::function<void()> function = std::exchange(calls_[number].function, nullptr);
+        free_.push_back(number);
+        function();
+    }
+
+    Simulator& simulator_;
+    std::vector<Call> calls_;
+    std::vector<std::size_t> free_;
+};
+
+}  // namespace netsim

@@ -1,0 +1,96 @@
+"""Handlers of the published interface beside the engine: assertions, viewers, and users' own.
+
+The engine is what the communication, timer and mobility handlers are in prototype mode. Every other handler
+needs an event loop, nodes to look at and its turn at the right moments, which it is given here in the same
+order as there.
+"""
+
+import logging
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, cast
+
+from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.integrated.event_loop import EngineEventLoop
+from gradysim.integrated.node_view import NodeView
+from gradysim.simulator.handler.given import given_handlers, step_hooks
+from gradysim.simulator.handler.interface import INodeHandler
+
+if TYPE_CHECKING:
+    from gradysim._netsim import Network, Node
+    from gradysim.simulator.event import EventLoop
+    from gradysim.simulator.node import Node as SimulatorNode
+
+_logger = logging.getLogger(__name__)
+
+MODE = "integrated mode"
+
+
+def checked_handlers(handlers: Iterable[INodeHandler]) -> dict[str, INodeHandler]:
+    """Return `handlers` by their labels; TypeError or ValueError for one that cannot work here."""
+    world = "the engine is its {label}, set in the scenario"
+    return given_handlers(handlers, MODE, world, asynchronous=False)
+
+
+class EngineHandlers:
+    """The handlers of one run.
+
+    Attributes:
+        by_label: The handlers.
+    """
+
+    def __init__(self, handlers: Iterable[INodeHandler], network: "Network") -> None:
+        """Inject the event loop; raises as `checked_handlers`."""
+        self.by_label = checked_handlers(handlers)
+        self._network = network
+        self._hooks = step_hooks(self.by_label.values())
+        self._live: list[INodeHandler] = []  # those to be finalized
+        for handler in self.by_label.values():
+            handler.inject(cast("EventLoop", EngineEventLoop(network)))
+
+    def register_node(self, node: "Node", encapsulator: NetsimEncapsulator[Any], seed: int) -> None:
+        """Show every handler one more node."""
+        if self.by_label:
+            view = cast("SimulatorNode[Any]", NodeView(node, encapsulator, seed))
+            for handler in self.by_label.values():
+                handler.register_node(view)
+
+    def initialize(self) -> None:
+        """Begin; before the protocols do."""
+        for handler in self.by_label.values():
+            self._live.append(handler)
+            handler.initialize()
+
+    def advance(self, limit_s: float) -> Callable[[int], bool]:
+        """Return what runs the network up to `limit_s`, for `run_in_slices`.
+
+        If a handler wants its turn after every event, the events are run one at a time.
+        """
+        network, hooks = self._network, self._hooks
+
+        def run_fast(max_events: int) -> bool:
+            return network.run_until(limit_s, max_events)
+
+        def run_step_by_step(max_events: int) -> bool:
+            for _ in range(max_events):
+                if not network.step(limit_s):
+                    return network.run_until(limit_s)  # sets the clock
+                iteration, timestamp = network.event_count - 1, network.now
+                for hook in hooks:
+                    hook(iteration, timestamp)
+            return False
+
+        return run_step_by_step if hooks else run_fast
+
+    def finalize(self) -> None:
+        """End; after the protocols have."""
+        while self._live:
+            self._live.pop(0).finalize()
+
+    def finalize_after_failure(self) -> None:
+        """End those that are left; what they raise is logged, and does not hide the failure before."""
+        while self._live:
+            handler = self._live.pop(0)
+            try:
+                handler.finalize()
+            except Exception:
+                _logger.exception("The handler %s failed to finalize, too", handler.get_label())

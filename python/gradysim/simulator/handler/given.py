@@ -1,0 +1,53 @@
+"""The handlers that somebody gives to a run of a scenario, checked."""
+
+from collections.abc import Callable, Collection, Iterable
+
+from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
+
+StepHook = Callable[[int, float], None]
+
+WORLD = ("communication", "timer", "mobility")
+"""Labels of the handlers that make up the world; in the run of a scenario these are not anybody's to give."""
+
+
+def given_handlers(
+    handlers: Iterable[INodeHandler], mode: str, world: str, *, asynchronous: bool
+) -> dict[str, INodeHandler]:
+    """Return `handlers` by their labels, in the order given.
+
+    Args:
+        handlers: Instances, of different labels.
+        mode: Name of the mode in which they are to work, for people.
+        world: What takes the place of a handler with one of the labels `WORLD` there, for people.
+        asynchronous: Whether an `IAsyncNodeHandler` works there.
+
+    Raises:
+        TypeError: Something else than a handler is among them.
+        ValueError: One of them cannot work there, or two have the same label.
+    """
+    by_label: dict[str, INodeHandler] = {}
+    for handler in handlers:
+        if isinstance(handler, type) or not callable(getattr(handler, "get_label", None)):
+            raise TypeError(f"expected a handler, an instance of a class like INodeHandler, got {handler!r}")
+        label, name = handler.get_label(), type(handler).__name__
+        if label in WORLD:
+            raise ValueError(f"{name} cannot be given to a run in {mode}: {world.format(label=label)}")
+        if isinstance(handler, IAsyncNodeHandler) and not asynchronous:
+            raise ValueError(f"{name} waits for the world outside with asyncio, which {mode} does not do")
+        if label in by_label:
+            raise ValueError(
+                f"two handlers are labelled {label!r}: {type(by_label[label]).__name__} and {name}; "
+                "a run has one of each label"
+            )
+        by_label[label] = handler
+    return by_label
+
+
+def step_hooks(handlers: Collection[INodeHandler]) -> list[StepHook]:
+    """Return the `after_simulation_step` of those that do something then; most do not, and are not called."""
+    return [handler.after_simulation_step for handler in handlers if _has_hook(handler)]
+
+
+def _has_hook(handler: INodeHandler) -> bool:
+    function = getattr(handler.after_simulation_step, "__func__", None)
+    return function is not INodeHandler.after_simulation_step
