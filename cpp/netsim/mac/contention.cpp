@@ -6,6 +6,15 @@
 
 namespace netsim {
 
+namespace {
+
+// What begins so shortly before the end of a slot cannot have been sensed by then, and does not hold back a grant.
+// Sensing takes microseconds really; this only makes up for the rounding to picoseconds. It matters on a line: the
+// frame of a station then reaches the next one just when that one's slot ends, if both have drawn the same number.
+constexpr SimTime unnoticed = SimTime::from_ns(1);
+
+}  // namespace
+
 void Contention::start(int contention_window) {
     NETSIM_ASSERT(state_ == State::idle);
     slots_left_ = static_cast<int>(draws_.uniform_int(static_cast<std::uint32_t>(contention_window) + 1));
@@ -31,7 +40,7 @@ void Contention::channel_busy_changed(bool busy) {
         }
         return;
     }
-    if (state_ == State::waiting) {
+    if (state_ == State::waiting && grant_time_ - simulator_.now() > unnoticed) {
         simulator_.cancel(grant_);
         state_ = State::deferring;
         // Slots begun count as not waited; the interframe space does not count as slots.

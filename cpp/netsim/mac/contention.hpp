@@ -8,8 +8,8 @@
 //
 // Every wait is DIFS (EIFS after a broken frame) + backoff · slot. Immediate access (`backoff_optimization`): time for
 // which the channel was free and this station idle before `start` counts towards it, so a frame that meets a channel
-// idle for long enough leaves at once. A grant is the last event of its instant: what made the channel busy at the
-// same instant wins.
+// idle for long enough leaves at once. Two stations whose slots end in the same instant both transmit and collide:
+// neither can have sensed the other by then. A grant is the last event of its instant, so that it knows all of it.
 #pragma once
 
 #include "netsim/kernel/random.hpp"

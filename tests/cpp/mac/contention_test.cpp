@@ -120,13 +120,41 @@ TEST_F(ContentionTest, BusyTimeDuringTheSpaceStartsItAgain) {
     EXPECT_EQ(grants, std::vector{us(1149) + difs});
 }
 
-TEST_F(ContentionTest, AGrantIsTheLastEventOfItsInstant) {
+TEST_F(ContentionTest, WhatBeginsInTheInstantOfAGrantCannotHoldItBack) {
     busy_at(us(0), us(1000));
     start_at(us(500));
-    // In the instant of the grant, and scheduled after it.
-    simulator.schedule_at(us(1049), [this] { busy_at(us(1050), us(100)); });
+    busy_at(us(1050), us(100));
     run();
-    EXPECT_EQ(grants, std::vector{us(1150) + difs});
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, NorWhatBeginsAtMostANanosecondBefore) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    busy_at(us(1050) - SimTime::from_ns(1), us(100));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(ContentionTest, WhatBeginsEarlierHoldsTheGrantBack) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    const SimTime begin = us(1050) - SimTime::from_ps(1001);
+    busy_at(begin, us(100));
+    run();
+    EXPECT_EQ(grants, std::vector{begin + us(100) + difs});
+}
+
+TEST_F(ContentionTest, AGrantIsTheLastEventOfItsInstant) {
+    std::vector<SimTime> grants_before;
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    simulator.schedule_at(us(1049), [this, &grants_before] {
+        simulator.schedule_at(us(1050), [this, &grants_before] { grants_before = grants; });
+    });
+    run();
+    EXPECT_EQ(grants_before, std::vector<SimTime>{});
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
 }
 
 TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {

@@ -1,0 +1,30 @@
+"""Where stations stand must not decide whether their slots collide: at one point, on a line, anywhere near."""
+
+from pathlib import Path
+
+import pytest
+
+from gradysim.config.scenario import load_scenarios
+from gradysim.integrated.run import run
+
+SATURATION = Path(__file__).resolve().parents[3] / "configs" / "reference" / "saturation.ini"
+
+
+def lost_in_slots(*places: str) -> int:
+    """Unicast frames that ten saturating stations lose because others used the same slot."""
+    overrides = ["*.numStations = 10", "sim-time-limit = 2s", *places]
+    (scenario,) = load_scenarios(SATURATION, "G54", overrides=overrides)
+    fates = run(scenario).fates["frames"]["unicast"]
+    return int(sum(fates[fate] for fate in ("interference", "receiver_locked", "receiver_transmitting")))
+
+
+@pytest.mark.parametrize(
+    "places",
+    [
+        ["*.stations[*].mobility.lineStepY = 0m"],
+        ["*.stations[*].mobility.lineStepX = 0.1m", "*.stations[*].mobility.lineStepY = 0m"],
+    ],
+    ids=["at one point", "on a line with the sink"],
+)
+def test_stations_collide_wherever_they_stand(places):
+    assert lost_in_slots(*places) == pytest.approx(lost_in_slots(), rel=0.1)
