@@ -13,12 +13,13 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export DEBIAN_FRONTEND := noninteractive
 
 cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
+python_packages := $(shell find python -name __init__.py)
 cpp_checked := $(shell find cpp tests/cpp bench -name '*.[ch]pp')
 python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark
+.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-tshark
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -33,7 +34,7 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 	cmake --build build/asan
 	ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error
 
-test-python: build $(STAMPS)/test  ## Python tests, in parallel.
+test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel.
 	$(BIN)/python -m pytest --numprocesses=auto
 
 lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
@@ -96,6 +97,9 @@ system-gtest:
 system-benchmark:
 	$(call need,echo '#include <benchmark/benchmark.h>' | $${CXX:-g++} -E -x c++ -,libbenchmark-dev)
 
+system-tshark:
+	$(call need,command -v tshark,tshark)
+
 $(VENV)/bin/python:
 	$(call need,$(PYTHON) -c 'import venv$(comma) ensurepip',python3-venv)
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and f"gradysim needs Python 3.11 or newer, {sys.executable} is {sys.version}")'
@@ -108,8 +112,9 @@ $(STAMPS)/build $(STAMPS)/test $(STAMPS)/verify $(STAMPS)/lint: pyproject.toml |
 	$(BIN)/pip install --quiet --group $(@F)
 	@touch $@
 
-# Editable: Python sources are used where they lie, the compiled module is rebuilt here when a source of it changes.
-$(STAMPS)/editable: pyproject.toml $(cpp_engine) | $(STAMPS)/build
+# Editable: Python sources are used where they lie, the compiled module is rebuilt here when a source of it changes. New
+# packages are only found after another installation.
+$(STAMPS)/editable: pyproject.toml $(cpp_engine) $(python_packages) | $(STAMPS)/build
 	$(call need,$(BIN)/python -c 'import os$(comma)sys$(comma)sysconfig; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))',python3-dev)
 	$(BIN)/pip install --quiet --no-build-isolation --editable .
 	@touch $@
