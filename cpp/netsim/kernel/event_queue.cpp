@@ -18,8 +18,15 @@ EventHandle EventQueue::push_at_place(SimTime time, Priority priority, Place pla
     slots_[slot].action = action;
     const std::uint32_t generation = slots_[slot].generation;
     const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | place;
-    heap_.push_back(Key{time.ps(), order, slot, generation});
-    sift_up(heap_.size() - 1);
+    const Key key{time.ps(), order, slot, generation};
+    if (gap_at_top_) {
+        gap_at_top_ = false;
+        heap_.front() = key;
+        sift_down(0);
+    } else {
+        heap_.push_back(key);
+        sift_up(heap_.size() - 1);
+    }
     ++live_;
     return EventHandle{slot, generation};
 }
@@ -49,7 +56,7 @@ Action EventQueue::pop() {
     NETSIM_ASSERT(live_ > 0);
     drop_dead_top();
     const std::uint32_t slot = heap_.front().slot;
-    remove_top();
+    gap_at_top_ = true;
     Action action = slots_[slot].action;
     release(slot);
     return action;
@@ -64,12 +71,14 @@ void EventQueue::release(std::uint32_t slot) {
 }
 
 void EventQueue::drop_dead_top() {
+    close_gap();
     while (is_dead(heap_.front())) {
         remove_top();
     }
 }
 
 void EventQueue::drop_all_dead() {
+    close_gap();
     std::erase_if(heap_, [this](const Key& key) { return is_dead(key); });
     for (std::size_t position = heap_.size() / 2; position-- > 0;) {
         sift_down(position);

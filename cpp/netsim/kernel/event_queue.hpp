@@ -2,7 +2,8 @@
 //
 // The order is a contract: by time, then by priority, then by the order of scheduling. An event that is scheduled late
 // can keep a place in that order that was reserved before. Small keys live in a binary heap, what an event does lives
-// in a pool beside it. Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
+// in a pool beside it. An event that has been taken out leaves a gap at the top, into which goes what it schedules, as
+// most events schedule their successor. Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
 // together when they outnumber the living.
 #pragma once
 
@@ -67,6 +68,12 @@ private:
 
     bool is_dead(const Key& key) const { return slots_[key.slot].generation != key.generation; }
     void release(std::uint32_t slot);
+    void close_gap() {
+        if (gap_at_top_) {
+            gap_at_top_ = false;
+            remove_top();
+        }
+    }
     void drop_dead_top();
     void drop_all_dead();
     void sift_up(std::size_t position);
@@ -78,6 +85,7 @@ private:
     std::vector<std::uint32_t> free_slots_;
     Place next_place_ = 0;
     std::size_t live_ = 0;
+    bool gap_at_top_ = false;  // heap_[0] is of an event that was taken out
 };
 
 }  // namespace netsim

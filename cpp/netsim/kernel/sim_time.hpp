@@ -18,7 +18,16 @@ public:
     static constexpr SimTime from_ns(std::int64_t nanoseconds) { return SimTime(nanoseconds * 1'000); }
     static constexpr SimTime from_us(std::int64_t microseconds) { return SimTime(microseconds * 1'000'000); }
     // Rounds to the nearest picosecond. Throws SimulationError for NaN and for what is out of range.
-    static SimTime from_seconds(double seconds);
+    static SimTime from_seconds(double seconds) {
+        constexpr double limit_s = 9.2e6;  // int64 picoseconds end at 9.223e6 s
+        if (!(seconds >= -limit_s && seconds <= limit_s)) {
+            refuse_seconds(seconds);
+        }
+        const double exact_ps = seconds * 1e12;
+        const auto whole_ps = static_cast<std::int64_t>(exact_ps);  // towards zero
+        const double rest_ps = exact_ps - static_cast<double>(whole_ps);
+        return SimTime(whole_ps + static_cast<int>(rest_ps >= 0.5) - static_cast<int>(rest_ps <= -0.5));
+    }
     static constexpr SimTime max() { return SimTime(std::numeric_limits<std::int64_t>::max()); }
     // Far enough in the past to count as "always"; differences with any instant of a run do not overflow.
     static constexpr SimTime long_ago() { return SimTime(std::numeric_limits<std::int64_t>::min() / 4); }
@@ -38,6 +47,7 @@ public:
 
 private:
     explicit constexpr SimTime(std::int64_t ps) : ps_(ps) {}
+    [[noreturn]] static void refuse_seconds(double seconds);
 
     std::int64_t ps_ = 0;
 };

@@ -15,6 +15,24 @@ SimTime propagation_delay(double distance_m) {
     return SimTime::from_seconds(distance_m / speed_of_light_mps);
 }
 
+// At least that, for any number; years are as good as for ever.
+SimTime most_propagation_delay(double distance_m) {
+    constexpr double long_s = 4e6;
+    const double delay_s = distance_m / speed_of_light_mps;
+    return delay_s < long_s ? SimTime::from_seconds(delay_s) + SimTime::from_ns(1)
+                            : SimTime::from_seconds(long_s);
+}
+
+// The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
+void fetch(const Receiver& receiver) {
+    constexpr std::uintptr_t cache_line = 64;
+    constexpr std::uintptr_t lines = 5;
+    const auto address = reinterpret_cast<std::uintptr_t>(receiver.listener);
+    for (std::uintptr_t line = 0; line < lines; ++line) {
+        __builtin_prefetch(reinterpret_cast<const void*>(address + line * cache_line));
+    }
+}
+
 }  // namespace
 
 Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
@@ -27,81 +45,163 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       hearing_(hearing) {}
 
 NodeId Medium::attach(const Receiver& receiver) {
+    const auto node = static_cast<NodeId>(attached_.size());
     attached_.push_back(Attached{receiver});
-    return static_cast<NodeId>(attached_.size()) - 1;
+    odometer_.watch(*receiver.trajectory, simulator_.now());
+    // Less than the difference by what the sum with the noise may be rounded.
+    const double energy_w =
+        receiver.energy_detection_w - background_noise_w_ - 1e-15 * receiver.energy_detection_w;
+    const double least_w = std::min(receiver.sensitivity_w, energy_w);
+    const int keenness = least_w > 0 ? std::ilogb(least_w) / 2 : std::numeric_limits<int>::min();
+    auto audience = std::find_if(audiences_.begin(), audiences_.end(), [&](const Audience& other) {
+        return other.keenness == keenness && other.band == receiver.band;
+    });
+    if (audience == audiences_.end()) {
+        audiences_.push_back(Audience{.band = receiver.band,
+                                      .keenness = keenness,
+                                      .least_w = least_w,
+                                      .least_energy_w = energy_w,
+                                      .members = Neighbours()});
+        audience = audiences_.end() - 1;
+    }
+    audience->least_w = std::min(audience->least_w, least_w);
+    audience->least_energy_w = std::min(audience->least_energy_w, energy_w);
+    audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
+    audience->tx_power_w = -1;
+    audience->members.add(node, *receiver.trajectory);
+    return node;
 }
 
 void Medium::transmit(Transmission transmission) {
     forget_the_past();
-    const SimTime now = simulator_.now();
-    transmission.id = next_id_++;
-    transmission.start = now;
-    transmission.origin = attached_[transmission.sender].receiver.trajectory->position_at(now);
-    const bool overlaps_others = may_overlap(transmission);
-    fingerprint_.add(static_cast<std::uint64_t>(now.ps()));
-    fingerprint_.add((static_cast<std::uint64_t>(transmission.sender) << 32) ^ transmission.psdu_bytes);
+    OnAir& entry = put_on_air(std::move(transmission));
+    const Transmission& sent = entry.transmission;
+    fingerprint_.add(static_cast<std::uint64_t>(sent.start.ps()));
+    fingerprint_.add((static_cast<std::uint64_t>(sent.sender) << 32) ^ sent.psdu_bytes);
+    if (hearing_ == Hearing::everything) {
+        tell_everybody(entry);
+    } else {
+        tell_those_it_matters_to(entry);
+    }
+}
 
-    OnAir& entry = on_air_.emplace_back(
-        OnAir{std::move(transmission), now, simulator_.reserve_places(2 * attached_.size()), {}});
+Medium::OnAir& Medium::put_on_air(Transmission transmission) {
+    if (spare_.empty()) {
+        spare_.push_back(std::make_unique<OnAir>());
+    }
+    on_air_.push_back(std::move(spare_.back()));
+    spare_.pop_back();
+    const SimTime now = simulator_.now();
+    OnAir& entry = *on_air_.back();
+    entry.transmission = std::move(transmission);
+    entry.transmission.id = next_id_++;
+    entry.transmission.start = now;
+    entry.transmission.origin = attached_[entry.transmission.sender].receiver.trajectory->position_at(now);
+    entry.last_end = now;
+    entry.first_place = simulator_.reserve_places(2 * attached_.size());
+    entry.odometer_m = odometer_.reading_m(now);
+    entry.heard.clear();
+    entry.started = 0;
+    entry.ended = 0;
+    entry.told_later.clear();
+    return entry;
+}
+
+// The plain model.
+void Medium::tell_everybody(OnAir& entry) {
     const Transmission& sent = entry.transmission;
     CopyCount addressed;
     CopyCount overheard;
-    double farthest_m2 = 0;
     for (NodeId node = 0; node < static_cast<NodeId>(attached_.size()); ++node) {
-        Attached& attached = attached_[node];
-        const Receiver& receiver = attached.receiver;
+        const Receiver& receiver = attached_[node].receiver;
         if (node == sent.sender || !sent.band.fits_in(receiver.band)) {
             continue;
         }
+        const Arrival arrival = arrival_at(sent, receiver);
         CopyCount& count = sent.label.is_for(node) ? addressed : overheard;
         ++count.made;
-        const double distance_m2 = squared_distance(sent.origin, receiver.trajectory->position_at(now));
-        farthest_m2 = std::max(farthest_m2, distance_m2);
-        if (!overlaps_others && distance_m2 > squared_reach_m2(attached, sent)) {
-            ++count.too_weak;
-            continue;
-        }
-        const Arrival arrival = arrival_at(sent, receiver);
         if (arrival.power_w < receiver.sensitivity_w) {
             ++count.too_weak;
         }
-        if (is_told_alone(receiver, arrival.power_w)) {
-            tell(node, entry, arrival);
-        }
-        if (overlaps_others && background_noise_w_ + arrival.power_w < receiver.energy_detection_w) {
-            tell_if_energy_adds_up(node, entry, arrival);
-        }
+        entry.last_end = std::max(entry.last_end, arrival.end);
+        tell(node, entry, arrival);
     }
-    entry.last_end = now + propagation_delay(std::sqrt(farthest_m2)) + sent.duration;
     fates_.book_transmission(sent.label, addressed, overheard);
 }
 
-bool Medium::may_overlap(const Transmission& newest) const {
-    // At any receiver, the ends of two frames are shifted against each other by at most the distance of their
-    // senders (triangle inequality), and by what the receiver moves in between, for which the slack is ample.
-    static constexpr SimTime slack = SimTime::from_us(1);
-    return std::any_of(on_air_.begin(), on_air_.end(), [&newest](const OnAir& other) {
-        const SimTime shift = propagation_delay(distance(other.transmission.origin, newest.origin));
-        return other.transmission.start + other.transmission.duration + shift + slack > newest.start;
-    });
+void Medium::tell_those_it_matters_to(OnAir& entry) {
+    const Transmission& sent = entry.transmission;
+    const SimTime now = sent.start;
+    find_those_beside(entry);
+    std::uint64_t copies = 0;
+    std::uint64_t noticed_copies = 0;
+    bool addressee_notices = false;
+    double farthest_m = 0;
+    for (Audience& audience : audiences_) {
+        if (!sent.band.fits_in(audience.band)) {
+            continue;
+        }
+        copies += audience.members.size();
+        const double within_m = reach_m(audience, sent);
+        audience.members.prepare(now, odometer_, within_m);
+        farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
+        audience.members.visit(sent.origin, within_m, [&](NodeId node, const Position& place) {
+            const double squared_m2 = squared_distance(sent.origin, place);
+            if (squared_m2 > within_m * within_m || node == sent.sender) {
+                return;
+            }
+            const Receiver& receiver = attached_[node].receiver;
+            const double distance_m = std::sqrt(squared_m2);
+            const double power_w = sent.power_w * path_loss_.gain(distance_m, sent.band.carrier_hz);
+            if (power_w >= receiver.sensitivity_w) {
+                ++noticed_copies;
+                addressee_notices |= node == sent.label.destination;
+            }
+            if (is_told_alone(receiver, power_w)) {
+                fetch(receiver);
+                entry.heard.push_back(Heard{now + propagation_delay(distance_m), node, power_w});
+            }
+        });
+    }
+    --copies;  // the sender hears its band, but not itself
+    entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
+    schedule_arrivals(entry);
+    if (!beside_.empty()) {
+        for (const Audience& audience : audiences_) {
+            if (sent.band.fits_in(audience.band)) {
+                tell_where_energy_adds_up(entry, audience);
+            }
+        }
+    }
+    CopyCount all{copies, copies - noticed_copies};
+    CopyCount addressed;
+    if (sent.label.destination == broadcast_id) {
+        std::swap(all, addressed);
+    } else if (sent.label.destination != sent.sender && sent.label.destination >= 0 &&
+               sent.label.destination < static_cast<NodeId>(attached_.size()) &&
+               sent.band.fits_in(attached_[sent.label.destination].receiver.band)) {
+        addressed = CopyCount{1, addressee_notices ? 0U : 1U};
+        all.made -= addressed.made;
+        all.too_weak -= addressed.too_weak;
+    }
+    fates_.book_transmission(sent.label, addressed, all);
 }
 
-double Medium::squared_reach_m2(Attached& attached, const Transmission& transmission) const {
-    if (attached.tx_power_w != transmission.power_w || attached.carrier_hz != transmission.band.carrier_hz) {
-        const Receiver& receiver = attached.receiver;
-        const double least_w =
-            std::min(receiver.sensitivity_w, receiver.energy_detection_w - background_noise_w_);
-        // Out of reach is said only with a margin for rounding; who is in doubt gets the exact calculation.
-        constexpr double margin = 1 + 1e-9;
-        const double reach_m =
-            least_w > 0 && hearing_ == Hearing::what_matters
-                ? path_loss_.reach_m(least_w / transmission.power_w, transmission.band.carrier_hz) * margin
-                : std::numeric_limits<double>::infinity();
-        attached.tx_power_w = transmission.power_w;
-        attached.carrier_hz = transmission.band.carrier_hz;
-        attached.squared_reach_m2 = reach_m * reach_m;
+double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
+    if (audience.tx_power_w != transmission.power_w || audience.carrier_hz != transmission.band.carrier_hz) {
+        audience.tx_power_w = transmission.power_w;
+        audience.carrier_hz = transmission.band.carrier_hz;
+        audience.reach_m = reach_of_power_m(transmission, audience.least_w);
     }
-    return attached.squared_reach_m2;
+    return audience.reach_m;
+}
+
+double Medium::reach_of_power_m(const Transmission& transmission, double power_w) const {
+    // Out of reach is said only with a margin for rounding; who is in doubt gets the exact calculation.
+    constexpr double margin = 1 + 1e-9;
+    return power_w > 0
+               ? path_loss_.reach_m(power_w / transmission.power_w, transmission.band.carrier_hz) * margin
+               : std::numeric_limits<double>::infinity();
 }
 
 Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& receiver) const {
@@ -113,7 +213,46 @@ Arrival Medium::arrival_at(const Transmission& transmission, const Receiver& rec
 }
 
 // The events of an arrival have their places in the order of equal times since its transmission began: the
-// course of a run does not depend on when, or whether, a radio is told.
+// course of a run does not depend on when, or whether, a radio is told. So of all arrivals of a transmission only the
+// next one to start and the next one to end need to be in the queue.
+void Medium::schedule_arrivals(OnAir& entry) {
+    if (entry.heard.empty()) {
+        return;
+    }
+    std::sort(entry.heard.begin(), entry.heard.end(), [](const Heard& a, const Heard& b) {
+        return a.start != b.start ? a.start < b.start : a.node < b.node;
+    });
+    schedule_next_start(entry);
+    schedule_next_end(entry);
+}
+
+void Medium::schedule_next_start(OnAir& entry) {
+    const Heard& next = entry.heard[entry.started];
+    simulator_.schedule_at_place(
+        next.start, entry.first_place + 2 * static_cast<Place>(next.node), [this, &entry] {
+            const Heard& now = entry.heard[entry.started];
+            if (++entry.started < entry.heard.size()) {
+                schedule_next_start(entry);
+            }
+            attached_[now.node].receiver.listener->arrival_started(Arrival{
+                &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
+        });
+}
+
+void Medium::schedule_next_end(OnAir& entry) {
+    const Heard& next = entry.heard[entry.ended];
+    simulator_.schedule_at_place(
+        next.start + entry.transmission.duration, entry.first_place + 2 * static_cast<Place>(next.node) + 1,
+        [this, &entry] {
+            const Heard& now = entry.heard[entry.ended];
+            if (++entry.ended < entry.heard.size()) {
+                schedule_next_end(entry);
+            }
+            attached_[now.node].receiver.listener->arrival_ended(Arrival{
+                &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
+        });
+}
+
 void Medium::tell(NodeId node, const OnAir& on_air, const Arrival& arrival) {
     if (arrival.start < simulator_.now()) {
         // It came to matter after it had begun: nothing that the radio could have noticed happened in
@@ -141,30 +280,139 @@ void Medium::begin(NodeId node, const OnAir& on_air, const Arrival& arrival) {
         });
 }
 
-void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival) {
+void Medium::find_those_beside(const OnAir& newest) {
+    const Transmission& sent = newest.transmission;
+    beside_.clear();
+    for (const std::unique_ptr<OnAir>& other : on_air_) {
+        if (other.get() == &newest || other->last_end <= sent.start) {
+            continue;
+        }
+        // At any receiver, the ends of two frames are shifted against each other by at most the distance of their
+        // senders (triangle inequality), and by what the receiver moved in between.
+        const Transmission& earlier = other->transmission;
+        const double shift_m = distance(earlier.origin, sent.origin) + newest.odometer_m - other->odometer_m;
+        if (earlier.start + earlier.duration + most_propagation_delay(shift_m * (1 + 1e-9)) > sent.start) {
+            beside_.push_back(other.get());
+        }
+    }
+}
+
+// Of k powers that reach the level together, the largest reaches a k-th of it. So it is enough to look around each
+// of the senders, as far as it is received with that power: and less far, where the others are far away.
+void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) {
+    const SimTime now = simulator_.now();
+    ++checks_;
+    searches_.clear();
+    searches_.push_back(Search{&newest, 0, 0});
+    for (OnAir* other : beside_) {
+        if (other->transmission.band.fits_in(audience.band)) {
+            searches_.push_back(Search{other, 0, 0});
+        }
+    }
+    if (searches_.size() == 1) {
+        return;
+    }
+    for (Search& search : searches_) {
+        narrow(search, audience);
+    }
+    for (const Search& search : searches_) {
+        const Transmission& strongest = search.on_air->transmission;
+        const double moved_m = odometer_.reading_m(now) - search.on_air->odometer_m;
+        const double radius_m = search.radius_m + moved_m;
+        audience.members.visit(strongest.origin, radius_m, [&](NodeId node, const Position& place) {
+            Attached& attached = attached_[node];
+            if (attached.checks == checks_ || node == newest.transmission.sender ||
+                node == strongest.sender || squared_distance(strongest.origin, place) > radius_m * radius_m) {
+                return;
+            }
+            const Receiver& receiver = attached.receiver;
+            const double power_w = arrival_at(strongest, receiver).power_w;
+            if (is_loud(receiver, power_w) || (background_noise_w_ + power_w + search.others_w) * (1 + 1e-9) <
+                                                  receiver.energy_detection_w) {
+                return;
+            }
+            attached.checks = checks_;
+            tell_if_energy_adds_up(node, newest);
+        });
+    }
+}
+
+// Rings around the sender are excluded from outside: in none of them can its power and those of the others, each at
+// most as large, reach the level.
+void Medium::narrow(Search& search, const Audience& audience) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    constexpr double less = 1 - 1e-9;  // for rounding
+    const Transmission& here = search.on_air->transmission;
+    const double level_w = audience.least_energy_w * less;
+    const double share_w = level_w / static_cast<double>(searches_.size());
+    search.others_w = infinite;
+    search.radius_m = share_w > 0 ? reach_of_power_m(here, share_w) : infinite;
+    if (!(search.radius_m < infinite)) {
+        return;
+    }
+    between_m_.clear();
+    for (const Search& other : searches_) {
+        const double moved_m = std::abs(other.on_air->odometer_m - search.on_air->odometer_m);
+        const double distance_m = distance(here.origin, other.on_air->transmission.origin);
+        between_m_.push_back(distance_m * less - moved_m);
+    }
+    // What the others can bring within `within_m`, each at most `most_w`.
+    const auto others_w = [&](double within_m, double most_w, double enough_w) {
+        double sum_w = 0;
+        for (std::size_t i = 0; i < searches_.size() && sum_w < enough_w; ++i) {
+            const Transmission& there = searches_[i].on_air->transmission;
+            if (&there != &here) {
+                const double least_m = std::max(between_m_[i] - within_m, 0.0);
+                sum_w += std::min(
+                    most_w, there.power_w * path_loss_.most_gain_beyond(least_m, there.band.carrier_hz));
+            }
+        }
+        return sum_w;
+    };
+    const double loud_m = reach_of_power_m(here, audience.least_energy_w);
+    while (search.radius_m > loud_m) {
+        constexpr double step = 0.75;
+        const double inner_m = std::max(step * search.radius_m, loud_m);
+        const double most_w =
+            here.power_w * path_loss_.most_gain_beyond(inner_m * less, here.band.carrier_hz);
+        if (most_w + others_w(search.radius_m, most_w, level_w) >= level_w) {
+            break;
+        }
+        search.radius_m = inner_m;
+    }
+    search.others_w = others_w(search.radius_m, infinite, audience.most_energy_w);
+    if (search.others_w >= audience.most_energy_w) {
+        search.others_w = infinite;
+    }
+}
+
+void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest) {
     const Receiver& receiver = attached_[node].receiver;
+    const Arrival arrival = arrival_at(newest.transmission, receiver);
+    if (is_loud(receiver, arrival.power_w)) {
+        return;
+    }
     double sum_w = background_noise_w_ + arrival.power_w;
     together_.clear();
     if (!is_told_alone(receiver, arrival.power_w)) {
         together_.emplace_back(&newest, arrival);
     }
-    for (OnAir& other : on_air_) {
-        if (&other == &newest || other.transmission.sender == node ||
-            !other.transmission.band.fits_in(receiver.band)) {
+    for (OnAir* other : beside_) {
+        if (other->transmission.sender == node || !other->transmission.band.fits_in(receiver.band)) {
             continue;
         }
-        const Arrival beside = arrival_at(other.transmission, receiver);
-        if (beside.end <= arrival.start || beside.start >= arrival.end ||
-            background_noise_w_ + beside.power_w >= receiver.energy_detection_w) {
+        const Arrival beside = arrival_at(other->transmission, receiver);
+        if (beside.end <= arrival.start || beside.start >= arrival.end || is_loud(receiver, beside.power_w)) {
             continue;
         }
         sum_w += beside.power_w;
         if (!is_told_alone(receiver, beside.power_w) &&
-            std::find(other.told_later.begin(), other.told_later.end(), node) == other.told_later.end()) {
-            together_.emplace_back(&other, beside);
+            std::find(other->told_later.begin(), other->told_later.end(), node) == other->told_later.end()) {
+            together_.emplace_back(other, beside);
         }
     }
-    if (sum_w < receiver.energy_detection_w) {
+    // To be told for nothing does no harm, so that rounding need not be known.
+    if (sum_w * (1 + 1e-12) < receiver.energy_detection_w) {
         return;
     }
     for (auto& [on_air, unnoticed] : together_) {
@@ -181,13 +429,13 @@ const Interference& Medium::interference_with(NodeId receiver, const Arrival& ar
     }
     const Receiver& here = attached_[receiver].receiver;
     overlapping_.clear();
-    for (const OnAir& other : on_air_) {
-        if (&other.transmission == arrival.transmission || other.transmission.sender == receiver ||
-            !other.transmission.band.fits_in(here.band) || other.last_end <= arrival.start ||
-            other.transmission.start >= arrival.end) {
+    for (const std::unique_ptr<OnAir>& other : on_air_) {
+        const Transmission& sent = other->transmission;
+        if (&sent == arrival.transmission || sent.sender == receiver || other->last_end <= arrival.start ||
+            sent.start >= arrival.end || !sent.band.fits_in(here.band)) {
             continue;
         }
-        const Arrival beside = arrival_at(other.transmission, here);
+        const Arrival beside = arrival_at(sent, here);
         if (beside.start < arrival.end && beside.end > arrival.start) {
             overlapping_.push_back(beside);
         }
@@ -221,9 +469,11 @@ const Interference& Medium::interference_with(NodeId receiver, const Arrival& ar
 void Medium::forget_the_past() {
     const SimTime now = simulator_.now();
     const auto active = std::find_if(on_air_.begin(), on_air_.end(),
-                                     [now](const OnAir& entry) { return entry.last_end >= now; });
-    const SimTime needed_from = active == on_air_.end() ? now : active->transmission.start;
-    while (!on_air_.empty() && on_air_.front().last_end < needed_from) {
+                                     [now](const auto& entry) { return entry->last_end >= now; });
+    const SimTime needed_from = active == on_air_.end() ? now : (*active)->transmission.start;
+    while (!on_air_.empty() && on_air_.front()->last_end < needed_from) {
+        on_air_.front()->transmission.frame.reset();
+        spare_.push_back(std::move(on_air_.front()));
         on_air_.pop_front();
     }
 }

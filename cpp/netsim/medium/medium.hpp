@@ -3,7 +3,7 @@
 // A radio is told only of arrivals that can matter to it: those that it could lock on to or that make its
 // channel busy, alone or together with others on the air at the same time. All other transmissions are
 // remembered for as long as they can interfere with a reception, and summed when one ends. The result is that
-// of the plain model, in which every radio hears of everything.
+// of the plain model, in which every radio hears of everything; the cost is that of the radios near by.
 #pragma once
 
 #include <deque>
@@ -13,6 +13,8 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
+#include "netsim/medium/neighbours.hpp"
+#include "netsim/medium/odometer.hpp"
 #include "netsim/medium/path_loss.hpp"
 #include "netsim/medium/transmission.hpp"
 #include "netsim/mobility/trajectory.hpp"
@@ -70,32 +72,69 @@ public:
     std::size_t remembered_count() const { return on_air_.size(); }
 
 private:
-    // A receiver, and how far away it can hear a transmission of the last power and carrier asked for. Kept
-    // because the comparison of squared distances spares the path loss of all who are too far away.
     struct Attached {
         Receiver receiver;
-        double tx_power_w = 0;
+        std::uint64_t checks = 0;  // the last check of energies that looked at it
+    };
+    // Receivers of one band that notice about the same powers: what is too far away for the keenest of them is too
+    // far away for all. Within a factor of 4, so that one of very keen ears does not make all others listen.
+    struct Audience {
+        Band band;
+        int keenness = 0;
+        double least_w = 0;         // below that, none of them notices a transmission that is alone
+        double least_energy_w = 0;  // below that, the sum of several is not noticed either
+        double most_energy_w = 0;   // from that on, the noise or one transmission is enough for all of them
+        double tx_power_w = -1;     // of the last reach worked out
         double carrier_hz = 0;
-        double squared_reach_m2 = 0;
+        double reach_m = 0;
+        Neighbours members;
+    };
+    // An arrival to come.
+    struct Heard {
+        SimTime start;
+        NodeId node;
+        double power_w;
     };
     struct OnAir {
         Transmission transmission;
-        SimTime last_end;                // at its most distant receiver
-        Place first_place;               // of its arrivals' events, two for each receiver
+        SimTime last_end;                // at its most distant receiver, or later
+        Place first_place = 0;           // of its arrivals' events, two for each receiver
+        double odometer_m = 0;           // at its start
+        std::vector<Heard> heard;        // by those that notice it alone, in the order of their events
+        std::size_t started = 0;         // of `heard`
+        std::size_t ended = 0;           // of `heard`
         std::vector<NodeId> told_later;  // receivers to whom it came to matter only with later transmissions
     };
+    // A circle in which receivers are looked for at which energies add up.
+    struct Search {
+        OnAir* on_air;
+        double radius_m;
+        double others_w;  // what all other transmissions can bring there
+    };
 
+    OnAir& put_on_air(Transmission transmission);
     Arrival arrival_at(const Transmission& transmission, const Receiver& receiver) const;
-    // False only if no receiver gets `newest` while another frame is still arriving there.
-    bool may_overlap(const Transmission& newest) const;
-    // Beyond that, a transmission without others beside it cannot matter to the receiver.
-    double squared_reach_m2(Attached& attached, const Transmission& transmission) const;
+    void tell_everybody(OnAir& entry);
+    void tell_those_it_matters_to(OnAir& entry);
+    // Beyond that, a transmission without others beside it cannot matter to the audience.
+    double reach_m(Audience& audience, const Transmission& transmission) const;
+    double reach_of_power_m(const Transmission& transmission, double power_w) const;
+    void schedule_arrivals(OnAir& entry);
+    void schedule_next_start(OnAir& entry);
+    void schedule_next_end(OnAir& entry);
     void tell(NodeId node, const OnAir& on_air, const Arrival& arrival);
     void begin(NodeId node, const OnAir& on_air, const Arrival& arrival);
-    void tell_if_energy_adds_up(NodeId node, OnAir& newest, const Arrival& arrival);
+    // Collects in `beside_` the others that some receiver may get at the same time as `newest`.
+    void find_those_beside(const OnAir& newest);
+    void tell_where_energy_adds_up(OnAir& newest, const Audience& audience);
+    // Receivers at which the search's transmission can be the strongest of those that add up.
+    void narrow(Search& search, const Audience& audience);
+    void tell_if_energy_adds_up(NodeId node, OnAir& newest);
     bool is_told_alone(const Receiver& receiver, double power_w) const {
-        return hearing_ == Hearing::everything || power_w >= receiver.sensitivity_w ||
-               background_noise_w_ + power_w >= receiver.energy_detection_w;
+        return power_w >= receiver.sensitivity_w || is_loud(receiver, power_w);
+    }
+    bool is_loud(const Receiver& receiver, double power_w) const {
+        return background_noise_w_ + power_w >= receiver.energy_detection_w;
     }
     void forget_the_past();
 
@@ -106,10 +145,17 @@ private:
     double background_noise_w_;
     Hearing hearing_;
     std::vector<Attached> attached_;
-    std::deque<OnAir> on_air_;  // by start; pointers to its elements stay valid until they are forgotten
+    std::deque<Audience> audiences_;
+    Odometer odometer_;
+    std::deque<std::unique_ptr<OnAir>> on_air_;  // by start
+    std::vector<std::unique_ptr<OnAir>> spare_;  // forgotten ones, of use again
     std::uint64_t next_id_ = 0;
+    std::uint64_t checks_ = 0;
     Interference interference_;         // the answer of interference_with, reused
     std::vector<Arrival> overlapping_;  // its working memory
+    std::vector<OnAir*> beside_;
+    std::vector<Search> searches_;
+    std::vector<double> between_m_;
     std::vector<std::pair<OnAir*, Arrival>> together_;
 };
 

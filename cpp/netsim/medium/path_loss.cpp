@@ -10,23 +10,6 @@
 
 namespace netsim {
 
-double PathLoss::wavelength_factor(double carrier_hz) const {
-    if (!depends_on_carrier_) {
-        return 1;
-    }
-    const double wavelength_m = speed_of_light_mps / carrier_hz;
-    return wavelength_m * wavelength_m;
-}
-
-double PathLoss::gain_at_squared_distance(double squared_distance_m2, double carrier_hz) const {
-    const PowerLaw& law = squared_distance_m2 < squared_breakpoint_m2_ ? near_ : far_;
-    const double at_one_metre = law.coefficient * wavelength_factor(carrier_hz);
-    // Comparing before dividing also covers distance 0.
-    const double divisor =
-        law.exponent == 2 ? squared_distance_m2 : std::pow(squared_distance_m2, law.exponent / 2);
-    return at_one_metre >= divisor ? 1 : at_one_metre / divisor;
-}
-
 double PathLoss::reach_m(double gain, double carrier_hz) const {
     if (gain > 1) {
         return 0;

@@ -11,9 +11,12 @@
 // Used by the medium for every pair of radios. Adding a model that is no power law: give the class a variant.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "netsim/config/medium_config.hpp"
+#include "netsim/units.hpp"
 
 namespace netsim {
 
@@ -31,6 +34,16 @@ public:
     // margin. 0 if `gain` is greater than 1, infinite if it is 0.
     double reach_m(double gain, double carrier_hz) const;
 
+    // The largest gain at `distance_m` and beyond. (It need not fall steadily: the two laws of the breakpoint model
+    // may leave a step up.)
+    double most_gain_beyond(double distance_m, double carrier_hz) const {
+        const double here = gain(distance_m, carrier_hz);
+        const double squared_m2 = distance_m * distance_m;
+        return squared_m2 < squared_breakpoint_m2_ && squared_breakpoint_m2_ < infinite_m2
+                   ? std::max(here, gain_at_squared_distance(squared_breakpoint_m2_, carrier_hz))
+                   : here;
+    }
+
 private:
     friend PathLoss make_path_loss(const MediumConfig& config);
 
@@ -39,13 +52,30 @@ private:
         double exponent = 2;
     };
 
-    double wavelength_factor(double carrier_hz) const;
+    static constexpr double infinite_m2 = std::numeric_limits<double>::infinity();
+
+    double wavelength_factor(double carrier_hz) const {
+        if (!depends_on_carrier_) {
+            return 1;
+        }
+        const double wavelength_m = speed_of_light_mps / carrier_hz;
+        return wavelength_m * wavelength_m;
+    }
 
     PowerLaw near_;
     PowerLaw far_;
-    double squared_breakpoint_m2_ = std::numeric_limits<double>::infinity();
+    double squared_breakpoint_m2_ = infinite_m2;
     bool depends_on_carrier_ = false;
 };
+
+inline double PathLoss::gain_at_squared_distance(double squared_distance_m2, double carrier_hz) const {
+    const PowerLaw& law = squared_distance_m2 < squared_breakpoint_m2_ ? near_ : far_;
+    const double at_one_metre = law.coefficient * wavelength_factor(carrier_hz);
+    // Comparing before dividing also covers distance 0.
+    const double divisor =
+        law.exponent == 2 ? squared_distance_m2 : std::pow(squared_distance_m2, law.exponent / 2);
+    return at_one_metre >= divisor ? 1 : at_one_metre / divisor;
+}
 
 // The table of models: config.path_loss chooses. Throws ConfigError for a name that is not in it.
 PathLoss make_path_loss(const MediumConfig& config);

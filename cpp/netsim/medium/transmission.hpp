@@ -20,6 +20,8 @@ struct Band {
     double carrier_hz = 0;
     double bandwidth_hz = 0;
 
+    bool operator==(const Band&) const = default;
+
     // A receiver in band `listener` gets a signal only if the centre frequencies are equal and the signal fits.
     bool fits_in(const Band& listener) const {
         return carrier_hz == listener.carrier_hz && bandwidth_hz <= listener.bandwidth_hz;

@@ -42,8 +42,15 @@ void Trajectory::add(const Leg& leg) {
     }
     current_ = leg;
     // A past leg ends where the next one starts.
-    while (past_.size() > 1 && past_[1].start < current_.start - memory) {
-        past_.pop_front();
+    auto needed = past_.begin();
+    while (past_.end() - needed > 1 && (needed + 1)->start < current_.start - memory) {
+        ++needed;
+    }
+    past_.erase(past_.begin(), needed);
+    if (listener_ != nullptr) {
+        const bool leaps = leg.arrival == leg.start;
+        listener_->course_changed(leg.start, leaps ? 0 : speed_on(leg),
+                                  leaps ? distance(leg.origin, leg.target) : 0);
     }
 }
 

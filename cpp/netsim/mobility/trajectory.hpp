@@ -4,12 +4,22 @@
 // the medium works out powers of frames that started a moment ago.
 #pragma once
 
-#include <deque>
+#include <vector>
 
 #include "netsim/geometry/position.hpp"
 #include "netsim/kernel/sim_time.hpp"
 
 namespace netsim {
+
+// Learns of every new leg of the trajectories that it watches, before anybody asks for a position on it.
+class CourseListener {
+public:
+    // From `now` on at `speed_mps`, after a leap of `leap_m`: so short a leg that it takes no time.
+    virtual void course_changed(SimTime now, double speed_mps, double leap_m) = 0;
+
+protected:
+    ~CourseListener() = default;
+};
 
 class Trajectory {
 public:
@@ -28,6 +38,12 @@ public:
     // From `now` on stand still.
     void stop(SimTime now);
 
+    // The highest speed from `now` on, as things stand.
+    double speed_mps(SimTime now) const { return now < current_.arrival ? speed_on(current_) : 0; }
+
+    // Watching changes nothing of the course, so a constant trajectory can be watched too; by one at a time.
+    void set_listener(CourseListener& listener) const { listener_ = &listener; }
+
 private:
     struct Leg {
         SimTime start;
@@ -44,11 +60,15 @@ private:
                                 static_cast<double>((leg.arrival - leg.start).ps());
         return leg.origin + (leg.target - leg.origin) * fraction;
     }
+    static double speed_on(const Leg& leg) {
+        return distance(leg.origin, leg.target) / (leg.arrival - leg.start).seconds();
+    }
     const Leg& past_leg_at(SimTime time) const;
     void add(const Leg& leg);
 
-    Leg current_;           // from its start on
-    std::deque<Leg> past_;  // those before, by start
+    Leg current_;            // from its start on
+    std::vector<Leg> past_;  // those before, by start; takes no memory as long as there are none
+    mutable CourseListener* listener_ = nullptr;
 };
 
 }  // namespace netsim

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/far_flung_scenario.hpp"
 #include "support/random_scenario.hpp"
 
 namespace netsim {
@@ -86,6 +87,18 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
     }
 }
 
+class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
+    constexpr std::uint64_t scenarios = 20;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(test::make_far_flung_scenario(GetParam() * scenarios + i));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
 TEST(RandomScenario, MeetsEveryFateOften) {
     FrameFates::Counts frames{};
     MessageFates::Counts messages{};
@@ -112,6 +125,7 @@ TEST(RandomScenario, MeetsEveryFateOften) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Batches, RandomScenarios, testing::Range<std::uint64_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Batches, FarFlungScenarios, testing::Range<std::uint64_t>(0, 10));
 
 }  // namespace
 }  // namespace netsim

@@ -1,7 +1,9 @@
 #include "netsim/mobility/trajectory.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -118,6 +120,37 @@ TEST(Trajectory, CrawlsLateInALongRun) {
     Trajectory trajectory({0, 0, 0});
     trajectory.go_to(s(9e6), {1, 0, 0}, 1e-9);
     expect_near(trajectory.position_at(s(9.1e6)), {1e-4, 0, 0});
+}
+
+TEST(Trajectory, HasASpeedUntilItArrives) {
+    Trajectory trajectory({0, 0, 0});
+    EXPECT_EQ(trajectory.speed_mps(s(0)), 0);
+    trajectory.go_to(s(10), {30, 40, 0}, 5);
+    EXPECT_NEAR(trajectory.speed_mps(s(10)), 5, 1e-9);
+    EXPECT_NEAR(trajectory.speed_mps(s(19.9)), 5, 1e-9);
+    EXPECT_EQ(trajectory.speed_mps(s(20)), 0);
+}
+
+class Course final : public CourseListener {
+public:
+    void course_changed(SimTime now, double speed_mps, double leap_m) override {
+        changes.push_back({now.seconds(), speed_mps, leap_m});
+    }
+    std::vector<std::array<double, 3>> changes;
+};
+
+TEST(Trajectory, TellsItsListenerOfEachChangeOfCourse) {
+    Trajectory trajectory({0, 0, 0});
+    Course course;
+    trajectory.set_listener(course);
+    trajectory.go_to(s(1), {100, 0, 0}, 10);
+    trajectory.stop(s(2));
+    trajectory.go_to(s(3), {10 + 1e-8, 0, 0}, 1e6);
+    ASSERT_EQ(course.changes.size(), 3U);
+    EXPECT_EQ(course.changes[0], (std::array{1.0, 10.0, 0.0}));
+    EXPECT_EQ(course.changes[1], (std::array{2.0, 0.0, 0.0}));
+    EXPECT_EQ(course.changes[2][1], 0);
+    EXPECT_NEAR(course.changes[2][2], 1e-8, 1e-12);
 }
 
 }  // namespace

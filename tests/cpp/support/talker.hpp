@@ -28,8 +28,11 @@ struct Talk {
     std::uint32_t longest_text = 100;
     double broadcast_share = 0.5;
     double area_m = 0;
+    Position corner;  // of the area in which it moves
+    double top_speed_mps = 300;
     bool moves = false;
-    SimTime beat;  // if not zero, bursts are at multiples of it, so that nodes start in the same instant
+    double movers = 1;  // the share of nodes that do
+    SimTime beat;       // if not zero, bursts are at multiples of it, so that nodes start in the same instant
 };
 
 class Talker final : public Protocol {
@@ -38,7 +41,8 @@ public:
         : node_(node),
           talk_(talk),
           deliveries_(deliveries),
-          draws_(talk.seed, static_cast<std::uint32_t>(node.id()), Purpose{1000}) {}
+          draws_(talk.seed, static_cast<std::uint32_t>(node.id()), Purpose{1000}),
+          moves_(talk.moves && (talk.movers >= 1 || draws_.uniform() < talk.movers)) {}
 
     void initialize() override {
         for (std::uint32_t round = 0; round < talk_.rounds; ++round) {
@@ -52,9 +56,10 @@ public:
         }
     }
     void handle_timer(const std::string&) override {
-        if (talk_.moves) {
-            node_.set_speed(draws_.uniform() * 300);
-            node_.go_to({draws_.uniform() * talk_.area_m, draws_.uniform() * talk_.area_m, 0});
+        if (moves_) {
+            node_.set_speed(draws_.uniform() * talk_.top_speed_mps);
+            node_.go_to(talk_.corner +
+                        Position{draws_.uniform() * talk_.area_m, draws_.uniform() * talk_.area_m, 0});
         }
         const std::uint32_t messages = 1 + draws_.uniform_int(talk_.longest_burst);
         for (std::uint32_t i = 0; i < messages; ++i) {
@@ -80,6 +85,7 @@ private:
     Talk talk_;
     std::vector<Delivery>& deliveries_;
     RandomStream draws_;
+    bool moves_;
     int sent_ = 0;
 };
 

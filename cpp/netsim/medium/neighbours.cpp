@@ -1,0 +1,88 @@
+#include "netsim/medium/neighbours.hpp"
+
+#include <bit>
+#include <limits>
+
+namespace netsim {
+
+void Neighbours::add(NodeId node, const Trajectory& trajectory) {
+    nodes_.push_back(Node{node, &trajectory});
+    slack_m_ = -1;
+}
+
+void Neighbours::prepare(SimTime now, Odometer& odometer, double reach_m) {
+    now_ = now;
+    if (std::isfinite(reach_m)) {
+        reaches_m_ += reach_m;
+        ++asked_;
+    }
+    moved_m_ = odometer.reading_m(now) - reading_m_;
+    if (!(moved_m_ <= slack_m_) || is_of_wrong_size()) {
+        odometer.renew(now);
+        lay_out(now, asked_ > 0 ? reaches_m_ / static_cast<double>(asked_) : 0);
+        reading_m_ = odometer.reading_m(now);
+        course_changes_ = odometer.course_changes();
+        stood_ = odometer.all_stand();
+        rounding_m_ += 1e-12 * reading_m_;
+        moved_m_ = 0;
+    }
+    all_stand_ = stood_ && odometer.course_changes() == course_changes_;
+}
+
+bool Neighbours::is_of_wrong_size() const {
+    const double wanted_m = reaches_m_ / static_cast<double>(asked_) / 2;
+    return columns_ > 1 && asked_ > 1000 + 10 * nodes_.size() &&
+           (wanted_m < cell_m_ / 2 || wanted_m > cell_m_ * 2);
+}
+
+void Neighbours::lay_out(SimTime now, double reach_m) {
+    reaches_m_ = 0;
+    asked_ = 0;
+    // Half the reach: most of those who are looked at are within it, and there are few cells to look at.
+    const bool is_small = nodes_.size() < 32 || !(reach_m > 0);
+    cell_m_ = reach_m > 0 ? std::max(reach_m / 2, 1e-3) : 1000;
+    slack_m_ = cell_m_ / 4;
+    columns_ = is_small ? 1 : std::bit_ceil(static_cast<std::size_t>(std::sqrt(nodes_.size())));
+
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    lowest_ = {infinite, infinite, infinite};
+    highest_ = {-infinite, -infinite, -infinite};
+    std::vector<Entry> unsorted;
+    std::vector<std::uint32_t> table_places;
+    unsorted.reserve(nodes_.size());
+    table_places.reserve(nodes_.size());
+    first_entry_.assign(columns_ * columns_ + 1, 0);
+    for (const Node& node : nodes_) {
+        const Position place = node.trajectory->position_at(now);
+        lowest_ = {std::min(lowest_.x, place.x), std::min(lowest_.y, place.y), std::min(lowest_.z, place.z)};
+        highest_ = {std::max(highest_.x, place.x), std::max(highest_.y, place.y),
+                    std::max(highest_.z, place.z)};
+        const std::size_t table_place = column_of(cell_of(place.y)) * columns_ + column_of(cell_of(place.x));
+        unsorted.push_back(Entry{place, node.id, node.trajectory});
+        table_places.push_back(static_cast<std::uint32_t>(table_place));
+        ++first_entry_[table_place + 1];
+    }
+    for (std::size_t i = 1; i < first_entry_.size(); ++i) {
+        first_entry_[i] += first_entry_[i - 1];
+    }
+    std::vector<std::uint32_t> next = first_entry_;
+    entries_.resize(unsorted.size());
+    for (std::size_t i = 0; i < unsorted.size(); ++i) {
+        entries_[next[table_places[i]]++] = unsorted[i];
+    }
+    const Position largest{std::max(-lowest_.x, highest_.x), std::max(-lowest_.y, highest_.y),
+                           std::max(-lowest_.z, highest_.z)};
+    rounding_m_ = 1e-12 * std::max({largest.x, largest.y, largest.z, 0.0});
+}
+
+double Neighbours::farthest_m(const Position& from) const {
+    if (nodes_.empty()) {
+        return 0;
+    }
+    const Position to{std::max(from.x - lowest_.x, highest_.x - from.x),
+                      std::max(from.y - lowest_.y, highest_.y - from.y),
+                      std::max(from.z - lowest_.z, highest_.z - from.z)};
+    return (distance({}, to) + moved_m_) * (1 + 1e-9) + rounding_m_;
+}
+
+}  // namespace netsim
