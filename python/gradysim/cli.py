@@ -2,6 +2,7 @@
 
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim runs FILE.ini [-c CONFIG]
+    gradysim keys [PATTERN] [--markdown]
 
 Exit codes: 0 all is well; 1 a protocol failed; 2 a mistake in the arguments or in the .ini file;
 130 Ctrl-C. What only one command needs is imported inside it, so that `gradysim --help` answers at once.
@@ -133,6 +134,39 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
             print(f"Run {scenario.run_number}: $repetition={scenario.run_number}")
     except ConfigError as mistake:
         return say_mistake(mistake)
+    return OK
+
+
+@app.command(name="keys")
+def list_keys(
+    pattern: Annotated[str, Parameter(name="PATTERN", help="Part of a key, or a pattern with *.")] = "",
+    /,
+    *,
+    markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
+) -> int:
+    """List the keys of .ini files: unit, default, meaning."""
+    from gradysim.config.key_list import key_sections, matching
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.integrated.engine_defaults import engine_defaults
+    from gradysim.report import key_table
+
+    try:
+        structs = engine_defaults()
+    except CompiledPartMissingError:
+        structs = {}
+        print("defaults shown as ? are the compiled part's, which is not installed", file=sys.stderr)
+    sections = matching(key_sections(structs), pattern)
+    if not sections:
+        print(f"no key contains {pattern!r}; `gradysim keys` lists all", file=sys.stderr)
+        return MISTAKE
+    if markdown:
+        print(key_table.markdown(sections), end="")
+    elif sys.stdout.isatty():
+        from rich.console import Console
+
+        Console().print(key_table.rich_tables(sections))
+    else:
+        print(key_table.plain_text(sections), end="")
     return OK
 
 

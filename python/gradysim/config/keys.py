@@ -15,6 +15,7 @@ from gradysim.config.kinds import (
     number,
     power_ratio,
     quantity,
+    si_number,
     text,
     whole_bytes,
 )
@@ -28,11 +29,15 @@ class Key:
         path: Below the node, or below the network for NETWORK_KEYS.
         target: "struct.field" that the value is for. Of two keys with one target, the first match wins.
         kind: What the value has to be.
+        meaning: For people: a line of a list of all keys.
+        default: As it would be written, for what no struct has a default for; "" where a struct has one.
     """
 
     path: str
     target: str
     kind: Kind
+    meaning: str
+    default: str = ""
 
     @property
     def written(self) -> str:
@@ -55,53 +60,235 @@ _DCF = "wlan[0].mac.dcf"
 _MAX_SIM_TIME_S = 9_223_372.0
 """The engine's clock counts picoseconds in 64 bits."""
 
-PROTOCOL_CLASS = Key("protocol.class", "protocol.class", text())
+PROTOCOL_CLASS = Key(
+    "protocol.class",
+    "protocol.class",
+    text(),
+    'What the node runs: "file.py:Class", seen from the .ini file, or "package.module:Class"',
+    default="none: it has to be given",
+)
 
 NODE_KEYS: tuple[Key, ...] = (
     PROTOCOL_CLASS,
-    Key("mobility.typename", "mobility.typename", choice("MasslessMobility", "StationaryMobility")),
-    Key("mobility.initialX", "position.initial_x", quantity("m")),
-    Key("mobility.initialY", "position.initial_y", quantity("m")),
-    Key("mobility.initialZ", "position.initial_z", quantity("m")),
-    Key("mobility.lineStartX", "position.line_start_x", quantity("m")),
-    Key("mobility.lineStartY", "position.line_start_y", quantity("m")),
-    Key("mobility.lineStartZ", "position.line_start_z", quantity("m")),
-    Key("mobility.lineStepX", "position.line_step_x", quantity("m")),
-    Key("mobility.lineStepY", "position.line_step_y", quantity("m")),
-    Key("mobility.lineStepZ", "position.line_step_z", quantity("m")),
-    Key("mobility.speed", "mobility.speed_mps", quantity("mps", at_least=0)),
-    Key("mobility.telemetryInterval", "mobility.telemetry_interval_s", quantity("s", at_least=0)),
-    Key("wlan[0].opMode", "mac.op_mode", choice("b", "g(erp)", "g(mixed)", "a")),
-    Key("wlan[0].bitrate", "mac.bitrate_bps", quantity("bps", above=0, special=-1)),
-    Key("wlan[0].mac.mtu", "mac.mtu_bytes", whole_bytes()),
+    Key(
+        "mobility.typename",
+        "mobility.typename",
+        choice("MasslessMobility", "StationaryMobility"),
+        "How it moves: as its protocol says, or not at all",
+    ),
+    Key(
+        "mobility.initialX",
+        "position.initial_x",
+        quantity("m"),
+        "Where it starts, x; of initialX and lineStartX/lineStepX the one that is written first is in force",
+        default="0m",
+    ),
+    Key(
+        "mobility.initialY",
+        "position.initial_y",
+        quantity("m"),
+        "The same for y",
+        default="0m",
+    ),
+    Key(
+        "mobility.initialZ",
+        "position.initial_z",
+        quantity("m"),
+        "The same for z: height",
+        default="0m",
+    ),
+    Key(
+        "mobility.lineStartX",
+        "position.line_start_x",
+        quantity("m"),
+        "Nodes in a line: x of the node with index 0",
+        default="0m",
+    ),
+    Key(
+        "mobility.lineStartY",
+        "position.line_start_y",
+        quantity("m"),
+        "The same for y",
+        default="0m",
+    ),
+    Key(
+        "mobility.lineStartZ",
+        "position.line_start_z",
+        quantity("m"),
+        "The same for z",
+        default="0m",
+    ),
+    Key(
+        "mobility.lineStepX",
+        "position.line_step_x",
+        quantity("m"),
+        "Nodes in a line: x from one index to the next",
+        default="0m",
+    ),
+    Key(
+        "mobility.lineStepY",
+        "position.line_step_y",
+        quantity("m"),
+        "The same for y",
+        default="0m",
+    ),
+    Key(
+        "mobility.lineStepZ",
+        "position.line_step_z",
+        quantity("m"),
+        "The same for z",
+        default="0m",
+    ),
+    Key(
+        "mobility.speed",
+        "mobility.speed_mps",
+        quantity("mps", at_least=0),
+        "Speed until the protocol sets another",
+    ),
+    Key(
+        "mobility.telemetryInterval",
+        "mobility.telemetry_interval_s",
+        quantity("s", at_least=0, shown="ms"),
+        "Time between two calls of handle_telemetry; 0s for none",
+    ),
+    Key(
+        "wlan[0].opMode",
+        "mac.op_mode",
+        choice("b", "g(erp)", "g(mixed)", "a"),
+        "Generation of IEEE 802.11, which fixes rates and timing",
+    ),
+    Key(
+        "wlan[0].bitrate",
+        "mac.bitrate_bps",
+        quantity("bps", above=0, special=-1, shown="Mbps"),
+        "Rate of data frames; -1bps: the fastest mandatory one",
+    ),
+    Key(
+        "wlan[0].mac.mtu",
+        "mac.mtu_bytes",
+        whole_bytes(),
+        "Largest IP packet: 28 B of headers and the message, which is refused if it is longer",
+    ),
     Key(
         f"{_DCF}.rateSelection.multicastFrameBitrate",
         "mac.multicast_bitrate_bps",
-        quantity("bps", above=0, special=-1),
+        quantity("bps", above=0, special=-1, shown="Mbps"),
+        "Rate of broadcast frames; -1bps: that of data frames",
     ),
     Key(
         f"{_DCF}.rateSelection.controlFrameBitrate",
         "mac.control_bitrate_bps",
-        quantity("bps", above=0, special=-1),
+        quantity("bps", above=0, special=-1, shown="Mbps"),
+        "Rate of RTS frames; -1bps: the fastest mandatory one",
     ),
-    Key(f"{_DCF}.rtsPolicy.rtsThreshold", "mac.rts_threshold_bytes", whole_bytes()),
-    Key(f"{_DCF}.recoveryProcedure.shortRetryLimit", "mac.short_retry_limit", integer(1)),
-    Key(f"{_DCF}.recoveryProcedure.longRetryLimit", "mac.long_retry_limit", integer(1)),
-    Key(f"{_DCF}.channelAccess.cwMin", "mac.cw_min", integer(-1)),
-    Key(f"{_DCF}.channelAccess.cwMax", "mac.cw_max", integer(-1)),
-    Key(f"{_DCF}.channelAccess.pendingQueue.packetCapacity", "mac.queue_capacity", integer(1)),
-    Key(f"{_DCF}.channelAccess.contention.backoffOptimization", "mac.backoff_optimization", boolean()),
-    Key("wlan[0].mac.rx.ownFramesSetNav", "mac.own_frames_set_nav", boolean()),
-    Key(f"{_RADIO}.channelNumber", "radio.carrier_hz", channel_of_2_4_ghz()),
-    Key(f"{_RADIO}.centerFrequency", "radio.carrier_hz", quantity("Hz", above=0)),
-    Key(f"{_RADIO}.bandwidth", "radio.bandwidth_hz", quantity("Hz", above=0)),
-    Key(f"{_RADIO}.transmitter.power", "radio.tx_power_w", quantity("W", at_least=0)),
-    Key(f"{_RADIO}.transmitter.communicationRange", "radio.communication_range_m", quantity("m", at_least=0)),
-    Key(f"{_RADIO}.receiver.sensitivity", "radio.sensitivity_w", quantity("W", above=0)),
-    Key(f"{_RADIO}.receiver.energyDetection", "radio.energy_detection_w", quantity("W", above=0)),
-    Key(f"{_RADIO}.receiver.snirThreshold", "radio.snir_threshold", power_ratio()),
-    Key(f"{_RADIO}.receiver.errorModel.typename", "radio.error_model", choice("Ieee80211NistErrorModel")),
-    Key(f"{_RADIO}.antenna.typename", "radio.antenna", choice("IsotropicAntenna")),
+    Key(
+        f"{_DCF}.rtsPolicy.rtsThreshold",
+        "mac.rts_threshold_bytes",
+        whole_bytes(),
+        "Unicast frames of this length on begin with RTS and CTS",
+    ),
+    Key(
+        f"{_DCF}.recoveryProcedure.shortRetryLimit",
+        "mac.short_retry_limit",
+        integer(1),
+        "Failures at which an RTS, or a frame below the RTS threshold, is given up",
+    ),
+    Key(
+        f"{_DCF}.recoveryProcedure.longRetryLimit",
+        "mac.long_retry_limit",
+        integer(1),
+        "Failures at which a frame from the RTS threshold on is given up",
+    ),
+    Key(
+        f"{_DCF}.channelAccess.cwMin",
+        "mac.cw_min",
+        integer(-1),
+        "Smallest contention window in slots; -1: that of opMode",
+    ),
+    Key(
+        f"{_DCF}.channelAccess.cwMax",
+        "mac.cw_max",
+        integer(-1),
+        "Largest contention window in slots; -1: that of opMode",
+    ),
+    Key(
+        f"{_DCF}.channelAccess.pendingQueue.packetCapacity",
+        "mac.queue_capacity",
+        integer(1),
+        "Frames that wait in the queue, without the one in progress",
+    ),
+    Key(
+        f"{_DCF}.channelAccess.contention.backoffOptimization",
+        "mac.backoff_optimization",
+        boolean(),
+        "Whether idle time before a frame is there counts towards its wait",
+    ),
+    Key(
+        "wlan[0].mac.rx.ownFramesSetNav",
+        "mac.own_frames_set_nav",
+        boolean(),
+        "Whether a node's own frames reserve the channel against itself, as in INET; not in the standard",
+    ),
+    Key(
+        f"{_RADIO}.channelNumber",
+        "radio.carrier_hz",
+        channel_of_2_4_ghz(),
+        "Channel of the 2.4 GHz band, counted from 0 (another way to set centerFrequency)",
+    ),
+    Key(
+        f"{_RADIO}.centerFrequency",
+        "radio.carrier_hz",
+        quantity("Hz", above=0, shown="MHz"),
+        "Centre of the channel",
+    ),
+    Key(
+        f"{_RADIO}.bandwidth",
+        "radio.bandwidth_hz",
+        quantity("Hz", above=0, shown="MHz"),
+        "Width of the channel",
+    ),
+    Key(
+        f"{_RADIO}.transmitter.power",
+        "radio.tx_power_w",
+        quantity("W", at_least=0, shown="mW"),
+        "Power that is sent",
+    ),
+    Key(
+        f"{_RADIO}.transmitter.communicationRange",
+        "radio.communication_range_m",
+        quantity("m", at_least=0),
+        "Radius of the circle; UnitDiskRadioMedium only",
+    ),
+    Key(
+        f"{_RADIO}.receiver.sensitivity",
+        "radio.sensitivity_w",
+        quantity("W", above=0, shown="dBm"),
+        "Weakest frame that is received at all",
+    ),
+    Key(
+        f"{_RADIO}.receiver.energyDetection",
+        "radio.energy_detection_w",
+        quantity("W", above=0, shown="dBm"),
+        "Power from which on the channel counts as busy",
+    ),
+    Key(
+        f"{_RADIO}.receiver.snirThreshold",
+        "radio.snir_threshold",
+        power_ratio(),
+        "Signal to noise and interference at or below which every frame is lost",
+    ),
+    Key(
+        f"{_RADIO}.receiver.errorModel.typename",
+        "radio.error_model",
+        choice("Ieee80211NistErrorModel"),
+        "How noise becomes lost frames",
+    ),
+    Key(
+        f"{_RADIO}.antenna.typename",
+        "radio.antenna",
+        choice("IsotropicAntenna"),
+        "Where the antenna sends to: all directions alike",
+    ),
 )
 
 NETWORK_KEYS: tuple[Key, ...] = (
@@ -109,50 +296,150 @@ NETWORK_KEYS: tuple[Key, ...] = (
         "radioMedium.typename",
         "medium.typename",
         choice("Ieee80211ScalarRadioMedium", "Ieee802154NarrowbandScalarRadioMedium", "UnitDiskRadioMedium"),
+        "The model of the air: path loss and noise, or a circle",
     ),
-    Key("radioMedium.backgroundNoise.power", "medium.background_noise_w", quantity("W", at_least=0)),
     Key(
-        "radioMedium.pathLoss.typename", "medium.path_loss", choice("FreeSpacePathLoss", "BreakpointPathLoss")
+        "radioMedium.backgroundNoise.power",
+        "medium.background_noise_w",
+        quantity("W", at_least=0, shown="dBm"),
+        "Noise in the channel",
     ),
-    Key("radioMedium.pathLoss.alpha", "medium.alpha", number(above=0)),
-    Key("radioMedium.pathLoss.breakpointDistance", "medium.breakpoint_distance_m", quantity("m", above=0)),
-    Key("radioMedium.pathLoss.l01", "medium.l01_db", quantity("dB")),
-    Key("radioMedium.pathLoss.l02", "medium.l02_db", quantity("dB")),
-    Key("radioMedium.pathLoss.alpha1", "medium.alpha1", number(above=0)),
-    Key("radioMedium.pathLoss.alpha2", "medium.alpha2", number(above=0)),
-    Key("radioMedium.propagation.typename", "medium.propagation", choice("ConstantSpeedPropagation")),
+    Key(
+        "radioMedium.pathLoss.typename",
+        "medium.path_loss",
+        choice("FreeSpacePathLoss", "BreakpointPathLoss"),
+        "How power falls with distance",
+    ),
+    Key(
+        "radioMedium.pathLoss.alpha",
+        "medium.alpha",
+        number(above=0),
+        "FreeSpacePathLoss: exponent of the distance",
+    ),
+    Key(
+        "radioMedium.pathLoss.breakpointDistance",
+        "medium.breakpoint_distance_m",
+        quantity("m", above=0),
+        "BreakpointPathLoss: distance at which the exponent changes",
+    ),
+    Key(
+        "radioMedium.pathLoss.l01",
+        "medium.l01_db",
+        quantity("dB"),
+        "BreakpointPathLoss: loss at 1 m",
+    ),
+    Key(
+        "radioMedium.pathLoss.l02",
+        "medium.l02_db",
+        quantity("dB"),
+        "BreakpointPathLoss: loss at the breakpoint",
+    ),
+    Key(
+        "radioMedium.pathLoss.alpha1",
+        "medium.alpha1",
+        number(above=0),
+        "BreakpointPathLoss: exponent before the breakpoint",
+    ),
+    Key(
+        "radioMedium.pathLoss.alpha2",
+        "medium.alpha2",
+        number(above=0),
+        "BreakpointPathLoss: exponent behind the breakpoint",
+    ),
+    Key(
+        "radioMedium.propagation.typename",
+        "medium.propagation",
+        choice("ConstantSpeedPropagation"),
+        "How frames travel: with the speed of light",
+    ),
     Key(
         "communicationMedium.transmissionRange",
         "communication_medium.transmission_range_m",
         quantity("m", at_least=0),
-    ),
-    Key("communicationMedium.delay", "communication_medium.delay_s", quantity("s", at_least=0)),
-    Key(
-        "communicationMedium.failureRate", "communication_medium.failure_rate", number(at_least=0, at_most=1)
+        "Prototype mode: distance up to which a message arrives",
     ),
     Key(
-        "coordinateSystem.sceneLatitude", "reference.latitude_deg", quantity("deg", at_least=-90, at_most=90)
+        "communicationMedium.delay",
+        "communication_medium.delay_s",
+        quantity("s", at_least=0),
+        "Prototype mode: time from sending to arrival",
+    ),
+    Key(
+        "communicationMedium.failureRate",
+        "communication_medium.failure_rate",
+        number(at_least=0, at_most=1),
+        "Prototype mode: part of the messages that is lost, 0 to 1",
+    ),
+    Key(
+        "coordinateSystem.sceneLatitude",
+        "reference.latitude_deg",
+        quantity("deg", at_least=-90, at_most=90),
+        "Latitude of the origin, for geographic coordinates",
+        default="0deg",
     ),
     Key(
         "coordinateSystem.sceneLongitude",
         "reference.longitude_deg",
         quantity("deg", at_least=-180, at_most=180),
+        "Longitude of the origin",
+        default="0deg",
     ),
-    Key("coordinateSystem.sceneAltitude", "reference.altitude_m", quantity("m")),
+    Key(
+        "coordinateSystem.sceneAltitude",
+        "reference.altitude_m",
+        quantity("m"),
+        "Altitude of the origin",
+        default="0m",
+    ),
 )
 
-GROUP_SIZE = Key("count", "group.count", integer(0, 1_000_000))
+GROUP_SIZE = Key(
+    "count",
+    "group.count",
+    integer(0, 1_000_000),
+    "Number of nodes of the group; `*.numUavs` says the same. neither: one node, no index",
+    default="none",
+)
 """Below the group, `*.uavs.count`; `*.numUavs` means the same."""
+
+PROTOCOL_PARAMETER = Key(
+    "protocol.ATTRIBUTE",
+    "protocol.attribute",
+    si_number(),
+    "A public class attribute of the protocol, int, float, str or bool; quantities become SI units",
+    default="the class's",
+)
+"""Stands for all of them in lists of keys; `parameters_of` knows a class's."""
 
 NETWORK_MODULES = frozenset(key.path.partition(".")[0] for key in NETWORK_KEYS)
 """Names below the network that are no groups of nodes."""
 
-OPTIONS: dict[str, Kind] = {
-    "sim-time-limit": quantity("s", above=0, at_most=_MAX_SIM_TIME_S),
-    "seed-set": integer(0, 2**63 - 1),
-    "repeat": integer(1, 1_000_000),
-    "description": text(),
-}
+OPTION_KEYS: tuple[Key, ...] = (
+    Key(
+        "sim-time-limit",
+        "option.sim_time_limit",
+        quantity("s", above=0, at_most=_MAX_SIM_TIME_S),
+        "Simulated time at which a run ends",
+        default="none: it has to be given",
+    ),
+    Key(
+        "seed-set",
+        "option.seed_set",
+        integer(0, 2**63 - 1),
+        "Seed of all random numbers of a run",
+        default="${runnumber}",
+    ),
+    Key(
+        "repeat",
+        "option.repeat",
+        integer(1, 1_000_000),
+        "How many runs there are, from number 0",
+        default="1",
+    ),
+    Key("description", "option.description", text(), "What the configuration is about", default='""'),
+)
+
+OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
 
 SECTION_OPTIONS = ("extends", "abstract")
 """Options that belong to a section and cannot be given on the command line."""

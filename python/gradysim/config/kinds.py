@@ -26,11 +26,15 @@ class Kind:
         expected: How messages name it, after "expected".
         convert: Checks a value and gives what is to be stored; raises BadValue.
         is_text: Whether a text is meant: on the command line it needs no quotes.
+        unit: For a list of keys: the unit, or what it is instead ("whole number").
+        show: Writes what is stored as it would stand in a file, in `unit`.
     """
 
     expected: str
     convert: Callable[[Value], Scalar]
     is_text: bool = False
+    unit: str = ""
+    show: Callable[[Scalar], str] = str
 
 
 def quantity(
@@ -39,8 +43,12 @@ def quantity(
     above: float | None = None,
     at_most: float | None = None,
     special: float | None = None,
+    shown: str = "",
 ) -> Kind:
-    """A finite quantity, converted to `unit` and of a range in that unit; `special` is allowed beside it."""
+    """A finite quantity, converted to `unit` and of a range in that unit; `special` is allowed beside it.
+
+    Lists of keys show it in the unit `shown`, if that is another one.
+    """
     target = UNITS[unit]
 
     def convert(value: Value) -> float:
@@ -49,7 +57,14 @@ def quantity(
         return number
 
     expected = target.dimension.value + _range_text(at_least, above, at_most, unit)
-    return Kind(expected + (f", or {special:g}{unit}" if special is not None else ""), convert)
+    return Kind(
+        expected + (f", or {special:g}{unit}" if special is not None else ""),
+        convert,
+        unit=shown or unit,
+        show=lambda value: (
+            f"{value:g}{unit}" if value == special else _in_unit(float(value), unit, shown or unit)
+        ),
+    )
 
 
 def number(at_least: float | None = None, above: float | None = None, at_most: float | None = None) -> Kind:
@@ -60,7 +75,12 @@ def number(at_least: float | None = None, above: float | None = None, at_most: f
         _check_range(result, value, at_least, above, at_most, None)
         return result
 
-    return Kind("a plain number" + _range_text(at_least, above, at_most, ""), convert)
+    return Kind(
+        "a plain number" + _range_text(at_least, above, at_most, ""),
+        convert,
+        unit="number",
+        show=lambda value: f"{value:g}",
+    )
 
 
 def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> Kind:
@@ -73,7 +93,7 @@ def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> K
         _check_range(result, value, at_least, None, at_most, None)
         return result
 
-    return Kind("a whole number" + _range_text(at_least, None, at_most, ""), convert)
+    return Kind("a whole number" + _range_text(at_least, None, at_most, ""), convert, unit="whole number")
 
 
 def whole_bytes() -> Kind:
@@ -92,7 +112,11 @@ def whole_bytes() -> Kind:
 def power_ratio() -> Kind:
     """A level in decibels, converted to a linear ratio of powers."""
     level = quantity("dB", at_least=-300, at_most=300)
-    return replace(level, convert=lambda value: math.pow(10.0, float(level.convert(value)) / 10.0))
+    return replace(
+        level,
+        convert=lambda value: math.pow(10.0, float(level.convert(value)) / 10.0),
+        show=lambda ratio: level.show(10.0 * math.log10(float(ratio))),
+    )
 
 
 def channel_of_2_4_ghz() -> Kind:
@@ -107,7 +131,10 @@ def channel_of_2_4_ghz() -> Kind:
         channel = int(index.convert(value))
         return 2.484e9 if channel == 13 else 2.412e9 + 5e6 * channel
 
-    return Kind("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert)
+    def show(carrier_hz: Scalar) -> str:
+        return "13" if carrier_hz == 2.484e9 else f"{(float(carrier_hz) - 2.412e9) / 5e6:g}"
+
+    return Kind("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert, unit="0 to 13", show=show)
 
 
 def boolean() -> Kind:
@@ -118,12 +145,14 @@ def boolean() -> Kind:
             raise BadValue(f"it is {_description(value)}")
         return value
 
-    return Kind("true or false", convert)
+    return Kind(
+        "true or false", convert, unit="true or false", show=lambda value: "true" if value else "false"
+    )
 
 
 def text() -> Kind:
     """Any text in quotes."""
-    return Kind('a text in quotes ("...")', _text_of, is_text=True)
+    return Kind('a text in quotes ("...")', _text_of, is_text=True, unit="text", show=_quoted)
 
 
 def choice(*names: str) -> Kind:
@@ -135,8 +164,9 @@ def choice(*names: str) -> Kind:
             raise BadValue(f"`{name}` is not known", did_you_mean(name, names))
         return name
 
-    quoted = [f'"{name}"' for name in names]
-    return Kind(f"one of {', '.join(quoted)}" if len(quoted) > 1 else quoted[0], convert, is_text=True)
+    quoted = [_quoted(name) for name in names]
+    expected = f"one of {', '.join(quoted)}" if len(quoted) > 1 else quoted[0]
+    return Kind(expected, convert, is_text=True, unit=expected, show=_quoted)
 
 
 def si_number() -> Kind:
@@ -151,7 +181,20 @@ def si_number() -> Kind:
         base = next(u for u in UNITS.values() if u.dimension is given.unit.dimension and u.factor == 1)
         return _not_nan(given.to(base), value)
 
-    return Kind("a number, or a quantity that has an SI unit", convert)
+    return Kind("a number, or a quantity that has an SI unit", convert, unit="number or quantity")
+
+
+def _in_unit(value: float, unit: str, shown: str) -> str:
+    """`value`, which is in `unit`, as it is written in the unit `shown`."""
+    source, target = UNITS[unit], UNITS[shown]
+    number = value * float(source.factor / target.factor)
+    if target.logarithmic:
+        number = 10.0 * math.log10(number) if number > 0 else -math.inf
+    return f"{number:.6g}{shown}"
+
+
+def _quoted(text: Scalar) -> str:
+    return f'"{text}"'
 
 
 def _quantity_of(value: Value) -> Quantity:

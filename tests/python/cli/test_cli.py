@@ -441,3 +441,18 @@ def test_a_second_ctrl_c_leaves_a_protocol_that_never_returns(gradysim, mode):
 def test_the_summary_of_an_interrupted_run_says_so(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", mode)
     assert "interrupted at 1 s of simulated time" in done.stdout
+
+
+# --- Keys ---
+
+
+def test_keys_are_plain_lines_when_there_is_no_terminal(gradysim):
+    done = gradysim("keys", "mobility.speed")
+    assert done.returncode == 0
+    assert [line.split("\t")[0] for line in done.stdout.splitlines()] == ["*.nodes[*].mobility.speed"]
+
+
+def test_a_pattern_that_no_key_matches_is_a_mistake(gradysim):
+    done = gradysim("keys", "nonsense")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "nonsense" in done.stderr

@@ -1,0 +1,18 @@
+"""The defaults of the engine's configurations, for lists of keys."""
+
+from gradysim.config.key_list import Structs
+from gradysim.integrated.compiled_part import load_netsim
+
+
+def engine_defaults() -> Structs:
+    """Return the engine's structs as they are made. Raises CompiledPartMissingError."""
+    netsim = load_netsim()
+    return {
+        "medium": {
+            "": netsim.MediumConfig(),
+            "802.15.4": netsim.MediumConfig("Ieee802154NarrowbandScalarRadioMedium"),
+        },
+        "radio": {"": netsim.RadioConfig()},
+        "mac": {"": netsim.MacConfig()},
+        "mobility": {"": netsim.MobilityConfig()},
+    }

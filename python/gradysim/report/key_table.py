@@ -1,0 +1,58 @@
+"""The list of all keys, as a table for a terminal, as plain text and as Markdown."""
+
+from collections.abc import Iterable
+
+from rich import box
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from gradysim.config.key_list import KeySection
+
+HEADINGS = ("key", "unit or value", "default", "meaning")
+
+INTRODUCTION = """# Keys of .ini files
+
+All that an `.ini` file may say; `gradysim keys` prints this page, `gradysim keys PATTERN` a part of it.
+`nodes` stands for the name of a group, `*` for any index. Values in other units of the same dimension are
+understood too: a power in `mW` or `dBm`, a time in `ms` or `h`.
+Of two lines that fit, the first one is in force. A section may also say `extends = NAME` and
+`abstract = true`. What only OMNeT++ needs is ignored: `network`, `result-dir`, `experiment-label`,
+`cmdenv-*`, `qtenv-*`, `*.visualizer.**`.
+
+This page is made by `gradysim keys --markdown`."""
+
+
+def rich_tables(sections: Iterable[KeySection]) -> RenderableType:
+    """Return a table per section."""
+    parts: list[RenderableType] = []
+    for section in sections:
+        table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+        for heading, ratio in zip(HEADINGS, (6, 3, 3, 5), strict=True):
+            table.add_column(heading, overflow="fold", ratio=ratio)
+        for row in section.rows:
+            table.add_row(*map(Text, (row.key, row.unit, row.default, row.meaning)))
+        parts += [Text(section.title, style="bold"), table, Text()]
+    return Group(*parts)
+
+
+def plain_text(sections: Iterable[KeySection]) -> str:
+    """Return one line per key, its four columns separated by tabs, for other programs."""
+    rows = [row for section in sections for row in section.rows]
+    return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{row.meaning}\n" for row in rows)
+
+
+def markdown(sections: Iterable[KeySection]) -> str:
+    """Return the page docs/guides/keys.md."""
+    parts = [INTRODUCTION]
+    for section in sections:
+        lines = [f"| {' | '.join(HEADINGS)} |", "|---|---|---|---|"]
+        lines += [
+            f"| `{row.key}` | {row.unit} | {_code(row.default)} | {row.meaning} |" for row in section.rows
+        ]
+        parts += [f"## {section.title}", "\n".join(lines)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _code(default: str) -> str:
+    return default if " " in default and '"' not in default else f"`{default}`"

@@ -1,0 +1,56 @@
+from types import SimpleNamespace
+
+import pytest
+
+from gradysim.config.key_list import UNKNOWN, KeyRow, key_sections, matching
+from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+
+
+def row(end: str, **structs: object) -> KeyRow:
+    """The row of the key that ends so; every struct has one variant."""
+    sections = key_sections({name: {"": struct} for name, struct in structs.items()})
+    (found,) = [row for section in sections for row in section.rows if row.key.endswith(end)]
+    return found
+
+
+def keys(pattern: str) -> list[str]:
+    return [row.key for section in matching(key_sections({}), pattern) for row in section.rows]
+
+
+def test_every_key_is_listed_with_a_meaning_and_a_unit() -> None:
+    rows = [row for section in key_sections({}) for row in section.rows]
+    assert all(row.meaning and row.unit and row.default for row in rows)
+    assert len(rows) > len((*NODE_KEYS, *NETWORK_KEYS))
+
+
+@pytest.mark.parametrize(
+    ("end", "field", "value", "written"),
+    [
+        ("sensitivity", "sensitivity_w", 3.1622776601683794e-12, "-85dBm"),
+        ("transmitter.power", "tx_power_w", 0.02, "20mW"),
+        ("centerFrequency", "carrier_hz", 2.412e9, "2412MHz"),
+        ("channelNumber", "carrier_hz", 2.484e9, "13"),
+        ("channelNumber", "carrier_hz", 2.437e9, "5"),
+        ("snirThreshold", "snir_threshold", 2.51188643150958, "4dB"),
+    ],
+)
+def test_defaults_are_written_as_in_a_file(end: str, field: str, value: float, written: str) -> None:
+    values = {key.field: 1.0 for key in NODE_KEYS if key.struct == "radio"} | {field: value}
+    assert row(end, radio=SimpleNamespace(**values)).default == written
+
+
+def test_a_default_of_a_struct_that_is_missing_is_unknown() -> None:
+    assert row("transmitter.power").default == UNKNOWN
+
+
+def test_defaults_of_our_own_are_always_known() -> None:
+    assert row("transmissionRange").default == "60m"
+
+
+@pytest.mark.parametrize("pattern", ["POWER", "*.transmitter.power", "wlan[*].radio.transmitter.pow"])
+def test_patterns(pattern: str) -> None:
+    assert "*.nodes[*].wlan[*].radio.transmitter.power" in keys(pattern)
+
+
+def test_what_does_not_match_is_left_out() -> None:
+    assert keys("nonsense") == []
