@@ -9,9 +9,11 @@ A decorator turns a predicate into a case, and an `AssertionHandler` evaluates i
     builder.add_handler(AssertionHandler([below_the_ceiling]))
 """
 
+import sys
 from abc import ABC
 from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import Any, ClassVar, TypeVar
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.event import EventLoop
@@ -30,7 +32,13 @@ class FailedAssertionException(Exception):  # noqa: N818 (the published name)
 
 
 class SimulationTestCase(ABC):  # noqa: B024 (both methods are optional)
-    """A check of one simulation; a new instance is made for each."""
+    """A check of one simulation; a new instance is made for each.
+
+    Attributes:
+        asked: Class of the protocols whose nodes are checked; None for all nodes.
+    """
+
+    asked: ClassVar[type[IProtocol] | None] = None
 
     def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
         """Called after each event.
@@ -63,6 +71,8 @@ def assert_always_true_for_protocol(
 
     def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
         class Case(SimulationTestCase):
+            asked = protocol_type
+
             def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
                 for node in _of_type(nodes, protocol_type):
                     if not predicate(node):
@@ -84,6 +94,8 @@ def assert_eventually_true_for_protocol(
 
     def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
         class Case(SimulationTestCase):
+            asked = protocol_type
+
             def __init__(self) -> None:
                 self._waiting: list[Node[Any]] | None = None
 
@@ -181,6 +193,17 @@ class AssertionHandler(INodeHandler):
         """Take one more node to check."""
         self._nodes.append(node)
 
+    def initialize(self) -> None:
+        """See that the cases find their nodes.
+
+        Raises:
+            TypeError: The file of a node's protocol was loaded twice, and a case asks for the other class.
+        """
+        for case in self._cases:
+            if case.asked is not None:
+                for node in self._nodes:
+                    _check_not_loaded_twice(node, case.asked)
+
     def after_simulation_step(self, iteration: int, timestamp: float) -> None:
         """Evaluate all cases.
 
@@ -210,6 +233,27 @@ _NEVER = "the condition was never met during the simulation"
 
 def _of_type(nodes: list[Node[Any]], protocol_type: type[IProtocol]) -> list[Node[Any]]:
     return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, protocol_type)]
+
+
+def _check_not_loaded_twice(node: Node[Any], asked: type[IProtocol]) -> None:
+    """The same source may be two classes, and what is asked of one would silently not be of the other."""
+    protocol = type(getattr(node.protocol_encapsulator, "protocol", None))
+    if issubclass(protocol, asked):
+        return
+    file = _file_of(asked)
+    for other in protocol.__mro__:
+        if file is not None and other.__qualname__ == asked.__qualname__ and _file_of(other) == file:
+            raise TypeError(
+                f"an assertion asks for nodes with {asked.__module__}.{asked.__qualname__}, but node "
+                f"{node.id} runs {other.__module__}.{other.__qualname__}, another class "
+                f"from the same file, {file}, which was loaded twice. Import the protocol from a module of its own, and let a scenario "
+                f'name it as that does: "{file.stem}:{asked.__qualname__}", not "{file.name}:..."'
+            )
+
+
+def _file_of(cls: type) -> Path | None:
+    name = getattr(sys.modules.get(cls.__module__), "__file__", None)
+    return None if name is None else Path(name).resolve()
 
 
 def _named(case: type[SimulationTestCase], predicate: Callable[..., bool]) -> type[SimulationTestCase]:

@@ -1,0 +1,96 @@
+"""What docs/guides/handlers.md shows is what happens."""
+
+import importlib
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gradysim.config import load_scenarios
+from gradysim.simulator.handler.assertion import FailedAssertionException
+
+pytest.importorskip("gradysim._netsim")
+
+MODULES = ("climber", "watch")
+
+
+@pytest.fixture
+def text(root: Path) -> str:
+    return (root / "docs/guides/handlers.md").read_text()
+
+
+@pytest.fixture
+def folder(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder with the guide's files, as a reader would save them; it is the working directory."""
+    programs = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    (tmp_path / "climber.py").write_text(programs[0])
+    (tmp_path / "watch.py").write_text("\n\n".join(programs[1:]))
+    (ini,) = re.findall(r"^```ini\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    (tmp_path / "watch.ini").write_text(ini)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def watch(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """The guide's script, imported."""
+    monkeypatch.syspath_prepend(folder)
+    for name in MODULES:
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    yield importlib.import_module("watch")
+    for name in MODULES:
+        sys.modules.pop(name, None)
+
+
+def test_the_checks_hold_in_both_modes(watch: Any) -> None:
+    assert [result.mode for result in watch.check("watch.ini")] == ["prototype", "integrated"]
+
+
+@pytest.mark.parametrize("mode", ["prototype", "integrated"])
+def test_a_check_fails_in_the_words_of_the_guide(watch: Any, mode: str, text: str) -> None:
+    (shown,) = re.findall(r"^```text\n(.*)\n```", text, re.MULTILINE)
+    words = re.escape(re.sub(r"=[\d.]+", "=#", shown)).replace(r"\#", r"[\d.]+")
+    module: Any = importlib.import_module(f"gradysim.{mode}.run")
+    (scenario,) = load_scenarios("watch.ini", overrides=["*.climbers[*].protocol.ceiling = 60.0"])
+    with pytest.raises(FailedAssertionException, match=words):
+        module.run(scenario, handlers=[watch.AssertionHandler([watch.below_the_ceiling])])
+
+
+def test_a_protocol_that_is_loaded_twice_is_an_error(watch: Any) -> None:
+    ini = Path("watch.ini")
+    ini.write_text(ini.read_text().replace("climber:", "climber.py:"))
+    with pytest.raises(TypeError, match=r'loaded twice.* "climber:Climber"'):
+        watch.check("watch.ini")
+
+
+def test_it_is_shown(watch: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("websockets")
+    configuration = watch.VisualizationConfiguration
+    monkeypatch.setattr(
+        watch, "VisualizationConfiguration", lambda **settings: configuration(port=0, **settings)
+    )
+    assert watch.show("watch.ini").sim_time_s == 10
+
+
+def test_heights_once_a_second(watch: Any) -> None:
+    samples = watch.heights("watch.ini")
+    assert [time for time, _ in samples] == pytest.approx(range(1, 11))
+    for time, heights in samples:
+        assert heights == pytest.approx([min(10 * time, 50)] * 3, abs=0.01)
+
+
+def test_its_types_hold(folder: Path, root: Path) -> None:
+    pytest.importorskip("mypy")
+    check = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--config-file=", "watch.py"],
+        cwd=folder,
+        env={"MYPYPATH": str(root / "python"), "PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert check.returncode == 0, check.stdout
