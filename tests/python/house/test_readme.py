@@ -44,7 +44,33 @@ def test_jitter_makes_them_heard(first_protocol: Path) -> None:
     pytest.importorskip("gradysim._netsim")
     from gradysim.integrated.run import run
 
-    assert min(heard(run, first_protocol, "Jittered")) > 150
+    assert heard(run, first_protocol, "Jittered") == [177] * 4
+
+
+def test_what_the_command_prints_is_explained(root: Path, first_protocol: Path) -> None:
+    pytest.importorskip("gradysim._netsim")
+    from gradysim.integrated.run import run
+
+    readme = " ".join((root / "README.md").read_text().split())
+    section = readme.partition("## What the output means")[2].partition("## ")[0]
+    fates = run(load_scenarios(first_protocol)[0]).fates
+    names = {
+        fate.replace("_", " ") for kinds in fates.values() for counts in kinds.values() for fate in counts
+    }
+    columns = {word for kinds in fates.values() for kind in kinds for word in kind.split()}
+    assert {name for name in names if name not in section.replace("lost to ", "")} == set()
+    assert columns - {"broadcast", "rts", "cts"} <= set(re.findall(r"\w+", section))
+
+
+def test_its_links_lead_somewhere(root: Path) -> None:
+    links = re.findall(r"\]\(([^)#]+)\)", (root / "README.md").read_text())
+    assert [link for link in links if "://" not in link and not (root / link).exists()] == []
+
+
+def test_the_sweep_in_the_shell_sets_a_key_that_exists(root: Path, first_protocol: Path) -> None:
+    setting = re.search(r'--set "(.*)=\$jitter"', (root / "README.md").read_text())
+    assert setting is not None
+    load_scenarios(first_protocol, overrides=[f"{setting[1]}=10ms"])
 
 
 def test_its_commands_are_those_of_make(root: Path) -> None:
