@@ -79,6 +79,8 @@ void bind_network(py::module_& module) {
     py::class_<Network>(module, "Network")
         .def(py::init<const MediumConfig&, std::uint64_t>(), py::arg("medium"), py::arg("seed"))
         .def("add_node", &Network::add_node, py::arg("config"), py::return_value_policy::reference_internal)
+        .def("capture", &Network::capture, py::arg("node"), py::arg("path"))
+        .def("close_captures", &Network::close_captures)
         .def("initialize", &Network::initialize)
         .def(
             "run_until",

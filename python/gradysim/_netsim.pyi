@@ -88,6 +88,13 @@ class Node:
 class Network:
     def __init__(self, medium: MediumConfig, seed: int) -> None: ...
     def add_node(self, config: NodeConfig) -> Node: ...
+    def capture(self, node: int, path: str) -> None:
+        """Write what the radio of that node sends and receives from now on to a pcap file.
+
+        Raises ConfigError for a path that cannot be written and for a medium without radios.
+        """
+    def close_captures(self) -> None:
+        """Complete the capture files; `finish` does it, too. SimulationError if one could not be written."""
     def initialize(self) -> None: ...
     def run_until(self, time: float, max_events: int = ...) -> bool:
         """Run the events up to and including `time` (seconds). False when `max_events` came first."""

@@ -1,6 +1,7 @@
 #include "netsim/node/network.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -72,6 +73,35 @@ void Network::add_to_telemetry_clock(Node& node, SimTime interval) {
     clock->add(node);
 }
 
+void Network::capture(NodeId node, const std::string& path) {
+    const std::string& name = this->node(node).name();
+    if (perfect_channel_) {
+        throw ConfigError("cannot capture the frames of " + name +
+                          ": a medium of typename UnitDiskRadioMedium has no radios; expected " +
+                          "Ieee80211ScalarRadioMedium or another radio medium");
+    }
+    if (captures_.contains(node)) {
+        throw ConfigError("the frames of " + name + " are captured already");
+    }
+    radios_.at(static_cast<std::size_t>(node)).set_observer(&captures_.try_emplace(node, path).first->second);
+}
+
+void Network::close_captures() {
+    std::exception_ptr failure;
+    for (auto& [node, capture] : captures_) {
+        radios_[static_cast<std::size_t>(node)].set_observer(nullptr);
+        try {
+            capture.close();
+        } catch (const SimulationError&) {
+            failure = std::current_exception();
+        }
+    }
+    captures_.clear();
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
 void Network::initialize() {
     for (Node& node : nodes_) {
         node.initialize();
@@ -93,6 +123,7 @@ void Network::finish() {
     for (Node& node : nodes_) {
         node.finish();
     }
+    close_captures();
 }
 
 void Network::release_protocols() {

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/node_config.hpp"
@@ -16,6 +18,7 @@
 #include "netsim/mac/unit_disk_link.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/node/node.hpp"
+#include "netsim/node/radio_capture.hpp"
 #include "netsim/node/scheduled_calls.hpp"
 #include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
@@ -37,6 +40,13 @@ public:
     const Node& node(NodeId id) const { return nodes_.at(static_cast<std::size_t>(id)); }
     std::int32_t node_count() const { return node_count_; }
 
+    // Writes what the node's radio sends and receives from now on to a pcap file, until close_captures() or the end
+    // of the network. Throws ConfigError for a path that cannot be written, for a second capture of a node, and for
+    // the unit disk medium, which has no radios.
+    void capture(NodeId node, const std::string& path);
+    // Completes the capture files. Throws SimulationError, after all are closed, if one could not be written.
+    void close_captures();
+
     // Calls the protocols' initialize, in the order of ids, at time 0.
     void initialize();
     // Runs the events up to and including `limit`; false if `max_events` ran before that.
@@ -48,7 +58,7 @@ public:
     // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
     // run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
-    // Calls the protocols' finish, in the order of ids.
+    // Calls the protocols' finish, in the order of ids, and closes the captures.
     void finish();
     // Drops the protocols and what was scheduled, which may own more than their memory (a Python object that
     // refers back to its node).
@@ -74,6 +84,7 @@ private:
     Medium medium_;
     UnitDiskChannel unit_disk_;
     std::deque<Radio> radios_;
+    std::map<NodeId, RadioCapture> captures_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
     ScheduledCalls scheduled_calls_{simulator_};

@@ -35,6 +35,10 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.psdu_bytes = psdu_bytes;
     transmission.mode = &mode;
     transmission.frame = std::move(frame);
+    if (observer_ != nullptr) {
+        transmission.start = simulator_.now();
+        observer_->transmitted(transmission);
+    }
     medium_.transmit(std::move(transmission));
     simulator_.schedule_after(duration, [this] { transmission_over(); });
     update_busy();
@@ -70,7 +74,11 @@ void Radio::arrival_ended(const Arrival& arrival) {
         locked_ = nullptr;
         const Interference& interference = medium_.interference_with(id_, arrival);
         FrameFate fate = FrameFate::delivered;
-        if (decide(arrival, interference, fate)) {
+        const bool decoded = decide(arrival, interference, fate);
+        if (observer_ != nullptr) {
+            observer_->received(arrival, medium_.background_noise_w(), decoded);
+        }
+        if (decoded) {
             book(*arrival.transmission, fate);
             listener_->frame_received(*arrival.transmission);
         } else {

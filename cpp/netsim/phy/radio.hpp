@@ -17,6 +17,7 @@
 #include "netsim/medium/medium.hpp"
 #include "netsim/phy/error_rate.hpp"
 #include "netsim/phy/modes.hpp"
+#include "netsim/phy/radio_observer.hpp"
 
 namespace netsim {
 
@@ -41,6 +42,8 @@ public:
     Radio& operator=(const Radio&) = delete;
 
     void set_listener(RadioListener& listener) { listener_ = &listener; }
+    // Who is told of every frame sent and received from now on; nobody, if null.
+    void set_observer(RadioObserver* observer) { observer_ = observer; }
     NodeId id() const { return id_; }
 
     // Sends a frame now; only while not transmitting.
@@ -73,6 +76,7 @@ private:
     FrameFates& fates_;
     Fingerprint& fingerprint_;
     RadioListener* listener_ = nullptr;
+    RadioObserver* observer_ = nullptr;
     NodeId id_;
     RandomStream reception_draws_;
     std::vector<Present> present_;

@@ -1,0 +1,42 @@
+// A classic pcap file with time stamps in nanoseconds, of 802.11 frames with radiotap headers.
+//
+// Opened before a run, so that a path that cannot be written is found then. A disk that gets full during the run does
+// not end it: what is written later is dropped, and close() reports it.
+//
+// Source: IETF draft-ietf-opsawg-pcap (magic 0xa1b23c4d, link type 127). Little-endian on every machine.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/trace/octets.hpp"
+
+namespace netsim {
+
+class PcapWriter {
+public:
+    // Creates or empties the file. Throws ConfigError, with the path and the reason, if that cannot be done.
+    explicit PcapWriter(std::string path);
+
+    // Adds a packet. The time is that of the simulation, not negative, cut to whole nanoseconds.
+    void write(SimTime time, const Octets& packet);
+    // Writes out what is buffered and closes the file; the destructor does the same without a report. Throws
+    // SimulationError, with the path and the reason, if part of the file could not be written.
+    void close();
+
+private:
+    struct Closer {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+
+    void write_octets(const Octets& octets);
+
+    std::string path_;
+    std::unique_ptr<std::FILE, Closer> file_;
+    int error_ = 0;  // errno of the first write that failed
+    Octets record_header_;
+};
+
+}  // namespace netsim

@@ -1,0 +1,32 @@
+// What a radio knows of a frame beside its octets, as the header that precedes each frame in a capture file.
+//
+// Source: radiotap.org, fields Flags, Rate, Channel, Antenna signal, Antenna noise and TX power.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "netsim/trace/octets.hpp"
+
+namespace netsim {
+
+enum class ChannelModulation { cck, ofdm };  // DSSS counts as CCK
+
+struct Radiotap {
+    struct Received {
+        double signal_w = 0;
+        double noise_w = 0;
+        bool decoded = true;  // else the bad FCS flag is set
+    };
+
+    std::int64_t bitrate_bps = 0;
+    double carrier_hz = 0;
+    ChannelModulation modulation = ChannelModulation::ofdm;
+    double tx_power_w = 0;             // of a frame that was sent
+    std::optional<Received> received;  // of a frame that was received, which has no TX power
+};
+
+// Appends the header. Powers are rounded to whole dBm within -128 … 127, the frequency to MHz within 0 … 65535.
+void append_radiotap(Octets& octets, const Radiotap& radiotap);
+
+}  // namespace netsim
