@@ -245,9 +245,10 @@ def _check_not_loaded_twice(node: Node[Any], asked: type[IProtocol]) -> None:
         if file is not None and other.__qualname__ == asked.__qualname__ and _file_of(other) == file:
             raise TypeError(
                 f"an assertion asks for nodes with {asked.__module__}.{asked.__qualname__}, but node "
-                f"{node.id} runs {other.__module__}.{other.__qualname__}, another class "
-                f"from the same file, {file}, which was loaded twice. Import the protocol from a module of its own, and let a scenario "
-                f'name it as that does: "{file.stem}:{asked.__qualname__}", not "{file.name}:..."'
+                f"{node.id} runs {other.__module__}.{other.__qualname__}, another class from the same "
+                f"file, {file}, which was loaded twice. Import the protocol from a module of its own, and "
+                f'let a scenario name it as that does: "{file.stem}:{asked.__qualname__}", '
+                f'not "{file.name}:..."'
             )
 
 

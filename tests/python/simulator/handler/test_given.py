@@ -56,7 +56,7 @@ def test_asynchronous_handlers_where_they_work():
 
 
 def test_asynchronous_handlers_elsewhere():
-    with pytest.raises(ValueError, match="Waiting waits .* test mode"):
+    with pytest.raises(ValueError, match=r"Waiting waits .* test mode"):
         given(Waiting())
 
 
