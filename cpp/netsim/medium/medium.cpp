@@ -326,9 +326,15 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) 
                 return;
             }
             const Receiver& receiver = attached.receiver;
-            const double power_w = arrival_at(strongest, receiver).power_w;
-            if (is_loud(receiver, power_w) || (background_noise_w_ + power_w + search.others_w) * (1 + 1e-9) <
-                                                  receiver.energy_detection_w) {
+            // Up to rounding, that is, for which there is a margin on both sides.
+            const double power_w =
+                moved_m > 0 || !odometer_.all_stand()
+                    ? arrival_at(strongest, receiver).power_w
+                    : strongest.power_w *
+                          path_loss_.gain(distance(strongest.origin, place), strongest.band.carrier_hz);
+            if (is_loud(receiver, power_w * (1 - 1e-9)) ||
+                (background_noise_w_ + power_w + search.others_w) * (1 + 1e-9) <
+                    receiver.energy_detection_w) {
                 return;
             }
             attached.checks = checks_;
