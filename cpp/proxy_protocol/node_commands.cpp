@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "proxy_protocol/python_text.hpp"
 
@@ -42,13 +43,28 @@ long integer(py::handle value, const char* what) {
     return number;
 }
 
-double number(py::handle value, const char* what) {
+double number(py::handle value, const char* what, const char* expected = "a number") {
     const double result = PyFloat_AsDouble(value.ptr());
     if (result == -1.0 && PyErr_Occurred()) {
         PyErr_Clear();
-        throw py::type_error(std::string(what) + " must be a number, not " + std::string(py::repr(value)));
+        throw py::type_error(std::string(what) + " must be " + expected + ", not " +
+                             std::string(py::repr(value)));
     }
     return result;
+}
+
+// The attribute that tells commands from anything else that a protocol may pass by mistake.
+long command_type_of(py::handle command, PyObject* type_name, const char* expected) {
+    PyObject* type = PyObject_GetAttr(command.ptr(), type_name);
+    if (type == nullptr) {
+        if (!PyErr_ExceptionMatches(PyExc_AttributeError)) {
+            throw py::error_already_set();
+        }
+        PyErr_Clear();
+        throw py::type_error("a " + std::string(expected) + " was expected, not " +
+                             std::string(py::repr(command)));
+    }
+    return integer(py::reinterpret_steal<py::object>(type), "command_type");
 }
 
 }  // namespace
@@ -57,7 +73,7 @@ void send_communication_command(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const message_name = name_of("message");
     static PyObject* const destination_name = name_of("destination");
-    const long type = integer(attribute(command, type_name), "command_type");
+    const long type = command_type_of(command, type_name, "CommunicationCommand");
     auto payload =
         std::make_shared<const std::string>(utf8_from_python(attribute(command, message_name), "a message"));
     if (type == broadcast_type) {
@@ -78,7 +94,7 @@ void send_communication_command(netsim::Node& node, py::handle command) {
 void send_mobility_command(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const parameter_names[] = {name_of("param_1"), name_of("param_2"), name_of("param_3")};
-    const long type = integer(attribute(command, type_name), "command_type");
+    const long type = command_type_of(command, type_name, "MobilityCommand");
     const auto parameter = [&](int index, const char* what) {
         return number(attribute(command, parameter_names[index]), what);
     };
@@ -98,8 +114,10 @@ void send_mobility_command(netsim::Node& node, py::handle command) {
     }
 }
 
-void schedule_timer(netsim::Node& node, py::handle timer, double timestamp) {
-    node.schedule_timer(utf8_from_python(timer, "a timer's name"), netsim::SimTime::from_seconds(timestamp));
+void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) {
+    std::string name = utf8_from_python(timer, "a timer's name");
+    const double time_s = number(timestamp, "timestamp", "a number of seconds");
+    node.schedule_timer(std::move(name), netsim::SimTime::from_seconds(time_s));
 }
 
 void cancel_timer(netsim::Node& node, py::handle timer) {

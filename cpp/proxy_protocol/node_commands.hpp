@@ -14,7 +14,7 @@ void send_communication_command(netsim::Node& node, pybind11::handle command);
 // command: gradysim.protocol.messages.mobility.MobilityCommand; not GOTO_GEO_COORDS, which is converted before.
 void send_mobility_command(netsim::Node& node, pybind11::handle command);
 // timestamp: absolute simulated time in seconds.
-void schedule_timer(netsim::Node& node, pybind11::handle timer, double timestamp);
+void schedule_timer(netsim::Node& node, pybind11::handle timer, pybind11::handle timestamp);
 void cancel_timer(netsim::Node& node, pybind11::handle timer);
 
 }  // namespace proxy_protocol

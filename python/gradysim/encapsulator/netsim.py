@@ -107,7 +107,7 @@ class NetsimProvider(IProvider):
 
     def send_mobility_command(self, command: MobilityCommand) -> None:
         """Steer the node. Geographic coordinates are taken relative to the origin of the scene."""
-        if command.command_type == MobilityCommandType.GOTO_GEO_COORDS:
+        if getattr(command, "command_type", None) == MobilityCommandType.GOTO_GEO_COORDS:
             latitude, longitude, altitude = command.param_1, command.param_2, command.param_3
             if latitude is None or longitude is None or altitude is None:
                 raise ValueError(f"latitude, longitude and altitude are needed, this is {command}")

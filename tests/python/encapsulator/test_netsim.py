@@ -131,6 +131,23 @@ def test_an_unknown_destination_is_an_error():
         Pair(initialize=initialize).run()
 
 
+@pytest.mark.parametrize(
+    ("method", "arguments", "text"),
+    [
+        ("schedule_timer", ("tick", "5"), "timestamp must be a number of seconds, not '5'"),
+        ("schedule_timer", ("tick", None), "timestamp must be a number of seconds, not None"),
+        ("schedule_timer", (5, 1), "a timer's name must be a str, not int"),
+        ("send_communication_command", ("hello",), "a CommunicationCommand was expected, not 'hello'"),
+        ("send_mobility_command", ("hello",), "a MobilityCommand was expected, not 'hello'"),
+    ],
+)
+def test_an_argument_of_the_wrong_type_is_told_as_it_was_given(method, arguments, text):
+    provider = Pair().encapsulators[0].provider
+    with pytest.raises(TypeError) as failure:
+        getattr(provider, method)(*arguments)
+    assert str(failure.value) == text
+
+
 def position_after(command, until_s=1.0):
     def initialize(protocol):
         protocol.provider.send_mobility_command(SetSpeedMobilityCommand(1000))
