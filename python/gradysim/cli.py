@@ -38,6 +38,16 @@ SetOption = Annotated[
         help="KEY=VALUE: takes precedence over the file; may be repeated.",
     ),
 ]
+PcapOption = Annotated[
+    tuple[str, ...],
+    Parameter(
+        negative="",
+        consume_multiple=(1, None),
+        show_default=False,
+        help="NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap,"
+        " DIR as in --result-dir (default: results). A node (uavs[0]), a group (uavs), or all.",
+    ),
+]
 
 
 def installed_version() -> str:
@@ -89,6 +99,7 @@ def run(
     result_dir: Annotated[
         Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.json.")
     ] = None,
+    pcap: PcapOption = (),
     as_json: Annotated[
         bool,
         Parameter(name="--json", negative="", help="Print one JSON object per run, one per line, no more."),
@@ -107,7 +118,7 @@ def run(
             if result_dir is not None:
                 result_dir.mkdir(parents=True, exist_ok=True)
             scenarios = load(file, config, runs, settings, seed)
-            check, build = simulator(mode)
+            check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
             for scenario in scenarios:
                 check(scenario)
             with StopOnInterrupt() as interrupt:
@@ -117,6 +128,9 @@ def run(
                     bar = not quiet and not as_json
                     outcome = run_one(build, scenario, interrupt.should_stop, bar=bar)
                     code = report(outcome, output, result_dir, as_json=as_json)
+                    if pcap and outcome.result is not None:
+                        for capture in captures(scenario, pcap, result_dir).values():
+                            print(f"captured in {capture}")
                     if code != OK:
                         return code
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
@@ -202,6 +216,33 @@ def simulator(mode: Mode) -> "tuple[Callable[[Scenario], None], Callable[[Scenar
     from gradysim.integrated.run import IntegratedRun
 
     return check_scenario, IntegratedRun
+
+
+def capturing_simulator(
+    mode: Mode, pcap: Sequence[str], result_dir: Path | None
+) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":
+    """The same for runs that write capture files. Raises ConfigError for a mode without frames."""
+    from gradysim.config.error import ConfigError
+
+    if mode == "prototype":
+        raise ConfigError(
+            f"--pcap {pcap[0]}: prototype mode has no frames to capture; expected --mode integrated"
+        )
+    from gradysim.integrated.network import check_scenario
+    from gradysim.integrated.run import IntegratedRun
+
+    def check(scenario: "Scenario") -> None:
+        check_scenario(scenario)
+        captures(scenario, pcap, result_dir)
+
+    return check, lambda scenario: IntegratedRun(scenario, captures(scenario, pcap, result_dir))
+
+
+def captures(scenario: "Scenario", pcap: Sequence[str], result_dir: Path | None) -> dict[int, Path]:
+    """Return {id of a node: its capture file} of one run. Raises ConfigError for an unknown name."""
+    from gradysim.integrated.capture import capture_files
+
+    return capture_files(scenario, pcap, Path("results") if result_dir is None else result_dir)
 
 
 def run_one(

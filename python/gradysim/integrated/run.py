@@ -6,12 +6,14 @@ object: `execute` may raise, `result` tells at any time how far the run came.
 
 import random
 import weakref
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from time import perf_counter, process_time
 
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.integrated.capture import start_captures
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.network import build_network
 from gradysim.protocol.interface import IProtocol
@@ -23,16 +25,25 @@ from gradysim.simulator.handler.interface import INodeHandler
 class IntegratedRun:
     """A scenario on the compiled engine: built by the constructor, run once by `execute`."""
 
-    def __init__(self, scenario: Scenario, *, handlers: Iterable[INodeHandler] = ()) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        captures: Mapping[int, Path] | None = None,
+        *,
+        handlers: Iterable[INodeHandler] = (),
+    ) -> None:
         """Build the network and the protocols.
 
         `handlers` watch the run, as those of prototype mode: assertions, a viewer, one's own. One of them
         that overrides `after_simulation_step` gets its turn after every event of the engine, of which there
         are several for each frame. The run is slow then, one event at a time; other handlers do not slow it.
 
+        `captures` says for the ids of some nodes in which pcap file to write what they send and receive.
+        The files are complete when `execute` returns or raises.
+
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
-        accept a value of the scenario, ValueError or TypeError when a handler cannot work in this mode, and
-        what the constructor of a protocol raises.
+        accept a value of the scenario or cannot write a capture file, ValueError or TypeError when a handler
+        cannot work in this mode, and what the constructor of a protocol raises.
         """
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
@@ -40,6 +51,8 @@ class IntegratedRun:
         self._complete = False
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
+        self._captures = captures or {}
+        start_captures(self._network, scenario, self._captures)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
@@ -69,7 +82,8 @@ class IntegratedRun:
 
         `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
         passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
-        handler raises, as for an assertion that failed. Handlers are finalized in any case.
+        handler raises, as for an assertion that failed. Handlers are finalized in any case. A capture
+        file that could not be written to its end raises SimulationError when all else is done.
         """
         network, limit_s = self._network, self._scenario.sim_time_limit_s
         random.seed(self._scenario.seed)  # another run may have been built in between
@@ -94,6 +108,8 @@ class IntegratedRun:
             self._handlers.finalize_after_failure()
             network.release_protocols()
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
+            if self._captures:
+                network.close_captures()
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
@@ -130,9 +146,10 @@ def run(
     *,
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
+    captures: Mapping[int, Path] | None = None,
     handlers: Iterable[INodeHandler] = (),
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
-    integrated_run = IntegratedRun(scenario, handlers=handlers)
+    integrated_run = IntegratedRun(scenario, captures, handlers=handlers)
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

@@ -1,0 +1,131 @@
+"""`gradysim run --pcap`: which files are written, and what is refused."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib import util
+from pathlib import Path
+
+import pytest
+
+PROTOCOL = """
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+
+class Talker(IProtocol):
+    def initialize(self):
+        self.provider.schedule_timer("talk", 1 + 0.01 * self.provider.get_id())
+    def handle_timer(self, timer):
+        self.provider.send_communication_command(BroadcastMessageCommand("hello"))
+    def handle_packet(self, message): pass
+    def handle_telemetry(self, telemetry): pass
+    def finish(self): pass
+
+class Failing(Talker):
+    def handle_packet(self, message):
+        raise RuntimeError("spoilt")
+"""
+
+INI = """[General]
+sim-time-limit = 2s
+repeat = 3
+*.uavs.count = 2
+*.uavs[*].protocol.class = "protocol.py:Talker"
+*.uavs[*].mobility.lineStepX = 10m
+
+[Config Failing]
+*.uavs[*].protocol.class = "protocol.py:Failing"
+"""
+
+compiled = pytest.mark.skipif(
+    util.find_spec("gradysim._netsim") is None, reason="the compiled part is not installed"
+)
+
+Gradysim = Callable[..., subprocess.CompletedProcess[str]]
+
+
+@pytest.fixture
+def gradysim_run(tmp_path: Path) -> Gradysim:
+    """`gradysim_run(*arguments)` runs `gradysim run test.ini` in the test's folder."""
+    (tmp_path / "protocol.py").write_text(PROTOCOL)
+    (tmp_path / "test.ini").write_text(INI)
+
+    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, "-m", "gradysim", "run", "test.ini", *arguments],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"},
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+
+    return run
+
+
+def names_in(folder: Path) -> list[str]:
+    return sorted(path.name for path in folder.glob("*.pcap"))
+
+
+@compiled
+def test_a_file_for_each_node_and_run(gradysim_run: Gradysim, tmp_path: Path) -> None:
+    done = gradysim_run("-r", "0,2", "--result-dir", "out", "--pcap", "uavs[1]", "--pcap", "uavs[0]")
+    names = [f"General-#{run}-uavs[{index}].pcap" for run in (0, 2) for index in (0, 1)]
+    assert names_in(tmp_path / "out") == names
+    assert [line for line in done.stdout.splitlines() if line.startswith("captured in")] == [
+        f"captured in out/{name}" for name in names
+    ]
+
+
+@compiled
+def test_several_names_after_one_option(gradysim_run: Gradysim, tmp_path: Path) -> None:
+    gradysim_run("-r", "0", "--pcap", "uavs[0]", "uavs[1]", "--quiet")
+    assert names_in(tmp_path / "results") == ["General-#0-uavs[0].pcap", "General-#0-uavs[1].pcap"]
+
+
+@compiled
+def test_json_stays_json(gradysim_run: Gradysim) -> None:
+    done = gradysim_run("-r", "0", "--pcap", "all", "--json")
+    assert len(done.stdout.splitlines()) == 1
+    assert "captured in" in done.stderr
+
+
+@compiled
+def test_a_failing_run_keeps_its_capture(gradysim_run: Gradysim, tmp_path: Path) -> None:
+    done = gradysim_run("-c", "Failing", "--pcap", "all")
+    assert done.returncode == 1
+    assert (tmp_path / "results" / "Failing-#0-uavs[0].pcap").stat().st_size > 100
+
+
+@compiled
+def test_a_wrong_node(gradysim_run: Gradysim) -> None:
+    done = gradysim_run("--pcap", "uavs[7]")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("--pcap uavs[7]: no such node")
+    assert "did you mean `uavs[" in done.stderr
+
+
+@compiled
+def test_a_medium_without_radios(gradysim_run: Gradysim) -> None:
+    done = gradysim_run("--pcap", "all", "--set", '*.radioMedium.typename = "UnitDiskRadioMedium"')
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "expected Ieee80211ScalarRadioMedium or another radio medium" in done.stderr
+
+
+@compiled
+def test_a_file_that_cannot_be_written(gradysim_run: Gradysim, tmp_path: Path) -> None:
+    (tmp_path / "out" / "General-#0-uavs[0].pcap").mkdir(parents=True)
+    done = gradysim_run("--pcap", "all", "--result-dir", "out")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "cannot write the capture file 'out/General-#0-uavs[0].pcap': Is a directory" in done.stderr
+
+
+def test_no_node_at_all(gradysim_run: Gradysim) -> None:
+    assert gradysim_run("--pcap").returncode == 2
+
+
+def test_prototype_mode_has_no_frames(gradysim_run: Gradysim) -> None:
+    done = gradysim_run("--mode", "prototype", "--pcap", "all")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "expected --mode integrated" in done.stderr

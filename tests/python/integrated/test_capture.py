@@ -1,0 +1,87 @@
+from pathlib import Path
+
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.config.scenario import load_scenarios
+from gradysim.integrated.capture import capture_files
+from gradysim.integrated.run import IntegratedRun, run
+
+UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
+FAILING = 'class Tested(Talker):\n    def handle_packet(self, message): raise RuntimeError("spoilt")'
+HEADER_BYTES = 24
+
+
+@pytest.fixture
+def scenario(make_scenario, tmp_path):
+    """Two UAVs and a ground station."""
+    make_scenario()
+    with (tmp_path / "test.ini").open("a") as file:
+        file.write('*.groundStation.protocol.class = "protocol.py:Tested"\n')
+    (scenario,) = load_scenarios(tmp_path / "test.ini")
+    return scenario
+
+
+@pytest.mark.parametrize(
+    ("names", "nodes"),
+    [
+        (["uavs[1]"], [1]),
+        (["groundStation"], [2]),
+        (["uavs"], [0, 1]),
+        (["all"], [0, 1, 2]),
+        (["groundStation", "uavs[0]"], [0, 2]),
+        (["uavs", "uavs[0]", "all"], [0, 1, 2]),
+        ([], []),
+    ],
+)
+def test_nodes_by_name(scenario, names, nodes):
+    assert list(capture_files(scenario, names, Path("out"))) == nodes
+
+
+def test_files_are_named_after_configuration_run_and_node(scenario):
+    assert capture_files(scenario, ["uavs[1]"], Path("out")) == {1: Path("out/General-#0-uavs[1].pcap")}
+
+
+def test_an_unknown_name_says_what_there_is(scenario):
+    with pytest.raises(ConfigError) as error:
+        capture_files(scenario, ["groundstation"], Path("out"))
+    assert str(error.value) == (
+        "--pcap groundstation: no such node; expected a node such as uavs[0], a group (uavs, groundStation)"
+        " or all; did you mean `groundStation`?"
+    )
+
+
+def test_a_unit_disk_medium_has_nothing_to_capture(make_scenario, tmp_path):
+    scenario = make_scenario("class Tested(Talker): pass", UNIT_DISK)
+    with pytest.raises(ConfigError, match=r"^--set .*no radios; expected Ieee80211ScalarRadioMedium"):
+        IntegratedRun(scenario, {0: tmp_path / "a"})
+
+
+def test_a_file_that_cannot_be_written_is_found_before_the_run(make_scenario, tmp_path):
+    with pytest.raises(ConfigError, match=r"cannot write the capture file '.*': Is a directory"):
+        IntegratedRun(make_scenario(), {0: tmp_path})
+
+
+def test_a_folder_that_cannot_be_made_is_found_before_the_run(make_scenario, tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(ConfigError, match=r"cannot write the capture file '.*file/a\.pcap'"):
+        IntegratedRun(make_scenario(), {0: tmp_path / "file" / "a.pcap"})
+
+
+def test_a_capture_does_not_change_the_run(make_scenario, tmp_path):
+    with_capture = run(make_scenario(), captures={0: tmp_path / "new" / "a.pcap"})
+    assert with_capture.fingerprint == run(make_scenario()).fingerprint
+
+
+def test_the_file_is_complete_after_a_failure(make_scenario, tmp_path):
+    failing = IntegratedRun(make_scenario(FAILING), {0: tmp_path / "a.pcap"})
+    with pytest.raises(RuntimeError, match="spoilt"):
+        failing.execute()
+    assert (tmp_path / "a.pcap").stat().st_size > HEADER_BYTES
+
+
+def test_the_file_is_complete_after_an_interruption(make_scenario, tmp_path):
+    interrupted = IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap"})
+    interrupted.execute(should_stop=lambda: True)
+    assert interrupted.result().interrupted
+    assert (tmp_path / "a.pcap").stat().st_size > HEADER_BYTES
