@@ -9,17 +9,22 @@ from gradysim.config.groups import find_groups
 from gradysim.config.key_check import check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS, OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
+from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.nodes import build_nodes, load_classes, read_struct
 from gradysim.config.protocol_loader import ProtocolLoader
-from gradysim.config.reader import Entry, read_ini, read_overrides
+from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
 from gradysim.config.run_numbers import select_runs
-from gradysim.config.sections import config_names, search_order
+from gradysim.config.sections import config_names, search_order, unused_sections
 from gradysim.config.setting import Setting, SettingReader, read_scalar
 from gradysim.config.source import Source
 from gradysim.config.variables import depends_on_run, run_variables, substitute
 
 __all__ = ["CommunicationMediumSpec", "NodeSpec", "Scenario", "Setting", "Source", "load_scenarios"]
+
+
+MAX_NAMES = 20
+"""Configurations that a message lists."""
 
 
 @dataclass(frozen=True)
@@ -116,14 +121,28 @@ def load_scenarios(
     network: _Network | None = None
     parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
     varies = any(map(depends_on_run, parameters))
-    is_one_of_several = config_names(ini) != [config]
+    instead = _what_to_run_instead(ini, config, sections)
     scenarios = []
     for number in numbers:
         options = _options(_substituted(only_options, config, number))
         if network is None or varies:
-            network = _network(_substituted(ranked, config, number), loader, is_one_of_several, source)
+            network = _network(_substituted(ranked, config, number), loader, instead, source)
         scenarios.append(_scenario(file, config, number, options, network, source))
     return scenarios
+
+
+def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section]) -> str:
+    """What to add to an error of a configuration that lacks something: a misspelt section, or the others."""
+    unused = unused_sections(ini, sections)
+    general_is_empty = not ini.sections[GENERAL].entries
+    match = nearest(GENERAL, unused) if general_is_empty else None
+    if match is not None:
+        return f"; [{match}] at line {ini.sections[match].source.line} is not used: did you mean [{GENERAL}]?"
+    names = config_names(ini)
+    if config in names:
+        return ""
+    listed = ", ".join(names[:MAX_NAMES]) + (", …" if len(names) > MAX_NAMES else "")
+    return f"; or run another configuration of the file: `-c NAME`, {listed}"
 
 
 def _scenario(
@@ -170,17 +189,21 @@ def _description(entry: Entry) -> str:
 
 
 def _network(
-    ranked: list[tuple[int, Entry]], loader: ProtocolLoader, is_one_of_several: bool, source: Source
+    ranked: list[tuple[int, Entry]], loader: ProtocolLoader, instead: str, source: Source
 ) -> _Network:
     lookup = Lookup(ranked)
     settings = SettingReader()
     groups = find_groups(lookup, settings)
-    check_names(lookup, groups)
+    try:
+        check_names(lookup, groups)
+    except ConfigError as error:
+        if instead and "matches no node" in error.message:
+            raise ConfigError(error.message + instead, error.source) from None
+        raise
     classes = load_classes(lookup, groups, settings, loader)
     check_parameters(lookup, groups, classes)
     if not classes:
-        hint = " in the configuration that is run (`-c NAME`)" if is_one_of_several else ""
-        raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{hint}", source)
+        raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
 
     found = {
         key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None

@@ -40,6 +40,18 @@ def config_names(ini: IniFile) -> list[str]:
     return names or [GENERAL]
 
 
+def unused_sections(ini: IniFile, used: list[Section]) -> list[str]:
+    """Names of the sections that are not `used` and that no other section extends."""
+    extended = {
+        base.strip()
+        for section in ini.sections.values()
+        if (entry := _own_option(section, "extends"))
+        for base in entry.text.split(",")
+    }
+    names = {section.name for section in used} | extended
+    return [name for name in ini.sections if name not in names]
+
+
 def _linearise(ini: IniFile, name: str, heirs: tuple[str, ...]) -> list[str]:
     section = ini.sections[name]
     extends = _own_option(section, "extends")

@@ -177,8 +177,23 @@ def test_nodes_are_needed(folder: Any) -> None:
         load_scenarios(folder.ini)
     assert str(caught.value) == (
         f"{folder.ini}:1: there are no nodes; "
-        "expected some, such as `*.numUavs = 2` in the configuration that is run (`-c NAME`)"
+        "expected some, such as `*.numUavs = 2`; or run another configuration of the file: `-c NAME`, X"
     )
+
+
+def test_a_misspelt_general_is_named(folder: Any) -> None:
+    folder.write("test.ini", "[Genral]\nsim-time-limit = 1s\n*.numUavs = 2\n[Config X]\n")
+    for config in ["General", "X"]:
+        with pytest.raises(
+            ConfigError, match=r"\[Genral\] at line 1 is not used: did you mean \[General\]\?"
+        ):
+            load_scenarios(folder.ini, config)
+
+
+def test_nodes_that_only_other_configurations_have(folder: Any) -> None:
+    folder.write("test.ini", '[General]\n*.uavs[*].protocol.class = "a.py:A"\n[Ten]\n*.numUavs = 10\n')
+    with pytest.raises(ConfigError, match=r"matches no node.*`-c NAME`, Ten$"):
+        load_scenarios(folder.ini)
 
 
 def test_a_run_that_does_not_exist(folder: Any) -> None:
