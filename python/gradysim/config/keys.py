@@ -60,6 +60,14 @@ _DCF = "wlan[0].mac.dcf"
 _MAX_SIM_TIME_S = 9_223_372.0
 """The engine's clock counts picoseconds in 64 bits."""
 
+LARGEST_COORDINATE_M = 10_000_000
+"""The engine's bound, which holds in both modes."""
+
+
+def _coordinate() -> Kind:
+    return quantity("m", at_least=-LARGEST_COORDINATE_M, at_most=LARGEST_COORDINATE_M)
+
+
 PROTOCOL_CLASS = Key(
     "protocol.class",
     "protocol.class",
@@ -79,42 +87,42 @@ NODE_KEYS: tuple[Key, ...] = (
     Key(
         "mobility.initialX",
         "position.initial_x",
-        quantity("m"),
+        _coordinate(),
         "Where it starts, x; of initialX and lineStartX/lineStepX the one that is written first is in force",
         default="0m",
     ),
     Key(
         "mobility.initialY",
         "position.initial_y",
-        quantity("m"),
+        _coordinate(),
         "The same for y",
         default="0m",
     ),
     Key(
         "mobility.initialZ",
         "position.initial_z",
-        quantity("m"),
+        _coordinate(),
         "The same for z: height",
         default="0m",
     ),
     Key(
         "mobility.lineStartX",
         "position.line_start_x",
-        quantity("m"),
+        _coordinate(),
         "Nodes in a line: x of the node with index 0",
         default="0m",
     ),
     Key(
         "mobility.lineStartY",
         "position.line_start_y",
-        quantity("m"),
+        _coordinate(),
         "The same for y",
         default="0m",
     ),
     Key(
         "mobility.lineStartZ",
         "position.line_start_z",
-        quantity("m"),
+        _coordinate(),
         "The same for z",
         default="0m",
     ),

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.groups import Group
-from gradysim.config.keys import NODE_KEYS, PROTOCOL_CLASS, Key
+from gradysim.config.keys import LARGEST_COORDINATE_M, NODE_KEYS, PROTOCOL_CLASS, Key
 from gradysim.config.kinds import Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.nearest import nearest
@@ -24,10 +24,14 @@ _AXES = ("x", "y", "z")
 
 @dataclass(frozen=True)
 class _Shared:
-    """What nodes with the same entries in force have in common; line is start and step for each axis."""
+    """What nodes with the same entries in force have in common; line is start and step for each axis.
+
+    `steps` are the entries that say the steps.
+    """
 
     protocol_parameters: Mapping[str, object]
     line: tuple[tuple[float, float], ...]
+    steps: tuple[Found | None, ...]
     mobility: Mapping[str, Setting]
     radio: Mapping[str, Setting]
     mac: Mapping[str, Setting]
@@ -60,7 +64,10 @@ def build_nodes(
     for group in groups:
         for index, name in enumerate(group.node_names()):
             shared = builder.shared(name, classes[name])
-            x, y, z = (start + index * step for start, step in shared.line)
+            x, y, z = (
+                _coordinate(name, index, axis, line, step)
+                for axis, line, step in zip(_AXES, shared.line, shared.steps, strict=True)
+            )
             nodes.append(
                 NodeSpec(
                     id=len(nodes),
@@ -123,7 +130,8 @@ class _NodeBuilder:
             for field, setting in read_struct("position", found, self._settings).items()
         }
         line = tuple(_axis_line(axis, position, values) for axis in _AXES)
-        return _Shared(protocol_parameters, line, **structs)
+        steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
+        return _Shared(protocol_parameters, line, steps, **structs)
 
 
 def read_struct(struct: str, found: Mapping[Key, Found], settings: SettingReader) -> dict[str, Setting]:
@@ -146,6 +154,17 @@ def _axis_line(axis: str, found: Mapping[str, Found], values: Mapping[str, float
     if initial is not None and all(initial.order < order for order in line):
         return values.get(f"initial_{axis}", 0.0), 0.0
     return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
+
+
+def _coordinate(node: str, index: int, axis: str, line: tuple[float, float], step: Found | None) -> float:
+    """Where a node starts on one axis in metres. Raises ConfigError if its step leads too far."""
+    coordinate = line[0] + index * line[1]
+    if step is not None and not abs(coordinate) <= LARGEST_COORDINATE_M:
+        text = (
+            f"{node} starts at {axis} = {coordinate:.12g}m; expected at most {LARGEST_COORDINATE_M}m from 0m"
+        )
+        raise ConfigError.at(step.entry.source, text)
+    return coordinate
 
 
 def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> type[IProtocol]:

@@ -283,3 +283,16 @@ def test_a_thousand_keys_of_any_kind_take_no_time(folder: Any) -> None:
     keys = "".join(f"**.uavs[{index}].mobility.initialX = {index}m\n" for index in range(1000))
     scenario = folder.load(keys + "[X]\n*.numUavs = 1000\n*.numSmall = 0\n", "X")
     assert [node.initial_position[0] for node in scenario.nodes[1:]] == list(range(1000))
+
+
+def test_a_start_too_far_away_is_an_error_at_its_line(folder: Any) -> None:
+    error = folder.error("*.uavs[*].mobility.initialX = 1e9m\n")
+    assert error.startswith("test.ini:6: *.uavs[*].mobility.initialX = 1e9m: it is out of range; expected")
+
+
+def test_a_line_that_leads_too_far_is_an_error_at_its_step(folder: Any) -> None:
+    error = folder.error("*.uavs[*].mobility.lineStartY = 1m\n*.uavs[*].mobility.lineStepY = 10000km\n")
+    assert error == (
+        "test.ini:7: *.uavs[*].mobility.lineStepY = 10000km: "
+        "uavs[1] starts at y = 10000001m; expected at most 10000000m from 0m"
+    )
