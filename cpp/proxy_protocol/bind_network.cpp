@@ -25,10 +25,18 @@ py::dict named_counts(const Counts& counts, const Names& names) {
     return result;
 }
 
+// RTS and CTS take no room in the results of those who do not use them.
+bool is_shown(const Network& network, FrameKind kind) {
+    return (kind != FrameKind::rts && kind != FrameKind::cts) || network.frame_fates().frames(kind) > 0;
+}
+
 py::dict frame_fates(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
         const auto kind = static_cast<FrameKind>(index);
+        if (!is_shown(network, kind)) {
+            continue;
+        }
         const std::string name = frame_kind_names[index];
         result[py::str(name)] = named_counts(network.frame_fates().counts(kind, false), frame_fate_names);
         if (kind != FrameKind::broadcast) {
@@ -42,9 +50,11 @@ py::dict frame_fates(const Network& network) {
 py::dict frame_fates_at(const Network& network, NodeId receiver) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
-        result[frame_kind_names[index]] = named_counts(
-            network.frame_fates().counts_at(network.node(receiver).id(), static_cast<FrameKind>(index)),
-            frame_fate_names);
+        const auto kind = static_cast<FrameKind>(index);
+        if (is_shown(network, kind)) {
+            result[frame_kind_names[index]] = named_counts(
+                network.frame_fates().counts_at(network.node(receiver).id(), kind), frame_fate_names);
+        }
     }
     return result;
 }

@@ -41,6 +41,8 @@ class MacConfig:
     op_mode: str
     bitrate_bps: float
     multicast_bitrate_bps: float
+    control_bitrate_bps: float
+    rts_threshold_bytes: int
     short_retry_limit: int
     long_retry_limit: int
     cw_min: int
@@ -48,6 +50,7 @@ class MacConfig:
     queue_capacity: int
     mtu_bytes: int
     backoff_optimization: bool
+    own_frames_set_nav: bool
 
 class MobilityConfig:
     typename: str
@@ -126,7 +129,8 @@ class Network:
     def frame_fates(self) -> dict[str, dict[str, int]]:
         """Copies of frames, {kind: {fate: count}}.
 
-        Kinds: "broadcast", "unicast", "unicast overheard", "ack", "ack overheard".
+        Kinds: "broadcast", "unicast", "unicast overheard", "ack", "ack overheard", and if any was
+        sent "rts", "rts overheard", "cts", "cts overheard".
         """
     def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
         """The same for the copies at one node that were strong enough to be received."""
