@@ -10,6 +10,7 @@ Exit codes: 0 all is well; 1 a protocol failed; 2 a mistake in the arguments or 
 
 import contextlib
 import json
+import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -74,8 +75,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
     except CycloptsError:  # cyclopts has said what is wrong
         return MISTAKE
+        sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED
+    except BrokenPipeError:  # who reads the output, such as `head`, has had enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes once more
+        return OK
     return code if isinstance(code, int) else OK
 
 
@@ -97,7 +102,7 @@ def run(
         int | None, Parameter(help="Seed of run 0, to which run N adds N; by default the file's seed-set.")
     ] = None,
     result_dir: Annotated[
-        Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.json.")
+        Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.MODE.json.")
     ] = None,
     pcap: PcapOption = (),
     as_json: Annotated[
@@ -116,7 +121,7 @@ def run(
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
         try:
             if result_dir is not None:
-                result_dir.mkdir(parents=True, exist_ok=True)
+                make_result_dir(result_dir)
             scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
             for scenario in scenarios:
@@ -133,6 +138,8 @@ def run(
                             print(f"captured in {capture}")
                     if code != OK:
                         return code
+        except BrokenPipeError:
+            raise
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
     return OK
@@ -182,6 +189,17 @@ def list_keys(
     else:
         print(key_table.plain_text(sections), end="")
     return OK
+
+
+def make_result_dir(directory: Path) -> None:
+    """Make the folder of --result-dir. Raises ConfigError, which names the option."""
+    from gradysim.config.error import ConfigError
+
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = "it is a file" if directory.is_file() else error.strerror or str(error)
+        raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
 
 
 def say_mistake(mistake: Exception) -> int:

@@ -241,11 +241,34 @@ def test_a_negative_seed_is_refused(gradysim):
 def test_the_result_directory(gradysim, folder):
     done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0,2", "--result-dir", "out/here")
     assert sorted(path.name for path in (folder / "out" / "here").iterdir()) == [
-        "General-#0.json",
-        "General-#2.json",
+        "General-#0.prototype.json",
+        "General-#2.prototype.json",
     ]
-    assert "General-#2.json" in done.stdout
-    assert json.loads((folder / "out" / "here" / "General-#2.json").read_text())["run"] == 2
+    assert "General-#2.prototype.json" in done.stdout
+    assert json.loads((folder / "out" / "here" / "General-#2.prototype.json").read_text())["run"] == 2
+
+
+def test_a_result_directory_that_is_a_file_is_named_with_its_option(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", "test.ini")
+    expected = "--result-dir test.ini: it is a file; expected a folder, or a new name"
+    assert (done.returncode, done.stderr.strip()) == (2, expected)
+
+
+@pytest.mark.parametrize("arguments", [["keys"], ["run", "test.ini", "--mode", "prototype", "--json"]])
+def test_a_reader_that_has_had_enough_ends_it_silently(folder, arguments):
+    theirs, ours = os.pipe()
+    os.close(theirs)
+    done = subprocess.run(
+        [sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env=environment(),
+        stdout=ours,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    os.close(ours)
+    assert [line for line in done.stderr.splitlines() if line != "printed by a protocol"] == []
 
 
 @compiled

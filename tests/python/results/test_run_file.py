@@ -10,7 +10,7 @@ RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "012
 
 
 def test_name_of_the_file(tmp_path):
-    assert write_run_file(RESULT, tmp_path) == tmp_path / "ZigZag5-#3.json"
+    assert write_run_file(RESULT, tmp_path) == tmp_path / f"ZigZag5-#3.{RESULT.mode}.json"
 
 
 def test_content_is_the_json_object(tmp_path):
