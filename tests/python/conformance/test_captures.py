@@ -162,13 +162,6 @@ def test_checksums_and_lengths_of_the_datagrams(minute: Minute) -> None:
         assert (header.chksum, header[UDP].chksum) == (rebuilt.chksum, rebuilt[UDP].chksum)
 
 
-def test_retries_keep_their_sequence_number(minute: Minute) -> None:
-    unicasts = [one for one in minute.seen["uavs[0]"] if one.sent and one.kind == "unicast"]
-    retries = [one for one in unicasts if one.packet[Dot11FCS].FCfield.retry]
-    firsts = {one.packet[Dot11FCS].SC for one in unicasts} - {one.packet[Dot11FCS].SC for one in retries}
-    assert len(firsts) + len(retries) <= len(unicasts)
-
-
 def tshark(file: Path, *arguments: str) -> list[list[str]]:
     """The fields that tshark prints, line by line; it has nothing to complain about."""
     checks = [f"{name}.check_checksum:TRUE" for name in ("wlan", "ip", "udp")]

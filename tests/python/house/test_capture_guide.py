@@ -12,6 +12,8 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
+needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed")
+
 
 @pytest.fixture
 def guide(root: Path) -> str:
@@ -45,8 +47,20 @@ def test_the_files_that_it_names_are_written(guide: str, folder: Path) -> None:
     assert {str(file.relative_to(folder)) for file in folder.rglob("*.pcap")} == named
 
 
-@pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed")
+@needs_tshark
 def test_tshark_prints_what_it_shows(guide: str, folder: Path) -> None:
     command = shlex.split(blocks(guide, "sh")[1])
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
     assert done.stdout == blocks(guide, "text")[0]
+
+
+@needs_tshark
+def test_failed_frames_are_retried_with_their_sequence_number(folder: Path) -> None:
+    def sequence_numbers(what: str) -> list[str]:
+        file = str(folder / "results/General-#0-groundStation.pcap")
+        command = ["tshark", "-r", file, "-Y", what, "-T", "fields", "-e", "wlan.seq"]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+
+    failed = sequence_numbers("radiotap.flags.badfcs == 1 && wlan.fc.retry == 0")
+    assert failed != []
+    assert failed == sequence_numbers("radiotap.flags.badfcs == 0 && wlan.fc.retry == 1")
