@@ -13,6 +13,9 @@ from gradysim.results.run_result import NodeResult, RunResult
 MAX_VALUE_LENGTH = 200
 """Characters shown of one tracked variable; all of it is in the JSON."""
 
+MAX_NODES, NODES_OF_MANY = 50, 20
+"""Nodes up to which all are shown, and how many are shown of more."""
+
 FATE_TITLES = {
     "frames": "Fates of frames, a copy for each radio",
     "copies": "Fates of messages, a copy for each receiver",
@@ -29,7 +32,10 @@ def summary(result: RunResult) -> RenderableType:
     """Return the summary of `result` as something that rich can print."""
     parts: list[RenderableType] = [heading(result), cost(result)]
     if result.nodes:
-        parts += [title("Nodes"), node_table(result.nodes)]
+        shown = result.nodes if len(result.nodes) <= MAX_NODES else result.nodes[:NODES_OF_MANY]
+        parts += [title("Nodes"), node_table(shown)]
+        if len(shown) < len(result.nodes):
+            parts.append(Text(f"… and {len(result.nodes) - len(shown):,} more nodes; --json has all"))
     for what, kinds in result.fates.items():
         if has_counts(kinds):
             parts += [title(FATE_TITLES.get(what, what)), fate_table(kinds)]
@@ -46,7 +52,7 @@ def heading(result: RunResult) -> Text:
     text = Text(f"{result.config} run {result.run}", style="bold")
     text.append(f"  seed {result.seed}, {result.mode} mode", style="not bold")
     if result.interrupted:
-        text.append(f"  interrupted at {result.sim_time_s:g} s of simulated time", style="bold red")
+        text.append(f"\ninterrupted at {result.sim_time_s:g} s of simulated time", style="bold red")
     return text
 
 
@@ -76,10 +82,15 @@ def node_table(nodes: tuple[NodeResult, ...]) -> Table:
             Text(str(node.id)),
             Text(node.name),
             Text(node.protocol),
-            Text(", ".join(f"{coordinate:.1f}" for coordinate in node.position)),
+            Text(", ".join(map(metres, node.position))),
             Text("\n".join(f"{name} = {short(value)}" for name, value in node.tracked_variables.items())),
         )
     return table
+
+
+def metres(coordinate: float) -> str:
+    """Return a coordinate to a tenth of a metre; what rounds to zero has no sign."""
+    return f"{coordinate:z.1f}"
 
 
 def short(value: object) -> str:

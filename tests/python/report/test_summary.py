@@ -68,8 +68,9 @@ def test_prototype_mode_has_no_fingerprint():
     assert "fingerprint" not in printed(fingerprint=None)
 
 
-def test_an_interrupted_run_is_marked():
-    assert "interrupted at 12.5 s of simulated time" in printed(interrupted=True, sim_time_s=12.5)
+def test_an_interrupted_run_is_marked_on_a_line_of_its_own():
+    lines = printed(interrupted=True, sim_time_s=12.5).splitlines()
+    assert "interrupted at 12.5 s of simulated time" in lines
 
 
 def test_a_whole_run_is_not():
@@ -82,3 +83,18 @@ def test_a_run_that_took_no_time_has_no_speed():
 
 def test_a_long_value_is_cut():
     assert short("x" * 1000) == "x" * (MAX_VALUE_LENGTH - 1) + "…"
+
+
+def nodes(count):
+    return tuple(NodeResult(i, f"uavs[{i}]", "Mobile", (-0.04, -0.06, 0.0), {}) for i in range(count))
+
+
+@pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
+def test_many_nodes_are_cut_short(count, shown):
+    text = printed(nodes=nodes(count))
+    assert text.count("uavs[") == shown
+    assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
+
+
+def test_what_rounds_to_zero_has_no_sign():
+    assert " 0.0, -0.1, 0.0 " in printed(nodes=nodes(1))
