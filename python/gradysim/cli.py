@@ -124,6 +124,7 @@ def run(
                 make_result_dir(result_dir)
             scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
+            warn_of_equal_seeds(scenarios)
             for scenario in scenarios:
                 check(scenario)
             with StopOnInterrupt() as interrupt:
@@ -189,6 +190,18 @@ def list_keys(
     else:
         print(key_table.plain_text(sections), end="")
     return OK
+
+
+def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output that runs share a seed."""
+    seeds = {scenario.seed for scenario in scenarios}
+    if len(seeds) < len(scenarios):
+        same = f"seed {seeds.pop()}" if len(seeds) == 1 else "only a few different seeds"
+        print(
+            f"warning: the {len(scenarios)} runs of {scenarios[0].config} have {same}: runs with one seed are"
+            " identical if nothing else depends on ${runnumber}; `seed-set = ${runnumber}` is the default",
+            file=sys.stderr,
+        )
 
 
 def make_result_dir(directory: Path) -> None:

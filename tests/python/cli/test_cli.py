@@ -233,6 +233,16 @@ def test_the_seed_of_the_first_run_counts_on_in_the_next(gradysim):
     assert [run["seed"] for run in objects(done.stdout)] == [40, 42]
 
 
+@pytest.mark.parametrize(
+    ("runs", "seed", "warned"), [("0..2", 4, True), ("1", 4, False), ("0..2", None, False)]
+)
+def test_runs_with_one_seed_are_warned_of(gradysim, runs, seed, warned):
+    fixed = () if seed is None else ("--set", f"seed-set={seed}")
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--json", "-r", runs, *fixed)
+    assert done.returncode == 0
+    assert ("warning: the 3 runs of General have seed 4" in done.stderr) is warned
+
+
 def test_a_negative_seed_is_refused(gradysim):
     done = gradysim("run", "test.ini", "--seed=-1")
     assert (done.returncode, done.stderr.strip()) == (2, "--seed -1: expected 0 or more")
