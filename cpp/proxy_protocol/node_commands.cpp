@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "netsim/error.hpp"
 #include "proxy_protocol/python_text.hpp"
 
 namespace py = pybind11;
@@ -67,9 +68,24 @@ long command_type_of(py::handle command, PyObject* type_name, const char* expect
     return integer(py::reinterpret_steal<py::object>(type), "command_type");
 }
 
-}  // namespace
+// Carries out a command. What it refuses is raised as that exception of gradysim.protocol.errors, as in every mode.
+template <typename Command>
+void carry_out(const char* exception, Command command) {
+    std::string text;
+    try {
+        command();
+        return;
+    } catch (const netsim::SimulationError& error) {
+        text = error.what();
+    } catch (const py::builtin_exception& error) {
+        text = error.what();
+    }
+    const py::object type = py::module_::import("gradysim.protocol.errors").attr(exception);
+    PyErr_SetString(type.ptr(), text.c_str());
+    throw py::error_already_set();
+}
 
-void send_communication_command(netsim::Node& node, py::handle command) {
+void carry_out_communication(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const message_name = name_of("message");
     static PyObject* const destination_name = name_of("destination");
@@ -91,7 +107,7 @@ void send_communication_command(netsim::Node& node, py::handle command) {
     node.send(static_cast<netsim::NodeId>(integer(destination, "destination")), std::move(payload));
 }
 
-void send_mobility_command(netsim::Node& node, py::handle command) {
+void carry_out_mobility(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const parameter_names[] = {name_of("param_1"), name_of("param_2"), name_of("param_3")};
     const long type = command_type_of(command, type_name, "MobilityCommand");
@@ -114,14 +130,26 @@ void send_mobility_command(netsim::Node& node, py::handle command) {
     }
 }
 
+}  // namespace
+
+void send_communication_command(netsim::Node& node, py::handle command) {
+    carry_out("CommunicationException", [&] { carry_out_communication(node, command); });
+}
+
+void send_mobility_command(netsim::Node& node, py::handle command) {
+    carry_out("MasslessMobilityException", [&] { carry_out_mobility(node, command); });
+}
+
 void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) {
-    std::string name = utf8_from_python(timer, "a timer's name");
-    const double time_s = number(timestamp, "timestamp", "a number of seconds");
-    node.schedule_timer(std::move(name), netsim::SimTime::from_seconds(time_s));
+    carry_out("TimerException", [&] {
+        std::string name = utf8_from_python(timer, "a timer's name");
+        const double time_s = number(timestamp, "timestamp", "a number of seconds");
+        node.schedule_timer(std::move(name), netsim::SimTime::from_seconds(time_s));
+    });
 }
 
 void cancel_timer(netsim::Node& node, py::handle timer) {
-    node.cancel_timer(utf8_from_python(timer, "a timer's name"));
+    carry_out("TimerException", [&] { node.cancel_timer(utf8_from_python(timer, "a timer's name")); });
 }
 
 }  // namespace proxy_protocol

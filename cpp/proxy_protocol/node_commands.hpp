@@ -1,6 +1,6 @@
 // What a Python protocol asks of its node, taken apart: commands and numbers of Python to calls of the engine.
 //
-// Refuses wrong types and values with TypeError and ValueError; what the engine refuses is its SimulationError.
+// What cannot be carried out raises an exception of gradysim.protocol.errors.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -67,7 +67,7 @@ class NodeConfig:
     def validate(self) -> None: ...
 
 class Node:
-    """The engine's side of one node: what its protocol may ask of it. Errors: SimulationError."""
+    """The engine's side of one node: what its protocol may ask of it. Errors: gradysim.protocol.errors."""
 
     @property
     def id(self) -> int: ...

@@ -15,6 +15,7 @@ from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import random_stream
 from gradysim.encapsulator.tracked_history import TrackedHistory
 from gradysim.encapsulator.tracked_variables import TrackedVariables
+from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
@@ -42,7 +43,7 @@ _SAME_IN_THE_ENGINE = (
 class NetsimProvider(IProvider):
     """What a protocol may ask of its node, answered by the engine.
 
-    Errors are the engine's `SimulationError`: a timer in the past, a destination that does not exist, a
+    Errors are those of `gradysim.protocol.errors`: a timer in the past, a destination that does not exist, a
     message over the MTU.
 
     Attributes:
@@ -110,7 +111,9 @@ class NetsimProvider(IProvider):
         if getattr(command, "command_type", None) == MobilityCommandType.GOTO_GEO_COORDS:
             latitude, longitude, altitude = command.param_1, command.param_2, command.param_3
             if latitude is None or longitude is None or altitude is None:
-                raise ValueError(f"latitude, longitude and altitude are needed, this is {command}")
+                raise MasslessMobilityException(
+                    f"latitude, longitude and altitude are needed, this is {command!r}"
+                )
             target = geo_to_cartesian(self._reference_coordinates, (latitude, longitude, altitude))
             command = GotoCoordsMobilityCommand(*target)
         self._node.send_mobility_command(command)

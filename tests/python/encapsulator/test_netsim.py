@@ -7,6 +7,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 from gradysim import _netsim
 from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.random_stream import random_stream
+from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
 from gradysim.protocol.messages.mobility import (
@@ -109,7 +110,7 @@ def test_a_timer_in_the_past_is_an_error():
     def initialize(protocol):
         protocol.provider.schedule_timer("tick", 1)
 
-    with pytest.raises(_netsim.SimulationError) as failure:
+    with pytest.raises(TimerException) as failure:
         Pair(initialize=initialize, handle_timer=handle_timer).run()
     assert failure.value.__notes__ == ["in handle_timer of node 0 (Scripted 0) at 1 s of simulated time"]
 
@@ -127,23 +128,33 @@ def test_an_unknown_destination_is_an_error():
     def initialize(protocol):
         protocol.provider.send_communication_command(SendMessageCommand("a", 7))
 
-    with pytest.raises(_netsim.SimulationError, match="7"):
+    with pytest.raises(CommunicationException, match="7"):
         Pair(initialize=initialize).run()
 
 
 @pytest.mark.parametrize(
-    ("method", "arguments", "text"),
+    ("exception", "method", "arguments", "text"),
     [
-        ("schedule_timer", ("tick", "5"), "timestamp must be a number of seconds, not '5'"),
-        ("schedule_timer", ("tick", None), "timestamp must be a number of seconds, not None"),
-        ("schedule_timer", (5, 1), "a timer's name must be a str, not int"),
-        ("send_communication_command", ("hello",), "a CommunicationCommand was expected, not 'hello'"),
-        ("send_mobility_command", ("hello",), "a MobilityCommand was expected, not 'hello'"),
+        (TimerException, "schedule_timer", ("tick", "5"), "timestamp must be a number of seconds, not '5'"),
+        (TimerException, "schedule_timer", ("tick", None), "timestamp must be a number of seconds, not None"),
+        (TimerException, "schedule_timer", (5, 1), "a timer's name must be a str, not int"),
+        (
+            CommunicationException,
+            "send_communication_command",
+            ("hello",),
+            "a CommunicationCommand was expected, not 'hello'",
+        ),
+        (
+            MasslessMobilityException,
+            "send_mobility_command",
+            ("hello",),
+            "a MobilityCommand was expected, not 'hello'",
+        ),
     ],
 )
-def test_an_argument_of_the_wrong_type_is_told_as_it_was_given(method, arguments, text):
+def test_an_argument_of_the_wrong_type_is_told_as_it_was_given(exception, method, arguments, text):
     provider = Pair().encapsulators[0].provider
-    with pytest.raises(TypeError) as failure:
+    with pytest.raises(exception) as failure:
         getattr(provider, method)(*arguments)
     assert str(failure.value) == text
 
@@ -171,7 +182,7 @@ def test_a_flight_to_geographic_coordinates_is_relative_to_the_origin():
 
 
 def test_a_geographic_target_without_altitude_is_an_error():
-    with pytest.raises(ValueError, match="altitude"):
+    with pytest.raises(MasslessMobilityException, match="altitude"):
         position_after(MobilityCommand(MobilityCommandType.GOTO_GEO_COORDS, 1.0, 2.0))
 
 

@@ -7,6 +7,7 @@ from contextlib import suppress
 import pytest
 
 from gradysim.integrated.run import IntegratedRun, run
+from gradysim.protocol.errors import TimerException
 
 PACKETS = '    def handle_packet(self, message): raise RuntimeError("spoilt")'
 
@@ -157,9 +158,8 @@ def test_a_wrong_command_fails_in_the_protocol_that_gave_it(make_scenario):
     scenario = make_scenario(
         'class Tested(Talker):\n    def handle_packet(self, m): self.provider.schedule_timer("a", 0)'
     )
-    with pytest.raises(RuntimeError) as failure:
+    with pytest.raises(TimerException) as failure:
         run(scenario)
-    assert type(failure.value).__name__ == "SimulationError"
     assert failure.value.__notes__[0].startswith("in handle_packet of node 1 ")
 
 

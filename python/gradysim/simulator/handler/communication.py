@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any
 
 from gradysim.encapsulator.random_stream import random_stream
+from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.position import Position, squared_distance
 from gradysim.simulator.checked_configuration import checked_configuration
@@ -19,10 +20,6 @@ from gradysim.simulator.node import Node
 from gradysim.simulator.number_range import is_in_range
 
 _logger = logging.getLogger(__name__)
-
-
-class CommunicationException(Exception):  # noqa: N818 (the published name)
-    """A message that cannot be sent as asked, or a node that is not known here."""
 
 
 @dataclass

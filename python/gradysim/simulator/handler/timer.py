@@ -3,6 +3,7 @@
 from functools import partial
 from typing import Any
 
+from gradysim.protocol.errors import TimerException as TimerException
 from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
@@ -10,10 +11,6 @@ from gradysim.simulator.node import Node
 
 # Pending timers of one node: name -> serial number -> (time, event).
 _Pending = dict[str, dict[int, tuple[float, ScheduledEvent]]]
-
-
-class TimerException(Exception):  # noqa: N818 (the published name)
-    """A timer that cannot be set, or a node that is not known here."""
 
 
 class TimerHandler(INodeHandler):

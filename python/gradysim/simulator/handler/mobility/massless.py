@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeGuard
 
+from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.simulator.checked_configuration import checked_configuration
@@ -14,10 +15,6 @@ from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
 from gradysim.simulator.handler.mobility.update_times import UpdateTimes
 from gradysim.simulator.node import Node
 from gradysim.simulator.number_range import is_in_range
-
-
-class MasslessMobilityException(Exception):  # noqa: N818 (the published name)
-    """A command that a vehicle cannot carry out, or a node that is not known here."""
 
 
 @dataclass
