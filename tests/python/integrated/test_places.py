@@ -1,4 +1,4 @@
-"""Where stations stand must not decide whether their slots collide: at one point, on a line, anywhere near."""
+"""Where stations stand must not decide whether their slots collide: at one point, on a line, anywhere."""
 
 from pathlib import Path
 
