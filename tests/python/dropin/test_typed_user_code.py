@@ -5,13 +5,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 SCOUT = Path(__file__).with_name("scout.py")
 
 
 def test_a_users_code_type_checks_strictly(tmp_path: Path) -> None:
-    pytest.importorskip("mypy")
     shutil.copy(SCOUT, tmp_path)
     package = Path(__file__).parents[3] / "python"
     check = subprocess.run(

@@ -54,7 +54,6 @@ def code_blocks(root: Path) -> Callable[[str, str], list[str]]:
 @pytest.fixture(scope="session")
 def type_errors(root: Path) -> Callable[[Path], str]:
     """`type_errors(file)`: what mypy --strict says against a file, run in its folder; empty for nothing."""
-    pytest.importorskip("mypy")
 
     def errors(file: Path) -> str:
         check = subprocess.run(

@@ -84,7 +84,6 @@ def test_heights_once_a_second(watch: Any) -> None:
 
 
 def test_its_types_hold(folder: Path, root: Path) -> None:
-    pytest.importorskip("mypy")
     check = subprocess.run(
         [sys.executable, "-m", "mypy", "--strict", "--config-file=", "watch.py"],
         cwd=folder,
