@@ -20,7 +20,8 @@ public:
     // Rounds to the nearest picosecond. Throws SimulationError for NaN and for what is out of range.
     static SimTime from_seconds(double seconds) {
         constexpr double limit_s = 9.2e6;  // int64 picoseconds end at 9.223e6 s
-        if (!(seconds >= -limit_s && seconds <= limit_s)) {
+        const bool is_representable = seconds >= -limit_s && seconds <= limit_s;  // NaN is not
+        if (!is_representable) {
             refuse_seconds(seconds);
         }
         const double exact_ps = seconds * 1e12;
