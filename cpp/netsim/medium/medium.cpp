@@ -25,11 +25,11 @@ SimTime most_propagation_delay(double distance_m) {
 
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void fetch(const Receiver& receiver) {
-    constexpr std::uintptr_t cache_line = 64;
-    constexpr std::uintptr_t lines = 5;
-    const auto address = reinterpret_cast<std::uintptr_t>(receiver.listener);
-    for (std::uintptr_t line = 0; line < lines; ++line) {
-        __builtin_prefetch(reinterpret_cast<const void*>(address + line * cache_line));
+    constexpr std::ptrdiff_t cache_line = 64;
+    constexpr std::ptrdiff_t lines = 5;
+    const auto* address = reinterpret_cast<const char*>(receiver.listener);
+    for (std::ptrdiff_t line = 0; line < lines; ++line) {
+        __builtin_prefetch(address + line * cache_line);
     }
 }
 

@@ -92,8 +92,8 @@ private:
     // An arrival to come.
     struct Heard {
         SimTime start;
-        NodeId node;
-        double power_w;
+        NodeId node = 0;
+        double power_w = 0;
     };
     struct OnAir {
         Transmission transmission;

@@ -44,8 +44,8 @@ private:
     };
     struct Entry {
         Position place;  // where it was when the grid was laid out
-        NodeId id;
-        const Trajectory* trajectory;
+        NodeId id = 0;
+        const Trajectory* trajectory = nullptr;
     };
 
     void lay_out(SimTime now, double reach_m);

@@ -108,7 +108,9 @@ TEST(Neighbours, AreFoundWhereverTheyHaveGone) {
 TEST(Neighbours, AreLookedForOnlyNearBy) {
     Crowd crowd;
     for (int i = 0; i < 10'000; ++i) {
-        crowd.add({100.0 * (i % 100), 100.0 * (i / 100), 0});
+        const int column = i % 100;
+        const int row = i / 100;
+        crowd.add({100.0 * column, 100.0 * row, 0});
     }
     crowd.neighbours.prepare(s(0), crowd.odometer, 200);
     int visited = 0;

@@ -46,7 +46,8 @@ TEST(Radiotap, OfASentFrame) {
 
 TEST(Radiotap, AFrameThatFailedHasABadFcs) {
     Radiotap radiotap = received_at_24_mbps();
-    radiotap.received->decoded = false;
+    radiotap.received.value().decoded =
+        false;  // NOLINT(bugprone-unchecked-optional-access): it is a received one
     EXPECT_EQ(octets_of(radiotap)[8], 0x50);
 }
 
@@ -65,8 +66,10 @@ TEST(Radiotap, AChannelOfAnotherBand) {
 
 TEST(Radiotap, PowersOutsideAnOctetAreCut) {
     Radiotap radiotap = received_at_24_mbps();
-    radiotap.received->signal_w = 0;
-    radiotap.received->noise_w = 1e30;
+    auto& received =
+        radiotap.received.value();  // NOLINT(bugprone-unchecked-optional-access): it is a received one
+    received.signal_w = 0;
+    received.noise_w = 1e30;
     EXPECT_EQ(octets_of(radiotap)[14], 0x80);
     EXPECT_EQ(octets_of(radiotap)[15], 0x7f);
 }
