@@ -11,11 +11,11 @@ Octets octets_of(const Radiotap& radiotap) {
     return octets;
 }
 
-Radiotap received_at_24_mbps() {
+Radiotap received_at_24_mbps(Radiotap::Received received = {1e-10, 1e-14, true}) {
     Radiotap radiotap;
     radiotap.bitrate_bps = 24'000'000;
     radiotap.carrier_hz = 2.412e9;
-    radiotap.received = Radiotap::Received{1e-10, 1e-14, true};
+    radiotap.received = received;
     return radiotap;
 }
 
@@ -45,10 +45,7 @@ TEST(Radiotap, OfASentFrame) {
 }
 
 TEST(Radiotap, AFrameThatFailedHasABadFcs) {
-    Radiotap radiotap = received_at_24_mbps();
-    radiotap.received.value().decoded =
-        false;  // NOLINT(bugprone-unchecked-optional-access): it is a received one
-    EXPECT_EQ(octets_of(radiotap)[8], 0x50);
+    EXPECT_EQ(octets_of(received_at_24_mbps({1e-10, 1e-14, false}))[8], 0x50);
 }
 
 TEST(Radiotap, AChannelOf5Ghz) {
@@ -65,13 +62,9 @@ TEST(Radiotap, AChannelOfAnotherBand) {
 }
 
 TEST(Radiotap, PowersOutsideAnOctetAreCut) {
-    Radiotap radiotap = received_at_24_mbps();
-    auto& received =
-        radiotap.received.value();  // NOLINT(bugprone-unchecked-optional-access): it is a received one
-    received.signal_w = 0;
-    received.noise_w = 1e30;
-    EXPECT_EQ(octets_of(radiotap)[14], 0x80);
-    EXPECT_EQ(octets_of(radiotap)[15], 0x7f);
+    const Octets octets = octets_of(received_at_24_mbps({0, 1e30, true}));
+    EXPECT_EQ(octets[14], 0x80);
+    EXPECT_EQ(octets[15], 0x7f);
 }
 
 }  // namespace
