@@ -427,47 +427,19 @@ void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest) {
     }
 }
 
-const Interference& Medium::interference_with(NodeId receiver, const Arrival& arrival) {
-    interference_.max_power_w = 0;
-    interference_.interferers.clear();
+InterferenceSum& Medium::interference_with(NodeId receiver, const Arrival& arrival) {
+    interference_.begin(arrival.start, arrival.end);
     if (on_air_.size() <= 1) {
         return interference_;
     }
     const Receiver& here = attached_[receiver].receiver;
-    overlapping_.clear();
     for (const std::unique_ptr<OnAir>& other : on_air_) {
         const Transmission& sent = other->transmission;
         if (&sent == arrival.transmission || sent.sender == receiver || other->last_end <= arrival.start ||
             sent.start >= arrival.end || !sent.band.fits_in(here.band)) {
             continue;
         }
-        const Arrival beside = arrival_at(sent, here);
-        if (beside.start < arrival.end && beside.end > arrival.start) {
-            overlapping_.push_back(beside);
-        }
-    }
-    // The sum is a step function that only rises where an arrival starts: look there.
-    SimTime worst;
-    for (const Arrival& candidate : overlapping_) {
-        const SimTime moment = std::max(candidate.start, arrival.start);
-        double sum_w = 0;
-        for (const Arrival& beside : overlapping_) {
-            if (beside.start <= moment && moment < beside.end) {
-                sum_w += beside.power_w;
-            }
-        }
-        if (sum_w > interference_.max_power_w) {
-            interference_.max_power_w = sum_w;
-            worst = moment;
-        }
-    }
-    for (const Arrival& beside : overlapping_) {
-        const NodeId sender = beside.transmission->sender;
-        auto& interferers = interference_.interferers;
-        if (beside.start <= worst && worst < beside.end &&
-            std::find(interferers.begin(), interferers.end(), sender) == interferers.end()) {
-            interferers.push_back(sender);
-        }
+        interference_.add(arrival_at(sent, here));
     }
     return interference_;
 }

@@ -13,6 +13,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
+#include "netsim/medium/interference.hpp"
 #include "netsim/medium/neighbours.hpp"
 #include "netsim/medium/odometer.hpp"
 #include "netsim/medium/path_loss.hpp"
@@ -41,12 +42,6 @@ struct Receiver {
     double energy_detection_w = 0;  // noise and signals together that make its channel busy
 };
 
-// What disturbed one reception.
-struct Interference {
-    double max_power_w = 0;  // the largest sum over the time of the reception, without background noise
-    std::vector<NodeId> interferers;  // each once, in the order of their transmissions
-};
-
 // Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold
 // the other one against.
 enum class Hearing { what_matters, everything };
@@ -63,8 +58,8 @@ public:
     // `transmission`'s id, start and origin are filled in here.
     void transmit(Transmission transmission);
 
-    // What disturbs `arrival` at `receiver`. Only while the arrival is ending.
-    const Interference& interference_with(NodeId receiver, const Arrival& arrival);
+    // What disturbs `arrival` at `receiver`. Only while the arrival is ending; valid until the next call.
+    InterferenceSum& interference_with(NodeId receiver, const Arrival& arrival);
 
     double background_noise_w() const { return background_noise_w_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
@@ -151,8 +146,7 @@ private:
     std::vector<std::unique_ptr<OnAir>> spare_;  // forgotten ones, of use again
     std::uint64_t next_id_ = 0;
     std::uint64_t checks_ = 0;
-    Interference interference_;         // the answer of interference_with, reused
-    std::vector<Arrival> overlapping_;  // its working memory
+    InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
     std::vector<Search> searches_;
     std::vector<double> between_m_;

@@ -72,7 +72,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
     present_.erase(ended);
     if (locked_ == arrival.transmission) {
         locked_ = nullptr;
-        const Interference& interference = medium_.interference_with(id_, arrival);
+        const Interference& interference = medium_.interference_with(id_, arrival).worst();
         FrameFate fate = FrameFate::delivered;
         const bool decoded = decide(arrival, interference, fate);
         if (observer_ != nullptr) {

@@ -1,0 +1,64 @@
+// What other frames bring to a receiver while it gets one: their sum, a step function of time.
+//
+// The medium adds those that the receiver gets beside the wanted one, the radio asks for the worst moment or for the
+// whole function. The sum rises and falls only where a frame starts or ends, so a sweep over the sorted starts and
+// ends finds all of it: O(m log m) for m frames.
+#pragma once
+
+#include <vector>
+
+#include "netsim/medium/transmission.hpp"
+
+namespace netsim {
+
+// What disturbed a reception at its worst.
+struct Interference {
+    double max_power_w = 0;           // the largest sum over the period, without background noise
+    std::vector<NodeId> interferers;  // that made it up, each once, in the order of their transmissions
+};
+
+// From `start` on until the next step, or the end of the period, the others bring `power_w` together.
+struct InterferenceStep {
+    SimTime start;
+    double power_w = 0;
+
+    bool operator==(const InterferenceStep&) const = default;
+};
+
+class InterferenceSum {
+public:
+    // Begins a new period, from `start` until just before `end`, in which nothing disturbs.
+    void begin(SimTime start, SimTime end);
+    // One that does, in the order of transmissions; no matter whether it lasts into the period.
+    void add(const Arrival& other);
+
+    // Of several moments equally bad, that of the earliest transmission's start.
+    // Valid until the next call of begin or worst.
+    const Interference& worst();
+    // At least one, the first at the start of the period, and each different from the one before. Valid until the
+    // next call of begin or steps.
+    const std::vector<InterferenceStep>& steps();
+
+private:
+    struct Change {  // of the sum
+        SimTime time;
+        bool is_start;
+        double power_w;
+    };
+
+    // Calls visitor(time, sum from then on), in order, once for each time at which something changes.
+    template <typename Visitor>
+    void sweep(Visitor&& visitor);
+    // Exactly what adding up in the order of transmissions gives.
+    double sum_w_at(SimTime moment) const;
+
+    SimTime start_;
+    SimTime end_;
+    std::vector<Arrival> others_;
+    std::vector<Change> changes_;
+    std::vector<SimTime> moments_;
+    std::vector<InterferenceStep> steps_;
+    Interference worst_;
+};
+
+}  // namespace netsim
