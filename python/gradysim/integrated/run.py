@@ -17,7 +17,8 @@ from gradysim.integrated.capture import start_captures
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.network import build_network
 from gradysim.protocol.interface import IProtocol
-from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.node_results import node_results
+from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.simulator.handler.interface import INodeHandler
 
@@ -126,17 +127,12 @@ class IntegratedRun:
             interrupted=not self._complete,
             fingerprint=network.fingerprint,
             fates={"frames": network.frame_fates(), "messages": network.message_fates()},
-            nodes=tuple(
-                NodeResult(
-                    id=spec.id,
-                    name=spec.name,
-                    protocol=spec.protocol.__name__,
-                    position=node.position,
-                    tracked_variables=dict(encapsulator.provider.tracked_variables),
-                )
-                for spec, node, encapsulator in zip(
-                    scenario.nodes, self._nodes, self._encapsulators, strict=True
-                )
+            nodes=node_results(
+                scenario,
+                (
+                    (node.position, encapsulator.provider.tracked_variables)
+                    for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
+                ),
             ),
         )
 

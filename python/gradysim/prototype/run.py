@@ -10,7 +10,8 @@ from time import perf_counter, process_time
 
 from gradysim.config.scenario import Scenario
 from gradysim.prototype.simulation import build_simulation
-from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.node_results import node_results
+from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.simulator.handler.interface import INodeHandler
 
@@ -31,7 +32,7 @@ class PrototypeRun:
         self._scenario = scenario
         self._complete = False
         random.seed(scenario.seed)
-        self._simulator, self._communication = build_simulation(scenario, handlers)
+        self._simulator, self._ledger = build_simulation(scenario, handlers)
 
     def execute(
         self,
@@ -77,18 +78,15 @@ class PrototypeRun:
             interrupted=not self._complete,
             fingerprint=None,
             fates={
-                "copies": self._communication.copy_fates(),
-                "messages": self._communication.message_fates(),
+                "copies": self._ledger.copy_fates(),
+                "messages": self._ledger.message_fates(),
             },
-            nodes=tuple(
-                NodeResult(
-                    id=spec.id,
-                    name=spec.name,
-                    protocol=spec.protocol.__name__,
-                    position=node.position,
-                    tracked_variables=dict(node.protocol_encapsulator.provider.tracked_variables),
-                )
-                for spec, node in zip(scenario.nodes, simulator.nodes, strict=True)
+            nodes=node_results(
+                scenario,
+                (
+                    (node.position, node.protocol_encapsulator.provider.tracked_variables)
+                    for node in simulator.nodes
+                ),
             ),
         )
 

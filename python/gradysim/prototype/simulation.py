@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from gradysim.config.error import ConfigError
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import NodeSpec, Scenario
-from gradysim.prototype.counted_communication import CountedCommunication
-from gradysim.simulator.handler.communication import CommunicationMedium
+from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
+from gradysim.simulator.handler.copy_ledger import CopyLedger
 from gradysim.simulator.handler.given import given_handlers
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
@@ -16,8 +16,8 @@ from gradysim.simulator.simulation import SimulationBuilder, SimulationConfigura
 
 def build_simulation(
     scenario: Scenario, handlers: Iterable[INodeHandler] = ()
-) -> tuple[Simulator, CountedCommunication]:
-    """Return the simulation of `scenario`, ready to run, and its network, which knows the fates.
+) -> tuple[Simulator, CopyLedger]:
+    """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
     `handlers` come beside those of communication, timers and mobility, and after them.
 
@@ -26,7 +26,8 @@ def build_simulation(
     """
     world = "its {label} handler follows from the scenario"
     given = given_handlers(handlers, "prototype mode", world, asynchronous=True)
-    communication = CountedCommunication(communication_medium(scenario))
+    ledger = CopyLedger()
+    communication = CommunicationHandler(communication_medium(scenario), ledger)
     builder = SimulationBuilder(
         SimulationConfiguration(
             duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
@@ -37,7 +38,7 @@ def build_simulation(
         builder.add_handler(handler)
     for spec in scenario.nodes:
         builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
-    return builder.build(), communication
+    return builder.build(), ledger
 
 
 def check_scenario(scenario: Scenario) -> None:

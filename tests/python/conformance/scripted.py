@@ -101,12 +101,12 @@ class Outcome:
     Attributes:
         log: All callbacks in their order.
         tracked: The variables of each node at the end.
-        copies: {kind: (in range, out of range)}; what is sent from `finish` counts, though it never arrives.
+        copies: {kind: (delivered, in the air at the end, out of range)}.
     """
 
     log: list[Entry]
     tracked: list[dict[str, Any]]
-    copies: dict[str, tuple[int, int]]
+    copies: dict[str, tuple[int, int, int]]
 
 
 def play(mode: str, case: Case, script: Script) -> Outcome:
@@ -123,7 +123,7 @@ def play(mode: str, case: Case, script: Script) -> Outcome:
         log=log,
         tracked=[dict(node.tracked_variables) for node in result.nodes],
         copies={
-            kind: (fates[kind]["delivered"] + fates[kind]["in_air"], fates[kind][far])
+            kind: (fates[kind]["delivered"], fates[kind]["in_air"], fates[kind][far])
             for kind in ("broadcast", "unicast")
         },
     )

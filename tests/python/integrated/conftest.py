@@ -1,58 +1,5 @@
-"""Scenarios for the tests of integrated mode, made of a few lines."""
-
-from collections.abc import Callable
-from pathlib import Path
+"""Tests of what needs the compiled part."""
 
 import pytest
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
-
-from gradysim.config.scenario import Scenario, load_scenarios
-
-PROTOCOL = """
-import random
-from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, GotoGeoCoordsMobilityCommand
-
-class Quiet(IProtocol):
-    def initialize(self): pass
-    def handle_timer(self, timer): pass
-    def handle_packet(self, message): pass
-    def handle_telemetry(self, telemetry): pass
-    def finish(self): pass
-
-class Talker(Quiet):
-    heard = 0
-    def initialize(self):
-        self.provider.schedule_timer("talk", 0.1 + 0.01 * self.provider.get_id())
-    def handle_timer(self, timer):
-        self.provider.send_communication_command(BroadcastMessageCommand(f"{random.random()}"))
-        self.provider.schedule_timer("talk", self.provider.current_time() + 0.1)
-    def handle_packet(self, message):
-        self.heard += 1
-        self.provider.tracked_variables["heard"] = self.heard
-    def finish(self):
-        self.provider.tracked_variables["finished"] = True
-"""
-
-INI = """[General]
-sim-time-limit = 2s
-*.uavs.count = 2
-*.uavs[*].protocol.class = "protocol.py:Tested"
-*.uavs[*].mobility.lineStepX = 10m
-*.uavs[*].mobility.telemetryInterval = 0.5s
-"""
-
-
-@pytest.fixture
-def make_scenario(tmp_path: Path) -> Callable[..., Scenario]:
-    """`make_scenario(python, *settings)`: two nodes that run the class Tested of `python`."""
-
-    def make(python: str = "class Tested(Talker): pass", *settings: str) -> Scenario:
-        (tmp_path / "protocol.py").write_text(f"{PROTOCOL}\n{python}\n", encoding="utf-8")
-        (tmp_path / "test.ini").write_text(INI, encoding="utf-8")
-        (scenario,) = load_scenarios(tmp_path / "test.ini", overrides=settings)
-        return scenario
-
-    return make

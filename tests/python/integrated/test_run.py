@@ -15,7 +15,7 @@ PACKETS = '    def handle_packet(self, message): raise RuntimeError("spoilt")'
 def test_result_of_a_whole_run(make_scenario):
     result = run(make_scenario())
     assert (result.config, result.run, result.seed, result.mode) == ("General", 0, 0, "integrated")
-    assert (result.sim_time_s, result.interrupted) == (2.0, False)
+    assert (result.sim_time_s, result.interrupted) == (2.05, False)
     assert len(result.fingerprint) == 16
     assert result.events > 40
     assert result.wall_s > 0
@@ -24,7 +24,7 @@ def test_result_of_a_whole_run(make_scenario):
 
 def test_what_the_nodes_tracked(make_scenario):
     nodes = run(make_scenario()).nodes
-    assert [node.tracked_variables for node in nodes] == [{"heard": 19, "finished": True}] * 2
+    assert [node.tracked_variables for node in nodes] == [{"heard": 20, "finished": True}] * 2
     assert [(node.id, node.name, node.protocol) for node in nodes] == [
         (0, "uavs[0]", "Tested"),
         (1, "uavs[1]", "Tested"),
@@ -33,8 +33,8 @@ def test_what_the_nodes_tracked(make_scenario):
 
 def test_fates_count_what_was_sent(make_scenario):
     fates = run(make_scenario()).fates
-    assert fates["messages"]["broadcast"]["sent"] == 38
-    assert fates["frames"]["broadcast"]["delivered"] == 38
+    assert fates["messages"]["broadcast"]["sent"] == 40
+    assert fates["frames"]["broadcast"]["delivered"] == 40
 
 
 def test_position_at_the_end(make_scenario):
@@ -44,7 +44,7 @@ def test_position_at_the_end(make_scenario):
         "        self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))",
         "*.uavs[*].mobility.speed = 10mps",
     )
-    assert run(scenario).nodes[0].position == pytest.approx((0, 0, 20))
+    assert run(scenario).nodes[0].position == pytest.approx((0, 0, 20.5))
 
 
 def test_geographic_coordinates_are_relative_to_the_scenes_origin(make_scenario):
@@ -98,7 +98,7 @@ def test_pythons_global_random_is_seeded(make_scenario):
 def test_progress_ends_at_the_limit(make_scenario):
     times = []
     run(make_scenario(), progress=times.append)
-    assert times[-1] == 2.0
+    assert times[-1] == 2.05
 
 
 def test_a_run_that_is_stopped_is_finished_and_marked(make_scenario):

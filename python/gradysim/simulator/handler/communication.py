@@ -3,7 +3,7 @@
 import logging
 import math
 import random
-from collections.abc import Iterable
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -14,6 +14,7 @@ from gradysim.protocol.messages.communication import CommunicationCommand, Commu
 from gradysim.protocol.position import Position, squared_distance
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop, ScheduledEvent
+from gradysim.simulator.handler.copy_ledger import CopyLedger
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
@@ -95,8 +96,16 @@ class CommunicationHandler(INodeHandler):
         default_medium: Holds for commands that come without a medium of their own.
     """
 
-    def __init__(self, communication_medium: CommunicationMedium | None = None) -> None:
-        """Without a medium the defaults of `CommunicationMedium` hold."""
+    def __init__(
+        self, communication_medium: CommunicationMedium | None = None, ledger: CopyLedger | None = None
+    ) -> None:
+        """Carry messages over a medium.
+
+        Args:
+            communication_medium: Without one the defaults of `CommunicationMedium` hold.
+            ledger: Is told what becomes of each copy of each message; None if nobody wants to know.
+        """
+        self._ledger = ledger
         self.default_medium = checked_configuration(communication_medium, CommunicationMedium)
         self._event_loop: EventLoop | None = None
         self._sources: dict[int, CommunicationSource] = {}
@@ -109,6 +118,8 @@ class CommunicationHandler(INodeHandler):
 
     def inject(self, event_loop: EventLoop) -> None:
         """Take the event loop of a new simulation."""
+        if self._ledger is not None:
+            self._ledger.clear()
         self._event_loop = event_loop
         self._sources = {}
         self._destinations = {}
@@ -154,7 +165,7 @@ class CommunicationHandler(INodeHandler):
             raise CommunicationException(
                 f"node {sender.id} can send text only, got a {type(message).__name__}: {message!r}"
             )
-        destinations: Iterable[CommunicationDestination]
+        destinations: Collection[CommunicationDestination]
         if kind == CommunicationCommandType.BROADCAST:
             destinations = self._destinations.values()
         elif kind == CommunicationCommandType.SEND:
@@ -163,7 +174,11 @@ class CommunicationHandler(INodeHandler):
             raise CommunicationException(f"node {sender.id} gave an unknown communication command: {kind!r}")
         _logger.debug("%s sends to %s: %s", sender.id, command.destination, message)
         medium = medium or self.default_medium
-        copies = _copies(message, self._sources[sender.id], destinations, medium)
+        copies, lost = _copies(message, self._sources[sender.id], destinations, medium)
+        if self._ledger is not None:
+            addressed = len(destinations) - (kind == CommunicationCommandType.BROADCAST)
+            out_of_range = addressed - len(copies) - lost
+            copies = self._ledger.note(kind, copies, lost=lost, out_of_range=out_of_range)
         if copies:
             event_loop.schedule_events(event_loop.current_time + medium.delay, copies)
 
@@ -188,15 +203,19 @@ class CommunicationHandler(INodeHandler):
 def _copies(
     message: str,
     source: CommunicationSource,
-    destinations: Iterable[CommunicationDestination],
+    destinations: Collection[CommunicationDestination],
     medium: CommunicationMedium,
-) -> list[ScheduledEvent]:
-    """Make an event for each destination that the message gets to: `can_transmit`, written out for speed."""
+) -> tuple[list[ScheduledEvent], int]:
+    """Make an event for each destination that the message gets to: `can_transmit`, written out for speed.
+
+    Also returns how many that are in range miss it.
+    """
     reach_squared = medium.transmission_range * medium.transmission_range
     failure_rate = medium.failure_rate
     sender = source.node
     x, y, z = sender.position
     copies: list[ScheduledEvent] = []
+    lost = 0
     for destination in destinations:
         node = destination.node
         if node is sender:
@@ -208,6 +227,7 @@ def _copies(
         if dx * dx + dy * dy + dz * dz > reach_squared:
             continue
         if failure_rate > 0 and destination.stream.random() < failure_rate:
+            lost += 1
             continue
         copies.append((partial(destination.receive_message, message, source), destination.context))
-    return copies
+    return copies, lost

@@ -1,4 +1,4 @@
-"""Scenarios for the tests of prototype mode, made of a few lines."""
+"""Scenarios made of a few lines, for the tests of both modes."""
 
 from collections.abc import Callable
 from pathlib import Path

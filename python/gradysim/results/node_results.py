@@ -1,0 +1,28 @@
+"""What the nodes of a scenario were at the end of a run, whichever mode ran it."""
+
+from collections.abc import Iterable, Mapping
+
+from gradysim.config.scenario import Scenario
+from gradysim.protocol.position import Position
+from gradysim.results.run_result import NodeResult
+
+
+def node_results(
+    scenario: Scenario, ends: Iterable[tuple[Position, Mapping[str, object]]]
+) -> tuple[NodeResult, ...]:
+    """Return the results in the order of the ids.
+
+    Args:
+        scenario: what was run
+        ends: for each node, in the same order, its position (m) and the variables that it tracked
+    """
+    return tuple(
+        NodeResult(
+            id=spec.id,
+            name=spec.name,
+            protocol=spec.protocol.__name__,
+            position=position,
+            tracked_variables=dict(tracked),
+        )
+        for spec, (position, tracked) in zip(scenario.nodes, ends, strict=True)
+    )
