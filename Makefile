@@ -6,6 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 comma := ,
+FUZZ_SECONDS ?= 60
 
 # cmake and ninja come from .venv, whatever the machine has.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
@@ -14,12 +15,12 @@ export DEBIAN_FRONTEND := noninteractive
 
 cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
 python_packages := $(shell find python -name __init__.py)
-cpp_checked := $(shell find cpp tests/cpp bench -name '*.[ch]pp')
+cpp_checked := $(shell find cpp tests/cpp tests/fuzz bench -name '*.[ch]pp')
 python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-tshark
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-tshark system-clang
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -36,6 +37,18 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 
 test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel.
 	$(BIN)/python -m pytest --numprocesses=auto
+
+test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
+	cmake -S cpp --preset tsan --log-level=WARNING
+	cmake --build build/tsan
+	ctest --test-dir build/tsan --parallel --output-on-failure --no-tests=error
+
+fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engine, FUZZ_SECONDS=60 long.
+	cmake -S cpp --preset fuzz --log-level=WARNING
+	cmake --build build/fuzz
+	@mkdir -p build/fuzz/corpus
+	build/fuzz/netsim_fuzzer build/fuzz/corpus -artifact_prefix=build/fuzz/ -max_total_time=$(FUZZ_SECONDS) \
+	  -timeout=20 -max_len=2000 -verbosity=0 -print_final_stats=1
 
 lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
 
@@ -93,6 +106,9 @@ endef
 
 system-gtest:
 	$(call need,echo '#include <gtest/gtest.h>' | $${CXX:-g++} -E -x c++ -,libgtest-dev)
+
+system-clang:
+	$(call need,echo 'int main() { return 0; }' | clang++ -fsanitize=fuzzer-no-link$(comma)address -x c++ - -o /dev/null,clang libclang-rt-14-dev)
 
 system-benchmark:
 	$(call need,echo '#include <benchmark/benchmark.h>' | $${CXX:-g++} -E -x c++ -,libbenchmark-dev)

@@ -376,7 +376,9 @@ void Medium::narrow(Search& search, const Audience& audience) {
         return sum_w;
     };
     const double loud_m = reach_of_power_m(here, audience.least_energy_w);
-    while (search.radius_m > loud_m) {
+    // Each ring is optional, so their number may be limited: with extreme powers there could be thousands.
+    constexpr int most_rings = 100;
+    for (int ring = 0; ring < most_rings && search.radius_m > loud_m; ++ring) {
         constexpr double step = 0.75;
         const double inner_m = std::max(step * search.radius_m, loud_m);
         const double most_w =
