@@ -25,6 +25,10 @@ void MediumConfig::validate() const {
     check_greater("medium.alpha2", alpha2, 0, "");
     check_at_least("medium.background_noise_w", background_noise_w, 0, "W");
     check_name("medium.propagation", propagation, propagation_names);
+    check_name("medium.obstacle_loss", obstacle_loss, obstacle_loss_names);
+    for (const ObstacleConfig& obstacle : obstacles) {
+        obstacle.validate();
+    }
 }
 
 }  // namespace netsim

@@ -7,6 +7,9 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "netsim/config/obstacle_config.hpp"
 
 namespace netsim {
 
@@ -18,6 +21,8 @@ inline constexpr std::string_view unit_disk_medium = "UnitDiskRadioMedium";
 inline constexpr std::array medium_type_names{ieee80211_scalar_medium, ieee802154_scalar_medium,
                                               unit_disk_medium};
 inline constexpr std::array<std::string_view, 2> path_loss_names{"FreeSpacePathLoss", "BreakpointPathLoss"};
+inline constexpr std::array<std::string_view, 3> obstacle_loss_names{"", "IdealObstacleLoss",
+                                                                     "DielectricObstacleLoss"};
 inline constexpr std::array<std::string_view, 1> propagation_names{"ConstantSpeedPropagation"};
 
 struct MediumConfig {
@@ -37,6 +42,11 @@ struct MediumConfig {
     double background_noise_w = 1e-14;  // -110 dBm; ≥ 0; 802.15.4: -96.616 dBm; in every band, not scaled
 
     std::string propagation = "ConstantSpeedPropagation";  // one of propagation_names; at the speed of light
+
+    std::string obstacle_loss;           // one of obstacle_loss_names; none: obstacles are as nothing
+    bool enable_dielectric_loss = true;  // dielectric: by the length inside
+    bool enable_reflection_loss = true;  // dielectric: by the faces
+    std::vector<ObstacleConfig> obstacles;
 
     // Throws ConfigError for the first field out of its range: "medium.alpha = -1: expected …".
     void validate() const;

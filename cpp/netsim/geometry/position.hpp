@@ -29,6 +29,10 @@ constexpr Position operator*(double factor, const Position& a) {
     return a * factor;
 }
 
+constexpr double dot_product(const Position& a, const Position& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
 // In m². Cheaper than distance, and enough for comparisons and for path loss.
 constexpr double squared_distance(const Position& a, const Position& b) {
     const Position d = a - b;

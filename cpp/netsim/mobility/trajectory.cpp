@@ -17,7 +17,7 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
     const Position origin = position_at(now);
     const double length_m = distance(origin, target);
     if (length_m == 0) {
-        add(Leg{now, now, target, target});
+        add(Leg{now, now, target, target, {}});
         return;
     }
     const double travel_s = length_m / speed_mps;                         // infinite at speed 0
@@ -25,20 +25,24 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
     const double rest_s = (end_of_time - now).seconds();
     if (!(travel_s < rest_s)) {
         // So slow that the run ends before the arrival: keep the direction, shorten the leg.
-        add(Leg{now, end_of_time, origin, origin + (target - origin) * (rest_s / travel_s)});
+        add(Leg{now, end_of_time, origin, origin + (target - origin) * (rest_s / travel_s), {}});
         return;
     }
-    add(Leg{now, now + SimTime::from_seconds(travel_s), origin, target});
+    add(Leg{now, now + SimTime::from_seconds(travel_s), origin, target, {}});
 }
 
 void Trajectory::stop(SimTime now) {
     const Position here = position_at(now);
-    add(Leg{now, now, here, here});
+    add(Leg{now, now, here, here, {}});
 }
 
-void Trajectory::add(const Leg& leg) {
+void Trajectory::add(Leg leg) {
     if (current_.start != leg.start) {  // else: commands of one instant, of which the last one counts
         past_.push_back(current_);
+    }
+    leg.course = leg.target - leg.origin;
+    if (leg.course == Position{}) {
+        leg.course = past_.back().course;
     }
     current_ = leg;
     // A past leg ends where the next one starts.

@@ -27,10 +27,16 @@ public:
     static constexpr SimTime memory = SimTime::from_us(1'000'000);
 
     explicit Trajectory(Position initial)
-        : current_{SimTime::long_ago(), SimTime::long_ago(), initial, initial} {}
+        : current_{SimTime::long_ago(), SimTime::long_ago(), initial, initial, {}} {}
 
     Position position_at(SimTime time) const {
         return position_on(time >= current_.start ? current_ : past_leg_at(time), time);
+    }
+
+    // The direction of the motion at that time, of any length; of the latest one before, while it stands; 0, as long as
+    // it has not moved.
+    Position course_at(SimTime time) const {
+        return (time >= current_.start ? current_ : past_leg_at(time)).course;
     }
 
     // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is.
@@ -50,6 +56,7 @@ private:
         SimTime arrival;
         Position origin;
         Position target;
+        Position course;  // from the origin to the target, or that of the leg before, if they are the same
     };
 
     static Position position_on(const Leg& leg, SimTime time) {
@@ -64,7 +71,7 @@ private:
         return distance(leg.origin, leg.target) / (leg.arrival - leg.start).seconds();
     }
     const Leg& past_leg_at(SimTime time) const;
-    void add(const Leg& leg);
+    void add(Leg leg);
 
     Leg current_;            // from its start on
     std::vector<Leg> past_;  // those before, by start; takes no memory as long as there are none
