@@ -19,13 +19,14 @@ MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
 
 @dataclass(frozen=True)
 class Case:
-    """A network on a perfect channel, in which no node moves by itself.
+    """A network on a perfect channel, in which no node moves before its protocol says so.
 
     Attributes:
         positions: One node each, in metres.
         range_m: Of all radios, in both modes.
         seed: Of the run.
         telemetry_interval_s: 0 for none.
+        speed_mps: Of all vehicles, until they are told otherwise.
         duration_s: Of the run.
     """
 
@@ -34,12 +35,13 @@ class Case:
     seed: int = 0
     telemetry_interval_s: float = 0.0
     duration_s: float = 1.0
+    speed_mps: float = 10.0
 
-    def run(self, mode: str, protocol: type[IProtocol]) -> RunResult:
-        """Run it in one of `MODES`, every node with the same protocol."""
-        return MODES[mode](self.scenario(protocol))
+    def run(self, mode: str, *protocols: type[IProtocol]) -> RunResult:
+        """Run it in one of `MODES`; the last protocol is that of all further nodes, too."""
+        return MODES[mode](self.scenario(*protocols))
 
-    def scenario(self, protocol: type[IProtocol]) -> Scenario:
+    def scenario(self, *protocols: type[IProtocol]) -> Scenario:
         """What both modes are given."""
         nodes = tuple(
             NodeSpec(
@@ -47,10 +49,13 @@ class Case:
                 name=f"nodes[{index}]",
                 group="nodes",
                 index=index,
-                protocol=protocol,
+                protocol=protocols[min(index, len(protocols) - 1)],
                 protocol_parameters={},
                 initial_position=position,
-                mobility={"telemetry_interval_s": _setting(self.telemetry_interval_s)},
+                mobility={
+                    "telemetry_interval_s": _setting(self.telemetry_interval_s),
+                    "speed_mps": _setting(self.speed_mps),
+                },
                 radio={"communication_range_m": _setting(self.range_m)},
                 mac={},
             )

@@ -1,9 +1,7 @@
 """On a perfect channel both modes call the same protocols with the same arguments at the same times.
 
-Of the order at equal times there is one thing that the modes do not share, and these tests leave out: where
-the telemetry of an instant comes among what is set in motion in that instant by a timer which was set less
-than a telemetry interval before. (The prototype decides that with each update of its positions, 10 ms ahead;
-the engine has no such updates.)
+Of the order at equal times there are corners that the modes do not share, and these tests leave out: see
+docs/decisions/0015-order-within-one-instant.md.
 """
 
 import math

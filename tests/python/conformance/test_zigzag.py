@@ -61,9 +61,10 @@ Call = tuple[float, int, str, str]
 
 @dataclass
 class Recording:
-    """Timers and messages of all nodes in their order, and the variables of each at the end."""
+    """Timers, messages and commands of all nodes in their order, and how each node ended."""
 
     calls: list[Call] = field(default_factory=list)
+    positions: list[Position] = field(default_factory=list)
     tracked: list[dict[str, Any]] = field(default_factory=list)
 
 
@@ -88,7 +89,16 @@ def watched(
     on_send: Callable[[int, CommunicationCommand], None] = lambda sender, command: None,
     on_telemetry: Callable[[int], None] = lambda node: None,
 ) -> Scenario:
-    """The scenario with protocols that note their timers and messages, and tell of what may be marginal."""
+    """The scenario with protocols that note what they are told and do, and tell of what may be marginal."""
+
+    def note_calls(provider: IProvider, name: str) -> None:
+        method = getattr(provider, name)
+
+        def noted(*arguments: Any) -> None:
+            calls.append((provider.current_time(), provider.get_id(), name, repr(arguments)))
+            method(*arguments)
+
+        setattr(provider, name, noted)
 
     def watch(protocol: type[IProtocol]) -> type[IProtocol]:
         class Watched(protocol):  # type: ignore[misc, valid-type]
@@ -101,6 +111,8 @@ def watched(
                     send(command)
 
                 provider.send_communication_command = watched_send  # type: ignore[method-assign]
+                for name in ("send_communication_command", "send_mobility_command", "schedule_timer"):
+                    note_calls(provider, name)
                 return cast("IProtocol", super().instantiate(provider))
 
             def handle_timer(self, timer: str) -> None:
@@ -154,7 +166,9 @@ def fly_integrated(scenario: Scenario) -> Recording:
     recording = Recording()
     run = IntegratedRun(watched(scenario, recording.calls))
     run.execute()
-    recording.tracked = [dict(node.tracked_variables) for node in run.result().nodes]
+    result = run.result()
+    recording.positions = [node.position for node in result.nodes]
+    recording.tracked = [dict(node.tracked_variables) for node in result.nodes]
     return recording
 
 
@@ -175,6 +189,7 @@ def fly_prototype(scenario: Scenario, update_s: float) -> Recording:
         builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
     simulator = builder.build()
     simulator.start_simulation()
+    recording.positions = [node.position for node in simulator.nodes]
     recording.tracked = [
         dict(node.protocol_encapsulator.provider.tracked_variables) for node in simulator.nodes
     ]
@@ -191,7 +206,7 @@ def both(config: str, seed: int, update_s: float, least_s: float) -> tuple[Recor
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_the_same_timers_and_messages_in_the_same_order(case: tuple[str, int, float, float]) -> None:
+def test_the_same_timers_messages_and_commands_in_the_same_order(case: tuple[str, int, float, float]) -> None:
     integrated, prototype = both(*case)
     assert [call[1:] for call in integrated.calls] == [call[1:] for call in prototype.calls]
 
@@ -207,6 +222,13 @@ def test_at_the_same_times(case: tuple[str, int, float, float]) -> None:
 def test_the_same_variables(case: tuple[str, int, float, float]) -> None:
     integrated, prototype = both(*case)
     assert integrated.tracked == prototype.tracked
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_vehicles_end_in_the_same_places_but_for_some_steps(case: tuple[str, int, float, float]) -> None:
+    integrated, prototype = both(*case)
+    distances_m = list(map(math.dist, integrated.positions, prototype.positions))
+    assert max(distances_m) <= MESSAGE_STEPS / 2 * SPEED_MPS * case[2]
 
 
 @pytest.mark.parametrize("case", CASES)

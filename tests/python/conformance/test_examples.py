@@ -1,0 +1,81 @@
+"""The protocols of examples/ do the same in both modes on a perfect channel; ZigZag has a file of its own.
+
+The scenarios are those of configs/reference, cut short, with a reach that some receivers are out of where
+there are any at a distance.
+"""
+
+import ast
+from pathlib import Path
+
+import pytest
+from watched_run import Trace, assert_same, trace_scenario
+
+from gradysim.config.scenario import Scenario, load_scenarios
+
+ROOT = Path(__file__).parents[3]
+CONFIGS = ROOT / "configs"
+LIMIT_S = 2.5
+
+CASES = {  # file in configs/reference: (configuration, reach in metres, more settings)
+    "beacons": ("Beacons100", 300, ()),
+    "hidden": ("General", 1000, ()),
+    "link": ("Snr24", 45, ()),
+    "saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
+    "sir": ("General", 1000, ()),
+    "synchronised": ("General", 100, ()),
+}
+
+
+def scenario_of(name: str) -> Scenario:
+    file = CONFIGS / "reference" / f"{name}.ini"
+    config, reach_m, settings = CASES[name]
+    scenarios = load_scenarios(
+        file,
+        config,
+        overrides=[
+            f"sim-time-limit = {LIMIT_S}s",
+            '*.radioMedium.typename = "UnitDiskRadioMedium"',
+            f"**.wlan[*].radio.transmitter.communicationRange = {reach_m}m",
+            f"*.communicationMedium.transmissionRange = {reach_m}m",
+            *settings,
+        ],
+    )
+    return scenarios[0]
+
+
+def both(name: str) -> Trace:
+    """Both modes agree; returns what happened."""
+    integrated, prototype = (trace_scenario(mode, scenario_of(name)) for mode in ("integrated", "prototype"))
+    assert_same(integrated, prototype)
+    return integrated
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_reference_scenario(name: str) -> None:
+    names = both(name).names()
+    assert names.count("send_communication_command") > 1
+    assert names.count("handle_packet") > 1
+
+
+def test_every_reference_scenario_is_among_them() -> None:
+    files = {file.stem for file in (CONFIGS / "reference").glob("*.ini")}
+    assert {name for name in files if not name.endswith("_positions")} == CASES.keys()
+
+
+def test_every_protocol_of_the_examples_is_in_one_of_the_scenarios() -> None:
+    scenarios = [scenario_of(name) for name in CASES]
+    scenarios += load_scenarios(CONFIGS / "zigzag.ini", "ZigZag5")
+    used = {node.protocol.__name__ for scenario in scenarios for node in scenario.nodes}
+    classes = [
+        node
+        for file in (ROOT / "examples").rglob("*.py")
+        for node in ast.walk(ast.parse(file.read_text()))
+        if isinstance(node, ast.ClassDef)
+    ]
+    protocols = {
+        node.name
+        for node in classes
+        if any(isinstance(base, ast.Name) and base.id == "IProtocol" for base in node.bases)
+    }
+    assert protocols
+    assert protocols <= used
