@@ -2,7 +2,7 @@
 
 `published_names.txt` holds them, as seen from outside: `inspect.signature` without annotations and `self`,
 the members of enumerations, the values of constants, and where the exports of packages come from. Left out
-are the insides of Raft (`raft_node`, `raft_message`) and what modules happen to import.
+are the insides of Raft (`raft_node`, the messages of `raft_message`) and what modules happen to import.
 """
 
 import importlib
@@ -36,7 +36,10 @@ DELIBERATE = {
     "MobilityLeaderPlugin": ("(protocol, configuration=None)", NO_CONFIGURATION),
     "MissionMobilityPlugin": ("(protocol, configuration=None)", NO_CONFIGURATION),
     "RandomMobilityPlugin": ("(protocol, config=None)", NO_CONFIGURATION),
-    "CommunicationHandler": ("(communication_medium=None)", NO_CONFIGURATION),
+    "CommunicationHandler": (
+        "(communication_medium=None, ledger=None)",
+        f"{NO_CONFIGURATION}; new last parameter: counts what becomes of each copy of a message",
+    ),
     "MasslessMobilityHandler": ("(configuration=None)", NO_CONFIGURATION),
     "VisualizationHandler": ("(configuration=None)", NO_CONFIGURATION),
     "SimulationBuilder": ("(configuration=None)", NO_CONFIGURATION),

@@ -5,7 +5,10 @@ from random import Random
 from gradysim.protocol.interface import IProvider
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
 
-PREFIX = "__RAFT__:"
+RAFT_DISPATCH_PREFIX = "__RAFT__"
+"""Marks what is the consensus's."""
+
+PREFIX = f"{RAFT_DISPATCH_PREFIX}:"
 """Begins every message and every timer of the consensus; the rest is not the protocol's."""
 
 REQUIRED_METHODS = (

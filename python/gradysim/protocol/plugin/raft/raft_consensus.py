@@ -7,11 +7,18 @@ from typing import Any
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.raft import node_report
-from gradysim.protocol.plugin.raft.provider_environment import PREFIX, REQUIRED_METHODS, ProviderEnvironment
+from gradysim.protocol.plugin.raft.provider_environment import (
+    PREFIX,
+    RAFT_DISPATCH_PREFIX,
+    REQUIRED_METHODS,
+    ProviderEnvironment,
+)
 from gradysim.protocol.plugin.raft.raft_config import RaftConfig
 from gradysim.protocol.plugin.raft.raft_node import RaftNode
 from gradysim.protocol.plugin.raft.raft_state import RaftState
 from gradysim.protocol.plugin.raft.value import carried_value, typed_value
+
+__all__ = ["RAFT_DISPATCH_PREFIX", "RaftConsensusPlugin"]
 
 _logger = logging.getLogger(__name__)
 

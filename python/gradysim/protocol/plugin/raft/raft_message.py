@@ -240,3 +240,35 @@ _TYPES: dict[str, type[RaftMessage]] = {
     )
 }
 _NAMES = {message_type: tuple(each.name for each in fields(message_type)) for message_type in _TYPES.values()}
+
+
+class MessageFactory:
+    """The published way to read a message; `register_message_type` adds types to it, not to the consensus."""
+
+    _message_types: ClassVar[dict[str, type[RaftMessage]]] = dict(_TYPES)
+
+    @classmethod
+    def create_from_json(cls, json_str: str) -> RaftMessage:
+        """Read a message of any registered type, by the `from_json` of its class.
+
+        Raises:
+            ValueError: The text is not JSON, or not one of the messages.
+        """
+        try:
+            content = json.loads(json_str)
+        except ValueError as error:
+            raise ValueError(f"a message must be JSON: {error}") from None
+        kind = content.get("type") if isinstance(content, dict) else None
+        message_type = cls._message_types.get(kind) if isinstance(kind, str) else None
+        return parse_message(json_str) if message_type is None else message_type.from_json(json_str)
+
+    @classmethod
+    def register_message_type(cls, message_type: str, message_class: type[RaftMessage]) -> None:
+        """Have messages of that `type` read by that class, in this process from now on.
+
+        Raises:
+            ValueError: The class is none with `from_json`.
+        """
+        if not isinstance(message_class, type) or not callable(getattr(message_class, "from_json", None)):
+            raise ValueError(f"expected a class of messages, one with from_json, got {message_class!r}")
+        cls._message_types[message_type] = message_class

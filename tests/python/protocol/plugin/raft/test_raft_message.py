@@ -1,4 +1,5 @@
 import json
+import re
 
 import pytest
 
@@ -8,6 +9,8 @@ from gradysim.protocol.plugin.raft.raft_message import (
     AppendEntriesResponse,
     DiscoveryHeartbeat,
     DiscoveryHeartbeatResponse,
+    MessageFactory,
+    RaftMessage,
     RequestVote,
     RequestVoteResponse,
     parse_message,
@@ -96,3 +99,43 @@ def test_reading_a_message_of_another_type_is_an_error():
 def test_what_is_no_message_is_an_error(text, complaint):
     with pytest.raises(ValueError, match=complaint):
         parse_message(text)
+
+
+@pytest.fixture
+def factory():
+    """The factory, without the types that others have registered."""
+    return type("Factory", (MessageFactory,), {"_message_types": dict(MessageFactory._message_types)})
+
+
+@pytest.mark.parametrize("message", MESSAGES)
+def test_the_factory_reads_all_messages(factory, message):
+    assert factory.create_from_json(message.to_json()) == message
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("{", "must be JSON"),
+        ("[]", "must be a JSON object"),
+        ('{"type": "Rumour"}', "unknown type of message 'Rumour', expected one of RequestVote, "),
+        ('{"type": "RequestVote", "term": 1}', "incomplete message"),
+    ],
+)
+def test_the_factory_refuses_what_is_none(factory, text, problem):
+    with pytest.raises(ValueError, match=re.escape(problem)):
+        factory.create_from_json(text)
+
+
+def test_the_factory_takes_more_types(factory):
+    class Rumour(RaftMessage):
+        @classmethod
+        def from_json(cls, json_str):
+            return ("heard", json_str)
+
+    factory.register_message_type("Rumour", Rumour)
+    assert factory.create_from_json('{"type": "Rumour"}') == ("heard", '{"type": "Rumour"}')
+
+
+def test_the_factory_takes_no_type_that_cannot_be_read(factory):
+    with pytest.raises(ValueError, match="one with from_json, got 5"):
+        factory.register_message_type("Rumour", 5)
