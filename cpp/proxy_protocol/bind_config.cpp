@@ -59,6 +59,16 @@ void bind_config(py::module_& module) {
         .def_readwrite("mtu_bytes", &MacConfig::mtu_bytes)
         .def_readwrite("backoff_optimization", &MacConfig::backoff_optimization)
         .def_readwrite("own_frames_set_nav", &MacConfig::own_frames_set_nav)
+        .def_readwrite("rate_control", &MacConfig::rate_control)
+        .def_readwrite("initial_rate_bps", &MacConfig::initial_rate_bps)
+        .def_readwrite("rate_interval_s", &MacConfig::rate_interval_s)
+        .def_readwrite("increase_threshold", &MacConfig::increase_threshold)
+        .def_readwrite("decrease_threshold", &MacConfig::decrease_threshold)
+        .def_readwrite("increase_threshold_factor", &MacConfig::increase_threshold_factor)
+        .def_readwrite("max_increase_threshold", &MacConfig::max_increase_threshold)
+        .def_readwrite("rate_update_interval_s", &MacConfig::rate_update_interval_s)
+        .def_readwrite("look_around_share", &MacConfig::look_around_share)
+        .def_readwrite("ewma_weight", &MacConfig::ewma_weight)
         .def("validate", &MacConfig::validate);
 
     py::class_<MobilityConfig>(module, "MobilityConfig")

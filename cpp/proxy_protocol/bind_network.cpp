@@ -68,6 +68,14 @@ py::dict interferers_at(const Network& network, NodeId receiver) {
     return result;
 }
 
+py::dict frames_by_bitrate(const Network& network, NodeId node) {
+    py::dict result;
+    for (const auto& [bitrate_bps, frames] : network.node(node).link().frames_by_bitrate()) {
+        result[py::int_(bitrate_bps)] = frames;
+    }
+    return result;
+}
+
 py::dict message_fates(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < message_kind_count; ++index) {
@@ -117,6 +125,7 @@ void bind_network(py::module_& module) {
         .def("frame_fates", &frame_fates)
         .def("frame_fates_at", &frame_fates_at, py::arg("receiver"))
         .def("interferers_at", &interferers_at, py::arg("receiver"))
+        .def("frames_by_bitrate", &frames_by_bitrate, py::arg("node"))
         .def("message_fates", &message_fates);
 }
 

@@ -51,6 +51,16 @@ class MacConfig:
     mtu_bytes: int
     backoff_optimization: bool
     own_frames_set_nav: bool
+    rate_control: str
+    initial_rate_bps: float
+    rate_interval_s: float
+    increase_threshold: int
+    decrease_threshold: int
+    increase_threshold_factor: float
+    max_increase_threshold: int
+    rate_update_interval_s: float
+    look_around_share: float
+    ewma_weight: float
 
 class MobilityConfig:
     typename: str
@@ -136,5 +146,7 @@ class Network:
         """The same for the copies at one node that were strong enough to be received."""
     def interferers_at(self, receiver: int) -> dict[int, int]:
         """{node: copies that this receiver lost to interference while that node was on the air}."""
+    def frames_by_bitrate(self, node: int) -> dict[int, int]:
+        """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
     def message_fates(self) -> dict[str, dict[str, int]]:
         """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""

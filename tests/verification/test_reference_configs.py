@@ -15,7 +15,7 @@ from gradysim.results.run_result import RunResult
 
 FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 BASES = {"Sensitivity", "Noise"}
-FILES = {"beacons", "hidden", "link", "saturation", "sir", "synchronised"}
+FILES = {"beacons", "hidden", "link", "rate_control", "saturation", "sir", "synchronised"}
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
 

@@ -13,6 +13,23 @@ void check_bitrate(std::string_view field, double value) {
     }
 }
 
+void check_rate_control(const MacConfig& mac) {
+    constexpr int most = 1'000'000;
+    constexpr double almost_one = 0.999999;
+    check_name("mac.rate_control", mac.rate_control, rate_control_names);
+    check_bitrate("mac.initial_rate_bps", mac.initial_rate_bps);
+    check_between("mac.rate_interval_s", mac.rate_interval_s, 1e-6, 1e6, "s");
+    check_between("mac.increase_threshold", mac.increase_threshold, 1, most, "");
+    check_between("mac.decrease_threshold", mac.decrease_threshold, 1, most, "");
+    check_between("mac.increase_threshold_factor", mac.increase_threshold_factor, 1, 1000, "");
+    // ARF has no bound, and must not be refused for one that is too low.
+    const int lowest_bound = mac.rate_control == "AarfRateControl" ? mac.increase_threshold : 1;
+    check_between("mac.max_increase_threshold", mac.max_increase_threshold, lowest_bound, most, "");
+    check_between("mac.rate_update_interval_s", mac.rate_update_interval_s, 1e-6, 1e6, "s");
+    check_between("mac.look_around_share", mac.look_around_share, 0, 1, "");
+    check_between("mac.ewma_weight", mac.ewma_weight, 0, almost_one, "");
+}
+
 }  // namespace
 
 void MacConfig::validate() const {
@@ -30,6 +47,7 @@ void MacConfig::validate() const {
     check_default_or_between("mac.cw_max", cw_max, of_the_mode, std::max(cw_min, 0), largest_window);
     check_between("mac.queue_capacity", queue_capacity, 1, 1'000'000, "frames");
     check_between("mac.mtu_bytes", mtu_bytes, 29, 2304, "B");
+    check_rate_control(*this);
 }
 
 }  // namespace netsim

@@ -12,6 +12,9 @@
 namespace netsim {
 
 inline constexpr std::array<std::string_view, 4> op_mode_names{"b", "g(erp)", "g(mixed)", "a"};
+// "": none, all unicast frames have one bitrate.
+inline constexpr std::array<std::string_view, 4> rate_control_names{"", "ArfRateControl", "AarfRateControl",
+                                                                    "MinstrelRateControl"};
 
 struct MacConfig {
     std::string op_mode = "g(mixed)";   // one of op_mode_names
@@ -29,6 +32,19 @@ struct MacConfig {
     int mtu_bytes = 2304;      // largest IP packet; 29 … 2304: 28 B of IPv4 and UDP headers and a payload
     bool backoff_optimization = true;  // immediate access: idle time before the frame counts towards its wait
     bool own_frames_set_nav = true;    // as INET has it; the standard: only frames of others do
+
+    // How the bitrate of unicast frames is chosen, attempt by attempt: one of rate_control_names.
+    std::string rate_control;
+    double initial_rate_bps = -1;   // of the first frame to a destination; -1: bitrate_bps; otherwise > 0
+    double rate_interval_s = 0.05;  // ARF, AARF: time after which a faster one is tried; 1e-6 … 1e6
+    int increase_threshold = 10;    // ARF, AARF: successes in a row that lead to a faster one; 1 … 1000000
+    int decrease_threshold = 2;     // ARF, AARF: failures in a row that lead to a slower one; 1 … 1000000
+    double increase_threshold_factor = 2;  // AARF: of increase_threshold, if the faster one fails; 1 … 1000
+    int max_increase_threshold = 50;       // AARF: its bound; increase_threshold … 1000000
+    double rate_update_interval_s =
+        0.1;  // Minstrel: time from one evaluation of the rates to the next; 1e-6 … 1e6
+    double look_around_share = 0.1;  // Minstrel: of frames that try a rate drawn at random; 0 … 1
+    double ewma_weight = 0.75;       // Minstrel: of the past in the mean of successes; 0 … 0.999999
 
     // Throws ConfigError for the first field out of its range: "mac.cw_min = -2: expected …".
     void validate() const;

@@ -11,9 +11,9 @@ namespace netsim {
 
 namespace {
 
-const Mode& multicast_mode(const MacConfig& config, const ModeSet& modes, const Mode& data_mode) {
+const Mode& multicast_mode(const MacConfig& config, const ModeSet& modes) {
     return config.multicast_bitrate_bps < 0
-               ? data_mode
+               ? modes.mode_for_bitrate(config.bitrate_bps)
                : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
 }
 
@@ -43,23 +43,27 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       listener_(listener),
       modes_(mode_set(config.op_mode)),
       timing_(modes_),
-      data_mode_(modes_.mode_for_bitrate(config.bitrate_bps)),
-      multicast_mode_(multicast_mode(config, modes_, data_mode_)),
+      multicast_mode_(multicast_mode(config, modes_)),
       rts_mode_(rts_mode(config, modes_)),
+      retry_limits_{config.short_retry_limit, config.long_retry_limit},
       rts_threshold_bytes_(config.rts_threshold_bytes),
       mtu_bytes_(config.mtu_bytes),
       own_frames_set_nav_(config.own_frames_set_nav),
+      rate_control_(make_rate_control(config, seed, radio.id())),
+      has_adaptive_rate_(!config.rate_control.empty()),
+      frames_by_mode_(modes_.modes().size()),
       queue_(config.queue_capacity),
       contention_(simulator, timing_, config.backoff_optimization,
                   RandomStream(seed, static_cast<std::uint32_t>(radio.id()), Purpose::backoff), *this),
-      retry_({config.short_retry_limit, config.long_retry_limit},
-             {cw_min(config, modes_), cw_max(config, modes_)}) {
+      data_mode_(&initial_mode(config)),
+      retry_(retry_limits_, {cw_min(config, modes_), cw_max(config, modes_)}) {
     radio_.set_listener(*this);
 }
 
 void Dcf::check(const MacConfig& config) {
     const ModeSet& modes = mode_set(config.op_mode);
-    multicast_mode(config, modes, modes.mode_for_bitrate(config.bitrate_bps));
+    initial_mode(config);
+    multicast_mode(config, modes);
     rts_mode(config, modes);
     if (cw_max(config, modes) < cw_min(config, modes)) {
         throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) +
@@ -85,7 +89,7 @@ void Dcf::send(NodeId destination, Payload payload) {
     frame.psdu_bytes = data_psdu_bytes(payload_bytes);
     frame.payload = std::move(payload);
     if (destination != broadcast_id) {
-        frame.duration_field = data_duration_field(timing_, modes_, data_mode_);
+        frame.duration_field = data_duration_field(timing_, modes_, *data_mode_);
     }
     const MessageKind kind = message_kind(frame);
     fates_.accept(kind);
@@ -109,6 +113,9 @@ void Dcf::channel_granted() {
     if (!in_progress_) {
         in_progress_ = queue_.pop();
     }
+    if (in_progress_->receiver != broadcast_id) {
+        choose_data_mode();
+    }
     if (needs_rts(*in_progress_)) {
         send_rts();
     } else {
@@ -116,19 +123,35 @@ void Dcf::channel_granted() {
     }
 }
 
-bool Dcf::needs_rts(const Frame& frame) const {
-    return frame.receiver != broadcast_id && frame.psdu_bytes >= rts_threshold_bytes_;
+RateAttempt Dcf::attempt() const {
+    return {in_progress_->receiver, in_progress_->psdu_bytes, attempts_,
+            is_long(*in_progress_) ? retry_limits_.long_failures : retry_limits_.short_failures};
+}
+
+void Dcf::choose_data_mode() {
+    data_mode_ = &rate_control_->mode_for(attempt(), simulator_.now());
+    const SimTime duration_field = data_duration_field(timing_, modes_, *data_mode_);
+    if (duration_field != in_progress_->duration_field) {
+        Frame frame = *in_progress_;
+        frame.duration_field = duration_field;
+        in_progress_ = std::make_shared<const Frame>(std::move(frame));
+    }
 }
 
 void Dcf::send_rts() {
     exchange_ = Exchange::sending_rts;
-    rts_ = std::make_shared<const Frame>(make_rts(*in_progress_, timing_, modes_, rts_mode_, data_mode_));
+    rts_ = std::make_shared<const Frame>(make_rts(*in_progress_, timing_, modes_, rts_mode_, *data_mode_));
     transmit(rts_, rts_mode_);
 }
 
 void Dcf::send_in_progress() {
     exchange_ = Exchange::sending;
-    transmit(in_progress_, in_progress_->receiver == broadcast_id ? multicast_mode_ : data_mode_);
+    if (in_progress_->receiver == broadcast_id) {
+        transmit(in_progress_, multicast_mode_);
+    } else {
+        ++frames_by_mode_[modes_.index_of(*data_mode_)];
+        transmit(in_progress_, *data_mode_);
+    }
 }
 
 void Dcf::transmit(std::shared_ptr<const Frame> frame, const Mode& mode) {
@@ -152,7 +175,7 @@ void Dcf::transmission_ended() {
             return;
         }
         own_frame_ended(*in_progress_);
-        await_answer(Exchange::awaiting_ack, modes_.response_mode(data_mode_));
+        await_answer(Exchange::awaiting_ack, modes_.response_mode(*data_mode_));
     }
 }
 
@@ -201,6 +224,7 @@ void Dcf::answered() {
         exchange_ = Exchange::waiting_sifs;
         simulator_.schedule_after(timing_.sifs, [this] { send_in_progress(); });
     } else {
+        rate_control_->succeeded(attempt(), *data_mode_, simulator_.now());
         retry_.start_afresh();
         finish(MessageFate::acknowledged);
     }
@@ -239,9 +263,11 @@ void Dcf::respond_after_sifs(Frame response, const Mode& mode) {
 void Dcf::attempt_failed() {
     simulator_.cancel(answer_timeout_);
     const bool was_sent = exchange_ == Exchange::awaiting_ack;
-    const bool may_go_on = was_sent && in_progress_->psdu_bytes >= rts_threshold_bytes_
-                               ? retry_.long_failed()
-                               : retry_.short_failed();
+    if (was_sent) {
+        rate_control_->failed(attempt(), *data_mode_, simulator_.now());
+        ++attempts_;
+    }
+    const bool may_go_on = was_sent && is_long(*in_progress_) ? retry_.long_failed() : retry_.short_failed();
     if (!may_go_on) {
         retry_.start_afresh();
         finish(MessageFate::retry_limit);
@@ -259,8 +285,19 @@ void Dcf::attempt_failed() {
 void Dcf::finish(MessageFate fate) {
     fates_.book(message_kind(*in_progress_), fate);
     in_progress_.reset();
+    attempts_ = 0;
     exchange_ = Exchange::none;
     contend_for_next();
+}
+
+std::map<std::int64_t, std::uint64_t> Dcf::frames_by_bitrate() const {
+    std::map<std::int64_t, std::uint64_t> frames;
+    if (has_adaptive_rate_) {
+        for (const Mode& mode : modes_.modes()) {
+            frames[mode.bitrate_bps] = frames_by_mode_[modes_.index_of(mode)];
+        }
+    }
+    return frames;
 }
 
 void Dcf::own_frame_ended(const Frame& frame) {

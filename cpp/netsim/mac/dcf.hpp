@@ -1,7 +1,8 @@
 // An 802.11 station without QoS: the distributed coordination function.
 //
 // Sends the frames of its queue one by one (contention, RTS and CTS from the RTS threshold on, frame, ACK, retries),
-// answers data frames with an ACK and RTS frames with a CTS after SIFS, keeps the NAV and drops duplicates.
+// answers data frames with an ACK and RTS frames with a CTS after SIFS, keeps the NAV and drops duplicates. The mode of
+// a unicast frame is chosen when the channel is granted, anew for each attempt, by the rate control.
 //
 // States of the exchange that this station originates:
 //
@@ -24,12 +25,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <vector>
 
 #include "netsim/config/mac_config.hpp"
 #include "netsim/mac/contention.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/link.hpp"
+#include "netsim/mac/rate_control.hpp"
 #include "netsim/mac/retry.hpp"
 #include "netsim/mac/timing.hpp"
 #include "netsim/mac/tx_queue.hpp"
@@ -50,6 +54,7 @@ public:
 
     void send(NodeId destination, Payload payload) override;
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
+    std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
 private:
     enum class Exchange { none, sending_rts, awaiting_cts, waiting_sifs, sending, awaiting_ack };
@@ -61,7 +66,10 @@ private:
     void transmission_ended() override;
     void channel_granted() override;
 
-    bool needs_rts(const Frame& frame) const;
+    bool is_long(const Frame& frame) const { return frame.psdu_bytes >= rts_threshold_bytes_; }
+    bool needs_rts(const Frame& frame) const { return frame.receiver != broadcast_id && is_long(frame); }
+    RateAttempt attempt() const;
+    void choose_data_mode();
     bool is_awaiting_answer() const;
     void send_rts();
     void send_in_progress();
@@ -85,12 +93,16 @@ private:
     LinkListener& listener_;
     const ModeSet& modes_;
     MacTiming timing_;
-    const Mode& data_mode_;
     const Mode& multicast_mode_;
     const Mode& rts_mode_;
+    Retry::Limits retry_limits_;
     int rts_threshold_bytes_;
     int mtu_bytes_;
     bool own_frames_set_nav_;
+    std::unique_ptr<RateControl> rate_control_;
+    bool has_adaptive_rate_;
+    std::vector<std::uint64_t>
+        frames_by_mode_;  // unicast frames on the air, by their mode's place in the mode set
 
     TxQueue queue_;
     DuplicateFilter duplicates_;
@@ -102,6 +114,8 @@ private:
     Exchange exchange_ = Exchange::none;
     std::shared_ptr<const Frame> in_progress_;  // granted once, not finished yet
     std::shared_ptr<const Frame> rts_;          // on the air
+    const Mode* data_mode_;  // of the frame in progress, a unicast; before the first: of none
+    int attempts_ = 0;       // of those of the frame in progress on the air, the ones that failed
     EventHandle answer_timeout_;
     Retry retry_;  // of the frame in progress
 

@@ -3,6 +3,10 @@
 // Two interfaces exist: Dcf (an 802.11 station) and UnitDiskLink (a perfect channel).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
 #include "netsim/mac/frame.hpp"
 
 namespace netsim {
@@ -22,6 +26,8 @@ public:
     virtual void send(NodeId destination, Payload payload) = 0;
     // Messages that were accepted and are in no other fate yet: a census to check the ledger with.
     virtual std::size_t queued_messages() const = 0;
+    // {bitrate in bps: unicast frames sent with it, retries included} of a station that has a rate control.
+    virtual std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const { return {}; }
 };
 
 }  // namespace netsim

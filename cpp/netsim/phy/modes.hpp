@@ -11,6 +11,7 @@
 //   DSSS, CCK (clauses 15.2, 16.2.3.5): 144 µs long preamble + 48 µs header + ⌈8n / bitrate⌉ whole µs.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -54,6 +55,8 @@ public:
 
     std::string_view name() const { return name_; }
     std::span<const Mode> modes() const { return modes_; }
+    // The place of one of them among them.
+    std::size_t index_of(const Mode& mode) const { return static_cast<std::size_t>(&mode - modes_.data()); }
 
     // Those of the slowest mode of the set; what follows from them is in mac/timing.hpp.
     SimTime slot() const { return slot_; }

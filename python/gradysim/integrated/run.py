@@ -133,6 +133,7 @@ class IntegratedRun:
                     (node.position, encapsulator.provider.tracked_variables)
                     for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
                 ),
+                [network.frames_by_bitrate(node.id) for node in self._nodes],
             ),
         )
 

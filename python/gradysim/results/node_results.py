@@ -1,6 +1,7 @@
 """What the nodes of a scenario were at the end of a run, whichever mode ran it."""
 
 from collections.abc import Iterable, Mapping
+from itertools import repeat
 
 from gradysim.config.scenario import Scenario
 from gradysim.protocol.position import Position
@@ -8,14 +9,18 @@ from gradysim.results.run_result import NodeResult
 
 
 def node_results(
-    scenario: Scenario, ends: Iterable[tuple[Position, Mapping[str, object]]]
+    scenario: Scenario,
+    ends: Iterable[tuple[Position, Mapping[str, object]]],
+    frames_by_bitrate: Iterable[Mapping[int, int]] | None = None,
 ) -> tuple[NodeResult, ...]:
     """Return the results in the order of the ids.
 
     Args:
         scenario: what was run
         ends: for each node, in the same order, its position (m) and the variables that it tracked
+        frames_by_bitrate: for each node, in the same order; None for a mode that has no bitrates
     """
+    rates = repeat({}, len(scenario.nodes)) if frames_by_bitrate is None else frames_by_bitrate
     return tuple(
         NodeResult(
             id=spec.id,
@@ -23,6 +28,7 @@ def node_results(
             protocol=spec.protocol.__name__,
             position=position,
             tracked_variables=dict(tracked),
+            frames_by_bitrate=frames,
         )
-        for spec, (position, tracked) in zip(scenario.nodes, ends, strict=True)
+        for spec, (position, tracked), frames in zip(scenario.nodes, ends, rates, strict=True)
     )

@@ -4,7 +4,7 @@
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from gradysim.results.plain_value import plain_value
@@ -27,15 +27,22 @@ class NodeResult:
     """Where it ended: x, y, z in metres."""
     tracked_variables: Mapping[str, object]
     """The last value of each variable that the protocol tracked."""
+    frames_by_bitrate: Mapping[int, int] = field(default_factory=dict)
+    """{bits per second: unicast frames sent at it, with retries}; empty for nodes without a rate control."""
 
     def to_json_object(self) -> dict[str, object]:
-        """Return the fields as plain values; see `plain_value` for tracked variables of other kinds."""
+        """Return the fields as plain values; see `plain_value` for tracked variables of other kinds.
+
+        `frames_by_bitrate` is left out where it is empty; its keys are texts then.
+        """
+        rates = {str(bitrate): frames for bitrate, frames in self.frames_by_bitrate.items()}
         return {
             "id": self.id,
             "name": self.name,
             "protocol": self.protocol,
             "position": plain_value(self.position),
             "tracked_variables": plain_value(self.tracked_variables),
+            **({"frames_by_bitrate": rates} if rates else {}),
         }
 
 

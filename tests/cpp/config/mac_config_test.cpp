@@ -43,6 +43,38 @@ TEST(MacConfig, ValidateNamesTheField) {
     EXPECT_EQ(text_with(&MacConfig::mtu_bytes, 3000), "mac.mtu_bytes = 3000 B: expected from 29 B to 2304 B");
 }
 
+TEST(MacConfig, ValidateNamesTheParameterOfRateControl) {
+    EXPECT_EQ(text_with<std::string>(&MacConfig::rate_control, "AarfControl"),
+              "mac.rate_control = \"AarfControl\": expected one of ArfRateControl, AarfRateControl, "
+              "MinstrelRateControl; did you mean AarfRateControl?");
+    EXPECT_EQ(text_with(&MacConfig::initial_rate_bps, 0.0),
+              "mac.initial_rate_bps = 0 bps: expected more than 0 bps");
+    EXPECT_EQ(text_with(&MacConfig::rate_interval_s, 0.0),
+              "mac.rate_interval_s = 0 s: expected from 1e-06 s to 1000000 s");
+    EXPECT_EQ(text_with(&MacConfig::increase_threshold, 0),
+              "mac.increase_threshold = 0: expected from 1 to 1000000");
+    EXPECT_EQ(text_with(&MacConfig::decrease_threshold, 0),
+              "mac.decrease_threshold = 0: expected from 1 to 1000000");
+    EXPECT_EQ(text_with(&MacConfig::increase_threshold_factor, 0.5),
+              "mac.increase_threshold_factor = 0.5: expected from 1 to 1000");
+    EXPECT_EQ(text_with(&MacConfig::max_increase_threshold, 0),
+              "mac.max_increase_threshold = 0: expected from 1 to 1000000");
+    EXPECT_EQ(text_with(&MacConfig::rate_update_interval_s, -1.0),
+              "mac.rate_update_interval_s = -1 s: expected from 1e-06 s to 1000000 s");
+    EXPECT_EQ(text_with(&MacConfig::look_around_share, 1.5),
+              "mac.look_around_share = 1.5: expected from 0 to 1");
+    EXPECT_EQ(text_with(&MacConfig::ewma_weight, 1.0), "mac.ewma_weight = 1: expected from 0 to 0.999999");
+}
+
+TEST(MacConfig, TheBoundOfAarfIsAtLeastItsThreshold) {
+    MacConfig config;
+    config.increase_threshold = 60;
+    EXPECT_EQ(error_text([&] { config.validate(); }), "no error");
+    config.rate_control = "AarfRateControl";
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "mac.max_increase_threshold = 50: expected from 60 to 1000000");
+}
+
 TEST(MacConfig, WindowsMustNotCross) {
     MacConfig config;
     config.cw_min = 63;

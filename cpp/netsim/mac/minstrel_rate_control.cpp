@@ -1,0 +1,119 @@
+#include "netsim/mac/minstrel_rate_control.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace netsim {
+
+namespace {
+
+// Rates that succeed at least as often are all as good as can be, and the one with the most throughput is taken.
+constexpr double likely_enough = 0.95;
+
+// Seconds from one attempt to the next on a free channel: DIFS, the mean of the first backoff, frame, SIFS, ACK.
+double attempt_s(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes) {
+    const SimTime fixed = timing.difs + timing.sifs + modes.response_mode(mode).duration(ack_bytes);
+    return (fixed + mode.duration(psdu_bytes)).seconds() + modes.cw_min() * timing.slot.seconds() / 2;
+}
+
+}  // namespace
+
+MinstrelRateControl::Link& MinstrelRateControl::link_to(NodeId destination, SimTime now) {
+    const auto [place, is_new] = links_.try_emplace(destination);
+    Link& link = place->second;
+    if (is_new) {
+        const std::size_t initial = modes_.index_of(initial_);
+        link.modes.resize(modes_.modes().size());
+        link.chain = {initial, initial, initial};
+        link.tried = initial;
+        link.updated = now;
+    }
+    return link;
+}
+
+const Mode& MinstrelRateControl::mode_for(const RateAttempt& attempt, SimTime now) {
+    Link& link = link_to(attempt.destination, now);
+    if (now - link.updated >= parameters_.update_interval) {
+        update(link, attempt.psdu_bytes, now);
+    }
+    if (attempt.number == 0) {
+        link.tried = draw_tried(link);
+    }
+    return modes_.modes()[choose(link, attempt)];
+}
+
+std::size_t MinstrelRateControl::draw_tried(const Link& link) {
+    const std::size_t others = link.modes.size() - 1;
+    if (others == 0 || draws_.uniform() >= parameters_.look_around) {
+        return link.chain.best;
+    }
+    const std::size_t drawn = draws_.uniform_int(static_cast<std::uint32_t>(others));
+    return drawn < link.chain.best ? drawn : drawn + 1;
+}
+
+std::size_t MinstrelRateControl::choose(const Link& link, const RateAttempt& attempt) const {
+    const Chain& chain = link.chain;
+    if (link.tried > chain.best && attempt.number == 0) {
+        return link.tried;
+    }
+    constexpr int stages = 4;
+    switch (attempt.number * stages / attempt.limit) {
+        case 0:
+            return chain.best;
+        case 1:
+            return link.tried < chain.best ? link.tried : chain.second;
+        case 2:
+            return chain.likeliest;
+        default:
+            return 0;
+    }
+}
+
+void MinstrelRateControl::succeeded(const RateAttempt& attempt, const Mode& mode, SimTime now) {
+    count(attempt, mode, true, now);
+}
+
+void MinstrelRateControl::failed(const RateAttempt& attempt, const Mode& mode, SimTime now) {
+    count(attempt, mode, false, now);
+}
+
+void MinstrelRateControl::count(const RateAttempt& attempt, const Mode& mode, bool success, SimTime now) {
+    Statistics& statistics = link_to(attempt.destination, now).modes[modes_.index_of(mode)];
+    ++statistics.attempts;
+    statistics.successes += success ? 1 : 0;
+}
+
+void MinstrelRateControl::update(Link& link, int psdu_bytes, SimTime now) const {
+    link.updated = now;
+    for (Statistics& mode : link.modes) {
+        if (mode.attempts > 0) {
+            const double share = static_cast<double>(mode.successes) / mode.attempts;
+            const double weight = mode.known ? parameters_.ewma_weight : 0;
+            mode = {.known = true, .mean = weight * mode.mean + (1 - weight) * share};
+        }
+    }
+    const std::span<const Mode> modes = modes_.modes();
+    const auto throughput = [&](std::size_t mode) {
+        return link.modes[mode].mean / attempt_s(modes_, timing_, modes[mode], psdu_bytes);
+    };
+    // Of equals the slower one: where nothing succeeded, the slowest, which is also in for a second best.
+    std::size_t best = 0;
+    std::size_t second = 0;
+    std::size_t likeliest = 0;
+    for (std::size_t mode = 1; mode < modes.size(); ++mode) {
+        if (throughput(mode) > throughput(best)) {
+            second = best;
+            best = mode;
+        } else if (throughput(mode) > (second == best ? 0 : throughput(second))) {
+            second = mode;
+        }
+        const bool both_likely = std::min(link.modes[mode].mean, link.modes[likeliest].mean) >= likely_enough;
+        if (both_likely ? throughput(mode) > throughput(likeliest)
+                        : link.modes[mode].mean > link.modes[likeliest].mean) {
+            likeliest = mode;
+        }
+    }
+    link.chain = {best, second, likeliest};
+}
+
+}  // namespace netsim

@@ -1,0 +1,42 @@
+"""What docs/guides/rate-control.md shows runs, and its nodes use several rates."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.config import load_scenarios
+from gradysim.integrated.run import run
+
+
+@pytest.fixture
+def guide(root: Path) -> str:
+    return (root / "docs/guides/rate-control.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def scenario_file(guide: str, tmp_path: Path) -> Path:
+    """The .ini file of a reader who saved the guide's two files."""
+    for language, name in [("python", "rates.py"), ("ini", "rates.ini")]:
+        (block,) = re.findall(rf"^```{language}\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
+        (tmp_path / name).write_text(block, encoding="utf-8")
+    return tmp_path / "rates.ini"
+
+
+def test_the_rate_falls_on_the_way(scenario_file: Path) -> None:
+    (scenario,) = load_scenarios(scenario_file)
+    uav, ground_station = run(scenario).nodes
+    frames = uav.frames_by_bitrate
+    assert frames[54_000_000] > 100
+    assert frames[12_000_000] > 100
+    assert sum(ground_station.frames_by_bitrate.values()) == 0
+
+
+@pytest.mark.parametrize("typename", ["", "ArfRateControl", "AarfRateControl", "MinstrelRateControl"])
+def test_every_rate_control_that_it_names_exists(guide: str, scenario_file: Path, typename: str) -> None:
+    assert f'| `"{typename}"` |' in guide
+    settings = [f'**.rateControl.typename = "{typename}"', "sim-time-limit = 1s"]
+    (scenario,) = load_scenarios(scenario_file, overrides=settings)
+    assert run(scenario).fates["messages"]["unicast"]["acknowledged"] > 90
