@@ -42,9 +42,9 @@ public:
 
 private:
     struct Link {
-        std::size_t mode;
+        std::size_t mode = 0;
         SimTime changed;  // also at a fall from the slowest mode, which has no effect but this
-        int increase_threshold;
+        int increase_threshold = 1;
         int successes = 0;  // in a row
         int failures = 0;   // in a row
         bool probing = false;

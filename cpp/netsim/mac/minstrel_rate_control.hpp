@@ -53,14 +53,14 @@ private:
     };
     // Indices of modes.
     struct Chain {
-        std::size_t best;
-        std::size_t second;
-        std::size_t likeliest;
+        std::size_t best = 0;
+        std::size_t second = 0;
+        std::size_t likeliest = 0;
     };
     struct Link {
         std::vector<Statistics> modes;
         Chain chain;
-        std::size_t tried;  // by the frame in progress; the best one: none
+        std::size_t tried = 0;  // by the frame in progress; the best one: none
         SimTime updated;
     };
 

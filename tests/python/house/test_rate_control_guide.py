@@ -1,6 +1,10 @@
 """What docs/guides/rate-control.md shows runs, and its nodes use several rates."""
 
+import json
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -23,6 +27,18 @@ def scenario_file(guide: str, tmp_path: Path) -> Path:
         (block,) = re.findall(rf"^```{language}\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
         (tmp_path / name).write_text(block, encoding="utf-8")
     return tmp_path / "rates.ini"
+
+
+def test_its_command_prints_the_frames_by_bitrate(guide: str, scenario_file: Path) -> None:
+    (command,) = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
+    done = subprocess.run(
+        [sys.executable, "-m", "gradysim", *command.split(), "--set", "sim-time-limit = 1s"],
+        cwd=scenario_file.parent,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        check=True,
+    )
+    assert sum(json.loads(done.stdout)["nodes"][0]["frames_by_bitrate"].values()) > 90
 
 
 def test_the_rate_falls_on_the_way(scenario_file: Path) -> None:
