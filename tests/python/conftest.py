@@ -1,7 +1,11 @@
-"""Scenarios made of a few lines, for the tests of both modes."""
+"""What tests of several folders use: scenarios made of a few lines, and a vehicle that speaks MAVLink."""
 
+import json
+import stat
+import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -54,3 +58,20 @@ def make_scenario(tmp_path: Path) -> Callable[..., Scenario]:
         return scenario
 
     return make
+
+
+@pytest.fixture
+def toy_copter(tmp_path: Path) -> Callable[..., Path]:
+    """`toy_copter({0: {"deaf": True}})`: path of a program in ArduCopter's place, and what it does wrong."""
+    folder = tmp_path / "program"
+    folder.mkdir()
+    program = folder / "arducopter"
+    text = (Path(__file__).parent / "sitl/toy_copter.py").read_text()
+    program.write_text(text.replace("#!/usr/bin/env python3", f"#!{sys.executable}", 1))
+    program.chmod(program.stat().st_mode | stat.S_IXUSR)
+
+    def with_wrongs(wrongs: dict[int, Any] | None = None) -> Path:
+        (folder / "misbehaviour.json").write_text(json.dumps(wrongs or {}))
+        return program
+
+    return with_wrongs

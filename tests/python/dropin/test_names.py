@@ -2,7 +2,8 @@
 
 `published_names.txt` holds them, as seen from outside: `inspect.signature` without annotations and `self`,
 the members of enumerations, the values of constants, and where the exports of packages come from. Left out
-are the insides of Raft (`raft_node`, the messages of `raft_message`) and what modules happen to import.
+are the insides of Raft (`raft_node`, the messages of `raft_message`) and of `ardupilot_mobility` (`Drone`, a
+client of another program), and what modules happen to import.
 """
 
 import importlib
@@ -36,6 +37,15 @@ DELIBERATE = {
     "MobilityLeaderPlugin": ("(protocol, configuration=None)", NO_CONFIGURATION),
     "MissionMobilityPlugin": ("(protocol, configuration=None)", NO_CONFIGURATION),
     "RandomMobilityPlugin": ("(protocol, config=None)", NO_CONFIGURATION),
+    "ArdupilotMobilityConfiguration": (
+        "(update_rate=0.1, default_speed=10, reference_coordinates=(0, 0, 0), generate_report=True, "
+        "simulate_drones=True, ground_station_ip=None, starting_api_port=8000, ardupilot_path=None, "
+        "uav_api_log_path=None, uav_api_startup_timeout=120, uav_api_log_console=False, "
+        "simulation_startup_speedup=5, mavlink_streamrate=10, vehicle_addresses=None, "
+        "autopilot_user='nobody')",
+        "new last fields: where real vehicles are, and who owns simulated autopilots",
+    ),
+    "ArdupilotMobilityHandler": ("(configuration=None)", NO_CONFIGURATION),
     "CommunicationHandler": (
         "(communication_medium=None, ledger=None)",
         f"{NO_CONFIGURATION}; new last parameter: counts what becomes of each copy of a message",

@@ -1,0 +1,85 @@
+"""Which autopilots fly the nodes, and how they are started."""
+
+import math
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from gradysim.protocol.position import Position
+from gradysim.simulator.number_range import is_in_range
+from gradysim.sitl.connection import parse_address
+
+
+@dataclass
+class ArdupilotMobilityConfiguration:
+    """Settings of an `ArdupilotMobilityHandler`. ValueError names a wrong one.
+
+    Attributes:
+        update_rate: Simulated time between two telemetries of a node; s, > 0.
+        default_speed: Ground speed of each node until its protocol sets another; m/s, > 0.
+        reference_coordinates: (latitude deg, longitude deg, altitude m) of the origin of the frame.
+        generate_report: Write `ardupilot_mobility_report.csv` into the working directory at the end.
+        simulate_drones: Start an autopilot for each node; otherwise fly what is at `vehicle_addresses`.
+        ground_station_ip: Host to whose UDP port 14550 the messages of all vehicles are passed on; orders
+            from there reach them.
+        starting_api_port: Has no meaning here: no server stands between the simulation and its autopilots,
+            and free ports are found by themselves.
+        ardupilot_path: An arducopter program for SITL, or an ArduPilot checkout in which it was built. None
+            for what the environment variable GRADYSIM_ARDUPILOT names, or the command `arducopter`.
+        uav_api_log_path: Folder for what the autopilots print, `autopilot_<id>.log`; None to throw it away.
+        uav_api_startup_timeout: Wall time for each step before the simulation starts: to connect, to know
+            the position, to arm, to take off, to reach the initial position; s, > 0.
+        uav_api_log_console: Log what the autopilots say (STATUSTEXT) as information, not just for debugging.
+        simulation_startup_speedup: How fast simulated autopilots run before the simulation starts: seconds
+            of theirs for each wall second; > 0.
+        mavlink_streamrate: Positions that each autopilot sends in a second of its own; Hz, > 0. At least one
+            for each `update_rate` is asked for.
+        vehicle_addresses: Where the vehicles are if they are not simulated, by node id: "tcp:HOST:PORT" or
+            "udpout:HOST:PORT" to connect to, "udpin:HOST:PORT" to listen on.
+        autopilot_user: Whom simulated autopilots belong to if root runs the simulation; None for root.
+    """
+
+    update_rate: float = 0.1
+    default_speed: float = 10
+    reference_coordinates: Position = (0, 0, 0)
+    generate_report: bool = True
+    simulate_drones: bool = True
+    ground_station_ip: str | None = None
+    starting_api_port: int = 8000
+    ardupilot_path: str | os.PathLike[str] | None = None
+    uav_api_log_path: str | os.PathLike[str] | None = None
+    uav_api_startup_timeout: float = 120
+    uav_api_log_console: bool = False
+    simulation_startup_speedup: float = 5
+    mavlink_streamrate: float = 10
+    vehicle_addresses: Mapping[int, str] | None = None
+    autopilot_user: str | None = "nobody"
+
+    def __post_init__(self) -> None:
+        for name, unit in (
+            ("update_rate", "s"),
+            ("default_speed", "m/s"),
+            ("uav_api_startup_timeout", "s"),
+            ("simulation_startup_speedup", ""),
+            ("mavlink_streamrate", "Hz"),
+        ):
+            value = getattr(self, name)
+            if not is_in_range(value, 0, above=True):
+                raise ValueError(f"{name} must be finite and > 0 {unit}".rstrip() + f", got {value!r}")
+        if not _is_geographic(self.reference_coordinates):
+            raise ValueError(
+                "reference_coordinates must be (latitude -90 to 90 degrees, longitude degrees, altitude m), "
+                f"got {self.reference_coordinates!r}"
+            )
+        for address in (self.vehicle_addresses or {}).values():
+            parse_address(address)
+
+
+def _is_geographic(place: Iterable[object]) -> bool:
+    try:
+        latitude, longitude, altitude = place
+    except (TypeError, ValueError):
+        return False
+    return is_in_range(latitude, -90, 90) and all(
+        is_in_range(value, -math.inf, above=True) for value in (longitude, altitude)
+    )

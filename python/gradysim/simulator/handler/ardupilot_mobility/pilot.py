@@ -1,0 +1,117 @@
+"""Turns one node's mobility commands into orders to its vehicle."""
+
+import asyncio
+import math
+from typing import TypeGuard
+
+from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
+from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.simulator.handler.ardupilot_mobility.exception import ArdupilotMobilityException
+from gradysim.sitl.frame import cartesian_to_geo
+from gradysim.sitl.vehicle import Vehicle
+
+_RENEWAL_S = 1.0
+"""Of the autopilot's time: it drops a velocity that is 3 s old."""
+
+
+class Pilot:
+    """Remembers what the protocol wants, and has the vehicle do it. The newest command counts.
+
+    Attributes:
+        vehicle: What it flies.
+    """
+
+    def __init__(self, vehicle: Vehicle, reference: Position, speed_mps: float, real_time: float) -> None:
+        """Take a vehicle in flight.
+
+        Args:
+            vehicle: Holds its position.
+            reference: (latitude deg, longitude deg, altitude m) of the frame's origin.
+            speed_mps: Ground speed, > 0.
+            real_time: Seconds of the autopilot's time for each wall second.
+        """
+        self.vehicle = vehicle
+        self._reference = reference
+        self._renewal_s = _RENEWAL_S / real_time
+        self._target: Position | None = None
+        self._speed_mps = speed_mps
+        self._velocity: Position | None = None
+        self._speed_is_new = asyncio.Event()
+        self._speed_is_new.set()
+
+    def obey(self, command: MobilityCommand) -> None:
+        """Carry out a command: at once, but for the speed, which the autopilot has to confirm.
+
+        Raises:
+            ArdupilotMobilityException: The command means nothing.
+            SitlError: The vehicle is gone.
+        """
+        kind = getattr(command, "command_type", None)
+        if kind == MobilityCommandType.GOTO_COORDS:
+            self._go_to(_numbers(command))
+        elif kind == MobilityCommandType.GOTO_GEO_COORDS:
+            place = _numbers(command)
+            if abs(place[0]) > 90:
+                raise ArdupilotMobilityException(f"sent to latitude {place[0]!r}: expected -90 to 90 degrees")
+            self._go_to(geo_to_cartesian(self._reference, place))
+        elif kind == MobilityCommandType.SET_SPEED and command.param_2 is command.param_3 is None:
+            self._set_speed(command.param_1)
+        elif kind == MobilityCommandType.SET_SPEED:
+            self._velocity = _numbers(command)
+            self.vehicle.set_velocity(*self._velocity)
+        else:
+            raise ArdupilotMobilityException(f"given an unknown mobility command: {command!r}")
+
+    async def attend(self) -> None:
+        """Do what takes time, for ever: have speeds confirmed, renew velocities. SitlError if that fails."""
+        while True:
+            try:
+                await asyncio.wait_for(self._speed_is_new.wait(), self._renewal_s)
+            except TimeoutError:
+                if self._velocity is not None:
+                    self.vehicle.set_velocity(*self._velocity)
+                continue
+            self._speed_is_new.clear()
+            if self._speed_mps > 0:
+                await self.vehicle.set_speed(self._speed_mps)
+
+    def _go_to(self, target: Position) -> None:
+        try:
+            latitude, longitude, _ = cartesian_to_geo(self._reference, target)
+        except ValueError as error:
+            raise ArdupilotMobilityException(f"sent to a place that is none: {error}") from error
+        self._target = target
+        if self._speed_mps == 0:
+            return
+        if self._velocity is not None:
+            self._velocity = None
+            self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
+        self.vehicle.go_to(latitude, longitude, target[2])
+
+    def _set_speed(self, speed: float | None) -> None:
+        if not _is_finite(speed) or speed < 0:
+            raise ArdupilotMobilityException(
+                f"given the speed {speed!r}: expected a finite number of m/s, >= 0"
+            )
+        before, self._speed_mps = self._speed_mps, float(speed)
+        if speed == 0:  # Which ArduCopter refuses.
+            self._velocity = (0.0, 0.0, 0.0)
+            self.vehicle.set_velocity(0, 0, 0)
+            return
+        self._speed_is_new.set()
+        if before == 0 and self._target is not None:
+            self._go_to(self._target)
+
+
+def _numbers(command: MobilityCommand) -> Position:
+    x, y, z = command.param_1, command.param_2, command.param_3
+    if _is_finite(x) and _is_finite(y) and _is_finite(z):
+        return (float(x), float(y), float(z))
+    raise ArdupilotMobilityException(f"given ({x!r}, {y!r}, {z!r}): expected three finite numbers")
+
+
+def _is_finite(value: float | None) -> TypeGuard[float]:
+    try:
+        return value is not None and math.isfinite(value)
+    except TypeError:
+        return False

@@ -1,0 +1,67 @@
+"""What is told of each node after a simulation with autopilots: a table in a file, and in the log."""
+
+import csv
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from gradysim.simulator.log import format_table
+
+_logger = logging.getLogger(__name__)
+
+FILE_NAME = "ardupilot_mobility_report.csv"
+
+COLUMNS = ("node_id", "telemetry_requests", "telemetry_drops", "battery_wasted")
+"""The last one in percent of a full battery, empty if the autopilot does not know."""
+
+
+@dataclass
+class NodeReport:
+    """One node's counts.
+
+    Attributes:
+        requests: Telemetries that were due.
+        drops: Those of them for which no position came in time.
+        battery_start: Percent of a full battery; None if unknown.
+        battery_end: The same at the end.
+        clock_error_s: How far the autopilot's clock was ahead of simulated time, or behind it (< 0), when
+            that was most; s.
+    """
+
+    requests: int = 0
+    drops: int = 0
+    battery_start: float | None = None
+    battery_end: float | None = None
+    clock_error_s: float = 0.0
+
+    @property
+    def battery_wasted(self) -> float | None:
+        """Percent of a full battery."""
+        if self.battery_start is None or self.battery_end is None:
+            return None
+        return self.battery_start - self.battery_end
+
+
+def write_report(path: Path, nodes: Mapping[int, NodeReport]) -> None:
+    """Write the file and log it as a table."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for identifier, node in nodes.items():
+            wasted = "" if node.battery_wasted is None else node.battery_wasted
+            writer.writerow((identifier, node.requests, node.drops, wasted))
+    table = format_table(
+        ["Node", "Telemetries", "Dropped", "Battery used (%)", "Clock off (s)"],
+        [
+            [
+                str(identifier),
+                str(node.requests),
+                str(node.drops),
+                "-" if node.battery_wasted is None else f"{node.battery_wasted:g}",
+                f"{node.clock_error_s:+.2f}",
+            ]
+            for identifier, node in nodes.items()
+        ],
+    )
+    _logger.info("Autopilots\n%s\nWritten to %s", table, path.absolute())

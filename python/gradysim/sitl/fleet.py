@@ -1,0 +1,171 @@
+"""Simulated autopilots of one simulation: started with what they need, and gone with it."""
+
+import asyncio
+import os
+import shutil
+import subprocess
+import tempfile
+import weakref
+from collections.abc import Mapping
+from pathlib import Path
+
+from gradysim.protocol.position import Position
+from gradysim.sitl.arducopter import find_arducopter, options, parameter_file
+from gradysim.sitl.connection import StreamConnection
+from gradysim.sitl.error import SitlError
+from gradysim.sitl.instance import free_instance
+from gradysim.sitl.link import MavlinkLink
+from gradysim.sitl.process import AutopilotProcess, stop_all
+from gradysim.sitl.unprivileged import command_as, user_for
+
+_HELP_S = 10.0
+
+
+class Fleet:
+    """Starts autopilots, each with a folder of its own, and ends them.
+
+    `close` ends all and removes their files. Should it never be called, that happens when the fleet is
+    dropped, or Python ends.
+    """
+
+    def __init__(
+        self,
+        program: str | os.PathLike[str] | None,
+        *,
+        user: str | None = "nobody",
+        console_folder: str | os.PathLike[str] | None = None,
+    ) -> None:
+        """Find the program and prepare a folder.
+
+        Args:
+            program: See `find_arducopter`.
+            user: Whom autopilots that root starts belong to; None for root.
+            console_folder: Keeps what each autopilot prints, `autopilot_<id>.log`; None to throw it away.
+
+        Raises:
+            SitlError: The program cannot be run so.
+        """
+        found = find_arducopter(program)
+        self._user = user_for(user)
+        self._consoles = None if console_folder is None else Path(console_folder).expanduser().absolute()
+        if self._consoles is not None:
+            self._consoles.mkdir(parents=True, exist_ok=True)
+        self._folder = Path(tempfile.mkdtemp(prefix="gradysim-sitl-"))
+        self._processes: list[AutopilotProcess] = []
+        self._end = weakref.finalize(self, _end, self._processes, self._folder)
+        self._instances: set[int] = set()
+        self._program = self._reachable(found)
+        self._help: str | None = None
+
+    async def launch(
+        self,
+        link: MavlinkLink,
+        identifier: int,
+        home: Position,
+        *,
+        speedup: float,
+        timeout_s: float,
+        parameters: Mapping[str, float] | None = None,
+    ) -> StreamConnection:
+        """Start an autopilot and join it with a link; the link is lost when the autopilot ends.
+
+        Args:
+            link: Without a connection so far.
+            identifier: Names its files; its MAVLink system id is one more, up to 255 and then from 1 again.
+            home: Where it stands: (latitude deg, longitude deg, altitude m).
+            speedup: Seconds of its clock for each wall second.
+            timeout_s: Wall time until it connects.
+            parameters: More of ArduCopter's, by name.
+
+        Raises:
+            SitlError: It does not start, or does not connect.
+        """
+        folder = self._folder / str(identifier)
+        folder.mkdir()
+        self._hand_over(folder)
+        file = self._folder / f"{identifier}.parm"
+        system_id = identifier % 255 + 1
+        help_text = self._help_text()
+        file.write_text(parameter_file(system_id=system_id, help_text=help_text, more=parameters or {}))
+        file.chmod(0o644)
+        console = (self._consoles or self._folder) / f"autopilot_{identifier}.log"
+        instance = free_instance(self._instances)
+        self._instances.add(instance)
+        connection = StreamConnection(link)
+        # The autopilot comes to us: nobody else can get in between, and no port has to be guessed.
+        server = await asyncio.get_running_loop().create_server(lambda: connection, "127.0.0.1", 0)
+        try:
+            arguments = options(
+                home=home,
+                speedup=speedup,
+                parameters=file,
+                instance=instance,
+                port=server.sockets[0].getsockname()[1],
+                system_id=system_id,
+                help_text=help_text,
+            )
+            command = command_as(self._user, [str(self._program), *arguments])
+            process = AutopilotProcess(link.name, command, folder, console)
+            self._processes.append(process)
+            connection.explain = process.obituary
+            await _connected(connection, process, timeout_s)
+        finally:
+            server.close()
+        return connection
+
+    def close(self) -> None:
+        """End all autopilots and remove their files; no-op if that has happened."""
+        self._end()
+
+    @property
+    def pids(self) -> list[int]:
+        """The process ids of those that run."""
+        return [process.pid for process in self._processes if process.is_running]
+
+    def _reachable(self, program: Path) -> Path:
+        """Return a program that the user can read, whatever folder the given one is in."""
+        if self._user is None:
+            return program
+        self._folder.chmod(0o711)
+        copy = self._folder / "autopilot"
+        shutil.copyfile(program, copy)
+        copy.chmod(0o755)
+        return copy
+
+    def _hand_over(self, path: Path) -> None:
+        if self._user is not None:
+            shutil.chown(path, self._user)
+
+    def _help_text(self) -> str:
+        if self._help is None:
+            command = command_as(self._user, [str(self._program), "--help"])
+            try:
+                self._help = subprocess.run(
+                    command,
+                    cwd=self._folder,
+                    stdin=subprocess.DEVNULL,
+                    capture_output=True,
+                    text=True,
+                    timeout=_HELP_S,
+                    check=False,
+                ).stdout
+            except (OSError, subprocess.TimeoutExpired) as error:
+                raise SitlError(f"{self._program} does not answer to --help: {error}") from error
+        return self._help
+
+
+async def _connected(connection: StreamConnection, process: AutopilotProcess, timeout_s: float) -> None:
+    """Wait for the connection, and no longer than the process lives."""
+    loop = asyncio.get_running_loop()
+    deadline = loop.time() + timeout_s
+    while not connection.made.is_set():
+        if not process.is_running:
+            raise SitlError(f"{process.name}: start: {process.obituary()}")
+        if loop.time() > deadline:
+            raise SitlError(f"{process.name}: start: it did not connect in {timeout_s:g} s")
+        await asyncio.sleep(0.02)
+
+
+def _end(processes: list[AutopilotProcess], folder: Path) -> None:
+    stop_all(processes)
+    shutil.rmtree(folder, ignore_errors=True)

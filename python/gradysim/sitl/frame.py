@@ -1,0 +1,52 @@
+"""From the simulation's frame to the Earth: the way back from `geo_to_cartesian`."""
+
+import math
+
+from gradysim.protocol.position import EARTH_RADIUS_M, Position
+
+_SMALLEST_DEG = 1e-7
+"""Resolution of MAVLink's latitudes and longitudes, 1.1 cm."""
+
+
+def cartesian_to_geo(ref_coord: Position, position: Position) -> Position:
+    """Return the geographic place of a point: `geo_to_cartesian(ref_coord, ...)` of it is the point again.
+
+    The inverse of the haversine formula, once along the meridian and once along the parallel of the origin
+    (R. W. Sinnott, Virtues of the Haversine, Sky and Telescope 68, 1984).
+
+    Args:
+        ref_coord: (latitude deg, longitude deg, altitude m) of the origin.
+        position: (x, y, z) in metres: North, East and up of the origin.
+
+    Returns:
+        (latitude deg, longitude deg, altitude m).
+
+    Raises:
+        ValueError: The point is further North, South or East than the Earth has room.
+    """
+    latitude, longitude, altitude = ref_coord
+    north, east, up = position
+    target_latitude = latitude + math.degrees(north / EARTH_RADIUS_M)
+    sine = math.sin(east / (2.0 * EARTH_RADIUS_M))
+    cosine = math.cos(math.radians(latitude))
+    if abs(target_latitude) > 90.0 or abs(sine) > cosine:
+        raise ValueError(f"{position!r} m is beyond the Earth's edge, seen from {ref_coord!r}")
+    half_angle = math.asin(sine / cosine)
+    target_longitude = (longitude + math.degrees(2.0 * half_angle) + 180.0) % 360.0 - 180.0
+    return (target_latitude, target_longitude, altitude + up)
+
+
+def home_of(ref_coord: Position, position: Position) -> Position:
+    """Return where a vehicle stands on the ground, at the reference's altitude, below a point."""
+    latitude, longitude, altitude = cartesian_to_geo(ref_coord, (position[0], position[1], 0.0))
+    return (*off_null_island(latitude, longitude), altitude)
+
+
+def off_null_island(latitude: float, longitude: float) -> tuple[float, float]:
+    """Return the place, or one 1 cm North of latitude and longitude 0.
+
+    These mean "no place given" to ArduPilot: it starts in Australia then, and does not fly there.
+    """
+    if max(abs(latitude), abs(longitude)) <= _SMALLEST_DEG / 2:
+        return (_SMALLEST_DEG, 0.0)
+    return (latitude, longitude)

@@ -1,0 +1,40 @@
+"""To run somebody else's program without the rights of root."""
+
+import os
+import pwd
+import shutil
+from collections.abc import Sequence
+
+from gradysim.sitl.error import SitlError
+
+
+def user_for(wanted: str | None) -> str | None:
+    """Return the user whom the program is to belong to: the one wanted if root asks, otherwise None.
+
+    Raises:
+        SitlError: There is no such user, or a tool for it is missing.
+    """
+    if wanted is None or os.geteuid() != 0:
+        return None
+    try:
+        pwd.getpwnam(wanted)
+    except KeyError:
+        raise SitlError(f"there is no user {wanted!r} to run the autopilots as") from None
+    for tool in ("setpriv", "timeout"):
+        if shutil.which(tool) is None:
+            raise SitlError(f"to run autopilots as {wanted!r} root needs the command {tool}")
+    return wanted
+
+
+def command_as(user: str | None, command: Sequence[str]) -> list[str]:
+    """Return the command that runs a command as a user; the same one for None.
+
+    ArduPilot ends when it cannot signal its parent, which nobody but root may do if the parent is root's. So
+    `setpriv` gives up root's rights, and `timeout`, with no limit, stays as a parent of the same user; it
+    passes signals on. It is killed when whoever started it ends, and the autopilot ends with it.
+    """
+    if user is None:
+        return list(command)
+    group = str(pwd.getpwnam(user).pw_gid)
+    rights = ["setpriv", f"--reuid={user}", f"--regid={group}", "--clear-groups", "--no-new-privs"]
+    return [*rights, "--pdeathsig=KILL", "timeout", "0", *command]

@@ -1,0 +1,325 @@
+"""A vehicle flown over MAVLink: steps that are done when the vehicle says so, or fail with what it said.
+
+Written for ArduCopter, in the frame of latitude, longitude and height above the place where it was armed.
+Times are wall times.
+"""
+
+import asyncio
+import math
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from gradysim.protocol.position import geo_to_cartesian, squared_distance
+from gradysim.sitl.dialect import COPTER_GUIDED, load_dialect
+from gradysim.sitl.error import SitlError
+from gradysim.sitl.frame import off_null_island
+from gradysim.sitl.link import MavlinkLink, Message
+
+_ANSWER_S = 1.0
+"""How long a command waits for its COMMAND_ACK before it is sent again."""
+
+_TRIES = 5
+
+_PAUSE_S = 0.2
+"""Between two tries of what the autopilot refused but may accept later."""
+
+_CONFIRM_S = 5.0
+"""How long an accepted change may take to show in a HEARTBEAT, of which there is one a second."""
+
+_ARRIVED_M = 1.0
+
+_POSITION_ONLY = 0b110111111000
+"""`type_mask` of SET_POSITION_TARGET_*: of the setpoint only the position counts."""
+
+_VELOCITY_ONLY = 0b110111000111
+"""The same for the velocity."""
+
+_GROUND_SPEED = 1
+"""`param1` of MAV_CMD_DO_CHANGE_SPEED: ground speed."""
+
+
+class Vehicle:
+    """One vehicle. Each step raises SitlError, naming vehicle and step, if it is refused or takes too long.
+
+    Attributes:
+        name: For people.
+        link: Its messages.
+    """
+
+    def __init__(self, link: MavlinkLink) -> None:
+        self.name = link.name
+        self.link = link
+        self._dialect = load_dialect()
+        self._commands = asyncio.Lock()
+
+    @property
+    def position(self) -> tuple[float, float, float] | None:
+        """(latitude deg, longitude deg, height above home m); None before the first GLOBAL_POSITION_INT."""
+        message = self.link.latest.get("GLOBAL_POSITION_INT")
+        return None if message is None else position_of(message)
+
+    @property
+    def battery_percent(self) -> float | None:
+        """What is left of the battery; None if the autopilot does not know."""
+        message = self.link.latest.get("SYS_STATUS")
+        if message is None or message.battery_remaining < 0:
+            return None
+        return float(message.battery_remaining)
+
+    @property
+    def is_armed(self) -> bool:
+        """Whether its motors were on in its last HEARTBEAT."""
+        message = self.link.latest.get("HEARTBEAT")
+        return message is not None and bool(message.base_mode & self._dialect.MAV_MODE_FLAG_SAFETY_ARMED)
+
+    @property
+    def is_guided(self) -> bool:
+        """Whether it obeyed orders by MAVLink in its last HEARTBEAT."""
+        message = self.link.latest.get("HEARTBEAT")
+        return message is not None and message.custom_mode == COPTER_GUIDED
+
+    @property
+    def is_in_air(self) -> bool:
+        """Whether it says that it flies; False if it does not say."""
+        message = self.link.latest.get("EXTENDED_SYS_STATE")
+        return message is not None and message.landed_state == self._dialect.MAV_LANDED_STATE_IN_AIR
+
+    async def meet(self, timeout_s: float) -> None:
+        """Wait for the first HEARTBEAT."""
+        if "HEARTBEAT" not in self.link.latest:
+            await self._wait("heartbeat", _is("HEARTBEAT"), timeout_s)
+
+    async def stream(self, position_hz: float) -> None:
+        """Have the autopilot send its position so often (Hz of its own clock), and what else is needed."""
+        dialect = self._dialect
+        rates_hz = {
+            dialect.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: position_hz,
+            dialect.MAVLINK_MSG_ID_EKF_STATUS_REPORT: 2.0,
+            dialect.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 2.0,
+            dialect.MAVLINK_MSG_ID_SYS_STATUS: 1.0,
+        }
+        for identifier, rate_hz in rates_hz.items():
+            ack = await self._answer(
+                "telemetry", dialect.MAV_CMD_SET_MESSAGE_INTERVAL, identifier, round(1e6 / rate_hz)
+            )
+            if ack.result == dialect.MAV_RESULT_UNSUPPORTED:
+                self._stream_as_of_old(position_hz)
+                return
+            self._check("telemetry", ack)
+
+    async def find_position(self, timeout_s: float) -> None:
+        """Wait until the autopilot knows where it is, by GPS."""
+        needed = self._dialect.EKF_POS_HORIZ_ABS
+
+        def knows(message: Message) -> bool:
+            return _is("EKF_STATUS_REPORT")(message) and bool(message.flags & needed)
+
+        await self._wait("position estimate", knows, timeout_s)
+
+    async def enter_guided(self, timeout_s: float) -> None:
+        """Switch to the mode in which it obeys."""
+        dialect = self._dialect
+        custom = dialect.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+
+        async def switch() -> Message:
+            ack = await self._answer("mode GUIDED", dialect.MAV_CMD_DO_SET_MODE, custom, COPTER_GUIDED)
+            if ack.result == dialect.MAV_RESULT_UNSUPPORTED:  # ArduCopter 3: by message, which has no answer.
+                self.link.send(dialect.MAVLink_set_mode_message(self.link.target[0], custom, COPTER_GUIDED))
+                return None
+            return ack
+
+        await self._insist("mode GUIDED", switch, timeout_s)
+        await self._confirm("mode GUIDED", lambda: self.is_guided)
+
+    async def arm(self, timeout_s: float) -> None:
+        """Start the motors."""
+        if self.is_armed:
+            return
+        command = self._dialect.MAV_CMD_COMPONENT_ARM_DISARM
+        await self._insist("arming", lambda: self._answer("arming", command, 1), timeout_s)
+        await self._confirm("arming", lambda: self.is_armed)
+
+    async def take_off(self, height_m: float, timeout_s: float) -> None:
+        """Rise to a height above home; returns when it is there, or at once if it flies already."""
+        if self.is_in_air:
+            return
+        command = self._dialect.MAV_CMD_NAV_TAKEOFF
+        self._check("take-off", await self._answer("take-off", command, 0, 0, 0, 0, 0, 0, height_m))
+
+        def risen(message: Message) -> bool:
+            return _is("GLOBAL_POSITION_INT")(message) and position_of(message)[2] > height_m - _ARRIVED_M
+
+        await self._fly("take-off", risen, timeout_s)
+
+    def go_to(self, latitude: float, longitude: float, height_m: float) -> None:
+        """Have it fly straight to a place; replaces the target or velocity that it had. Has no answer."""
+        latitude, longitude = off_null_island(latitude, longitude)
+        self.link.send(
+            self._dialect.MAVLink_set_position_target_global_int_message(
+                0,
+                *self.link.target,
+                self._dialect.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
+                _POSITION_ONLY,
+                round(latitude * 1e7),
+                round(longitude * 1e7),
+                height_m,
+                *([0] * 8),
+            )
+        )
+
+    async def arrive(self, latitude: float, longitude: float, height_m: float, timeout_s: float) -> None:
+        """Fly to a place; returns when it is within 1 m of it."""
+        place = (latitude, longitude, height_m)
+
+        def is_there(message: Message) -> bool:
+            return (
+                _is("GLOBAL_POSITION_INT")(message)
+                and squared_distance(geo_to_cartesian(place, position_of(message)), (0, 0, 0))
+                <= _ARRIVED_M**2
+            )
+
+        self.go_to(*place)
+        await self._fly(f"flight to ({latitude:.7f}, {longitude:.7f}, {height_m:g} m)", is_there, timeout_s)
+
+    def set_velocity(self, north_mps: float, east_mps: float, up_mps: float) -> None:
+        """Have it hold a velocity; it stops by itself 3 s of its own time after the last order. No answer."""
+        self.link.send(
+            self._dialect.MAVLink_set_position_target_local_ned_message(
+                0,
+                *self.link.target,
+                self._dialect.MAV_FRAME_LOCAL_NED,
+                _VELOCITY_ONLY,
+                *(0, 0, 0),
+                *(north_mps, east_mps, -up_mps),
+                *([0] * 5),
+            )
+        )
+
+    async def set_speed(self, speed_mps: float) -> None:
+        """Set the ground speed, > 0, of its flight to the present target; climbing has its own."""
+        step = f"speed {speed_mps:g} m/s"
+        command = self._dialect.MAV_CMD_DO_CHANGE_SPEED
+        self._check(step, await self._answer(step, command, _GROUND_SPEED, speed_mps, -1))
+
+    async def set_parameter(self, name: str, value: float) -> None:
+        """Set a parameter of the autopilot, which confirms it."""
+        dialect = self._dialect
+
+        def confirmed(message: Message) -> bool:
+            return (
+                _is("PARAM_VALUE")(message)
+                and bool(message.param_id == name)
+                and math.isclose(message.param_value, value, rel_tol=1e-6)
+            )
+
+        for _ in range(_TRIES):
+            self.link.send(
+                dialect.MAVLink_param_set_message(
+                    *self.link.target, name.encode(), value, dialect.MAV_PARAM_TYPE_REAL32
+                )
+            )
+            if await self.link.wait_for(confirmed, _ANSWER_S) is not None:
+                return
+        raise self._failure(f"parameter {name} = {value:g}", f"not confirmed after {_TRIES} tries")
+
+    def say_hello(self) -> None:
+        """Send the HEARTBEAT of a ground station, without which a real vehicle takes its link for lost."""
+        dialect = self._dialect
+        self.link.send(
+            dialect.MAVLink_heartbeat_message(
+                dialect.MAV_TYPE_GCS, dialect.MAV_AUTOPILOT_INVALID, 0, 0, dialect.MAV_STATE_ACTIVE, 3
+            )
+        )
+
+    def check_flight(self, step: str = "flight") -> None:
+        """Raise SitlError if by its last HEARTBEAT it does not obey: disarmed, or in another mode."""
+        if not self.is_armed:
+            raise self._failure(step, "its motors were stopped")
+        if not self.is_guided:
+            mode = self.link.latest["HEARTBEAT"].custom_mode
+            raise self._failure(step, f"it left mode GUIDED for mode number {mode}")
+
+    def _stream_as_of_old(self, position_hz: float) -> None:
+        """Ask by REQUEST_DATA_STREAM, which has no answer, for what ArduCopter 3 has no command for."""
+        dialect = self._dialect
+        for stream, rate_hz in (
+            (dialect.MAV_DATA_STREAM_POSITION, position_hz),
+            (dialect.MAV_DATA_STREAM_EXTENDED_STATUS, 1.0),
+            (dialect.MAV_DATA_STREAM_EXTRA3, 2.0),
+        ):
+            self.link.send(
+                dialect.MAVLink_request_data_stream_message(
+                    *self.link.target, stream, max(1, round(rate_hz)), 1
+                )
+            )
+
+    async def _answer(self, step: str, command: int, *parameters: float) -> Message:
+        """Send a command until it is answered; return the COMMAND_ACK."""
+        dialect = self._dialect
+        values = [*parameters, *([0.0] * (7 - len(parameters)))]
+
+        def answers(message: Message) -> bool:
+            return (
+                _is("COMMAND_ACK")(message)
+                and bool(message.command == command)
+                and bool(message.result != dialect.MAV_RESULT_IN_PROGRESS)
+            )
+
+        async with self._commands:  # An answer names the command only, so one is under way at a time.
+            for attempt in range(_TRIES):
+                self.link.send(
+                    dialect.MAVLink_command_long_message(*self.link.target, command, attempt, *values)
+                )
+                ack = await self.link.wait_for(answers, _ANSWER_S)
+                if ack is not None:
+                    return ack
+        raise self._failure(step, f"no answer after {_TRIES} tries")
+
+    async def _insist(
+        self, step: str, attempt: Callable[[], Awaitable[Message | None]], timeout_s: float
+    ) -> None:
+        """Repeat what may be refused for now, as arming before the checks are over."""
+        loop = asyncio.get_running_loop()
+        deadline = loop.time() + timeout_s
+        while True:
+            ack = await attempt()
+            if ack is None or ack.result == self._dialect.MAV_RESULT_ACCEPTED:
+                return
+            if loop.time() + _PAUSE_S > deadline:
+                self._check(step, ack)
+            await asyncio.sleep(_PAUSE_S)
+
+    async def _confirm(self, step: str, holds: Callable[[], bool]) -> None:
+        if not holds():
+            await self._wait(step, lambda message: holds(), _CONFIRM_S)
+
+    async def _wait(self, step: str, accept: Callable[[Message], bool], timeout_s: float) -> None:
+        if await self.link.wait_for(accept, timeout_s) is None:
+            raise self._failure(step, f"not done after {timeout_s:g} s")
+
+    async def _fly(self, step: str, accept: Callable[[Message], bool], timeout_s: float) -> None:
+        def news(message: Message) -> bool:
+            return accept(message) or not (self.is_armed and self.is_guided)
+
+        await self._wait(step, news, timeout_s)
+        self.check_flight(step)
+
+    def _check(self, step: str, ack: Message) -> None:
+        if ack.result != self._dialect.MAV_RESULT_ACCEPTED:
+            results: dict[int, Any] = self._dialect.enums["MAV_RESULT"]
+            name = results[ack.result].name if ack.result in results else f"result {ack.result}"
+            raise self._failure(step, f"refused with {name}")
+
+    def _failure(self, step: str, why: str) -> SitlError:
+        texts = list(dict.fromkeys(self.link.texts))[-3:]
+        said = "; ".join(f'"{text}"' for text in texts) if texts else "nothing"
+        return SitlError(f"{self.name}: {step}: {why}; the autopilot said: {said}")
+
+
+def position_of(message: Message) -> tuple[float, float, float]:
+    """Return (latitude deg, longitude deg, height above home m) of a GLOBAL_POSITION_INT."""
+    return (message.lat / 1e7, message.lon / 1e7, message.relative_alt / 1000)
+
+
+def _is(kind: str) -> Callable[[Message], bool]:
+    return lambda message: bool(message.get_type() == kind)

@@ -1,0 +1,68 @@
+"""What docs/guides/ardupilot.md shows is what happens."""
+
+import importlib
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gradysim.simulator.handler.ardupilot_mobility import ArdupilotMobilityException
+
+PAGE = "docs/guides/ardupilot.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+
+
+@pytest.fixture
+def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder with the guide's script, as a reader would save it; it is the working directory."""
+    (tmp_path / "patrol.py").write_text("\n\n".join(code_blocks(PAGE, "python")))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def patrol(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """The guide's script, imported."""
+    monkeypatch.syspath_prepend(folder)
+    yield importlib.import_module("patrol")
+    sys.modules.pop("patrol", None)
+
+
+def test_the_script_flies(
+    patrol: Any, toy_copter: Callable[..., Path], monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    program = toy_copter()
+    monkeypatch.setenv("GRADYSIM_ARDUPILOT", str(program))
+    configuration = patrol.ArdupilotMobilityConfiguration
+    monkeypatch.setattr(
+        patrol,
+        "ArdupilotMobilityConfiguration",
+        lambda **settings: configuration(autopilot_user=None, simulation_startup_speedup=50, **settings),
+    )
+    assert patrol.patrol(14, real_time=10) == pytest.approx((40, 0, 15), abs=1.5)
+    assert (folder / "ardupilot_mobility_report.csv").exists()
+
+
+def test_a_failure_is_told_in_the_words_of_the_guide(
+    patrol: Any, toy_copter: Callable[..., Path], code_blocks: CodeBlocks
+) -> None:
+    program = toy_copter({1: {"refuse_arming": True}})
+    configuration = patrol.ArdupilotMobilityConfiguration(
+        ardupilot_path=program, autopilot_user=None, uav_api_startup_timeout=2
+    )
+    builder = patrol.SimulationBuilder(patrol.SimulationConfiguration(real_time=True))
+    builder.add_handler(patrol.TimerHandler())
+    builder.add_handler(patrol.ArdupilotMobilityHandler(configuration))
+    for x in (0, 10):
+        builder.add_node(patrol.Patrol, (x, 0, 10))
+    with pytest.raises(ArdupilotMobilityException) as caught:
+        builder.build().start_simulation()
+    (words,) = code_blocks(PAGE, "text")
+    assert f"{caught.value}\n" == words
+
+
+def test_its_types_hold(folder: Path, type_errors: Callable[[Path], str]) -> None:
+    assert type_errors(folder / "patrol.py") == ""
