@@ -27,6 +27,12 @@ void bind_config(py::module_& module) {
         .def_readwrite("l02_db", &MediumConfig::l02_db)
         .def_readwrite("alpha1", &MediumConfig::alpha1)
         .def_readwrite("alpha2", &MediumConfig::alpha2)
+        .def_readwrite("epsilon_r", &MediumConfig::epsilon_r)
+        .def_readwrite("polarization", &MediumConfig::polarization)
+        .def_readwrite("sigma_db", &MediumConfig::sigma_db)
+        .def_readwrite("k_db", &MediumConfig::k_db)
+        .def_readwrite("shape_factor", &MediumConfig::shape_factor)
+        .def_readwrite("coherence_time_s", &MediumConfig::coherence_time_s)
         .def_readwrite("background_noise_w", &MediumConfig::background_noise_w)
         .def_readwrite("propagation", &MediumConfig::propagation)
         .def("validate", &MediumConfig::validate);

@@ -11,6 +11,7 @@ PYBIND11_MODULE(_netsim, module) {
     py::register_exception<netsim::ConfigError>(module, "ConfigError", PyExc_ValueError);
     py::register_exception<netsim::SimulationError>(module, "SimulationError", PyExc_RuntimeError);
     proxy_protocol::bind_config(module);
+    proxy_protocol::bind_propagation(module);
     proxy_protocol::bind_node(module);
     proxy_protocol::bind_network(module);
 }

@@ -21,10 +21,40 @@ class MediumConfig:
     l02_db: float
     alpha1: float
     alpha2: float
+    epsilon_r: float
+    polarization: str
+    sigma_db: float
+    k_db: float
+    shape_factor: float
+    coherence_time_s: float
     background_noise_w: float
     propagation: str
     def __init__(self, typename: str = ...) -> None: ...
     def validate(self) -> None: ...
+
+class Propagation:
+    """What is left of a transmission on its way: path loss and fading, as the engine calculates them."""
+
+    def __init__(self, config: MediumConfig, seed: int) -> None:
+        """Of a run with that seed. ConfigError: a value out of range, or a medium without a path loss."""
+    def gain(
+        self,
+        from_position: tuple[float, float, float],
+        to_position: tuple[float, float, float],
+        carrier_hz: float,
+        from_node: int = ...,
+        to_node: int = ...,
+        time: float = ...,
+        transmission: int = ...,
+    ) -> float:
+        """Received over transmitted power, for a transmission that starts at `time` (seconds).
+
+        `transmission`, its number, matters only to fading with a coherence time of 0.
+        """
+    def reach_m(self, gain: float, carrier_hz: float) -> float:
+        """The distance beyond which no gain reaches `gain`, however lucky the fading."""
+    def most_gain_beyond(self, distance_m: float, carrier_hz: float) -> float:
+        """What no gain exceeds at that distance and beyond."""
 
 class RadioConfig:
     carrier_hz: float

@@ -20,7 +20,11 @@ inline constexpr std::string_view unit_disk_medium = "UnitDiskRadioMedium";
 
 inline constexpr std::array medium_type_names{ieee80211_scalar_medium, ieee802154_scalar_medium,
                                               unit_disk_medium};
-inline constexpr std::array<std::string_view, 2> path_loss_names{"FreeSpacePathLoss", "BreakpointPathLoss"};
+// What each of them is: medium/path_loss.hpp, two_ray.hpp, fading.hpp.
+inline constexpr std::array<std::string_view, 8> path_loss_names{
+    "FreeSpacePathLoss",  "BreakpointPathLoss", "TwoRayGroundReflection", "TwoRayInterference",
+    "LogNormalShadowing", "RayleighFading",     "RicianFading",           "NakagamiFading"};
+inline constexpr std::array<std::string_view, 2> polarization_names{"horizontal", "vertical"};
 inline constexpr std::array<std::string_view, 3> obstacle_loss_names{"", "IdealObstacleLoss",
                                                                      "DielectricObstacleLoss"};
 inline constexpr std::array<std::string_view, 1> propagation_names{"ConstantSpeedPropagation"};
@@ -32,12 +36,21 @@ struct MediumConfig {
     std::string type_name;  // `typename` in Python; one of medium_type_names
 
     std::string path_loss = "FreeSpacePathLoss";  // one of path_loss_names; 802.15.4: BreakpointPathLoss
-    double alpha = 2;                             // free space: exponent, > 0
+    double alpha = 2;                             // free space, and what is built on it: exponent, > 0
     double breakpoint_distance_m = 8;             // breakpoint: > 0
     double l01_db = 40.2;                         // breakpoint: loss at 1 m, any
     double l02_db = 58.5;                         // breakpoint: loss at the breakpoint, any
     double alpha1 = 2;                            // breakpoint: exponent below it, > 0
     double alpha2 = 3.3;                          // breakpoint: exponent above it, > 0
+    double epsilon_r = 1.02;                      // two-ray interference: permittivity of the ground, ≥ 1
+    std::string polarization = "horizontal";      // two-ray interference: one of polarization_names
+    double sigma_db = 1;                          // shadowing: standard deviation, 0 … 40
+    double k_db = 8;                              // Rician: line of sight over scattered power, -100 … 100
+    double shape_factor = 1;                      // Nakagami: m, 0.5 … 1000
+
+    // Shadowing and fading: time from one independent state of a link to the next; 0: each transmission has one of its
+    // own, as in INET; -1: that of the model; else 1e-6 … 1e6 s.
+    double coherence_time_s = -1;
 
     double background_noise_w = 1e-14;  // -110 dBm; ≥ 0; 802.15.4: -96.616 dBm; in every band, not scaled
 
@@ -47,6 +60,11 @@ struct MediumConfig {
     bool enable_dielectric_loss = true;  // dielectric: by the length inside
     bool enable_reflection_loss = true;  // dielectric: by the faces
     std::vector<ObstacleConfig> obstacles;
+
+    // In s, the model's for -1: 5 ms for fading, what Clarke's model gives for 10 m/s at 2.4 GHz (0.423 λ / v; Rappaport,
+    // "Wireless Communications", 2nd ed. 2002, 5.4.3); 1 s for shadowing, 10 m at that speed (M. Gudmundson,
+    // "Correlation model for shadow fading in mobile radio systems", Electronics Letters 27, 1991: 8 m in a city).
+    double coherence_time() const;
 
     // Throws ConfigError for the first field out of its range: "medium.alpha = -1: expected …".
     void validate() const;

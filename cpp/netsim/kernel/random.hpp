@@ -13,7 +13,7 @@
 namespace netsim {
 
 // What a stream is drawn for. The numbers are part of every result: never change one, only add.
-enum class Purpose : std::uint32_t { backoff = 1, reception = 2, rate_control = 6 };
+enum class Purpose : std::uint32_t { backoff = 1, reception = 2, fading = 4, rate_control = 6 };
 
 // Philox4x32 with 10 rounds: 128 bits of counter and 64 bits of key to 128 random bits.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,

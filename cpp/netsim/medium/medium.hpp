@@ -16,7 +16,7 @@
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/neighbours.hpp"
 #include "netsim/medium/odometer.hpp"
-#include "netsim/medium/path_loss.hpp"
+#include "netsim/medium/propagation.hpp"
 #include "netsim/medium/transmission.hpp"
 #include "netsim/mobility/trajectory.hpp"
 #include "netsim/trace/frame_fates.hpp"
@@ -48,8 +48,9 @@ enum class Hearing { what_matters, everything };
 
 class Medium {
 public:
+    // `seed` is that of the run, for fading.
     Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
-           Hearing hearing = Hearing::what_matters);
+           Hearing hearing = Hearing::what_matters, std::uint64_t seed = 0);
 
     // Node ids are given in the order of attaching: 0, 1, …
     NodeId attach(const Receiver& receiver);
@@ -108,7 +109,7 @@ private:
     };
 
     OnAir& put_on_air(Transmission transmission);
-    Arrival arrival_at(const Transmission& transmission, const Receiver& receiver) const;
+    Arrival arrival_at(const Transmission& transmission, NodeId node) const;
     void tell_everybody(OnAir& entry);
     void tell_those_it_matters_to(OnAir& entry);
     // Beyond that, a transmission without others beside it cannot matter to the audience.
@@ -119,6 +120,7 @@ private:
     void schedule_next_end(OnAir& entry);
     void tell(NodeId node, const OnAir& on_air, const Arrival& arrival);
     void begin(NodeId node, const OnAir& on_air, const Arrival& arrival);
+    // Sums of energy: medium_energy.cpp.
     // Collects in `beside_` the others that some receiver may get at the same time as `newest`.
     void find_those_beside(const OnAir& newest);
     void tell_where_energy_adds_up(OnAir& newest, const Audience& audience);
@@ -136,7 +138,7 @@ private:
     Simulator& simulator_;
     FrameFates& fates_;
     Fingerprint& fingerprint_;
-    PathLoss path_loss_;
+    Propagation propagation_;
     double background_noise_w_;
     Hearing hearing_;
     std::vector<Attached> attached_;

@@ -1,14 +1,16 @@
 // Path loss: the share of a transmitted power that is left after a distance, a number from 0 to 1.
 //
-// Both models are power laws, gain = coefficient / distance^exponent, capped at 1; the breakpoint model has
-// one law on each side of a distance. So one plain final class serves both, without a virtual call per
+// These models are power laws, gain = coefficient / distance^exponent, capped at 1; the breakpoint model has
+// one law on each side of a distance. So one plain final class serves all, without a virtual call per
 // receiver.
 //   FreeSpacePathLoss: gain = λ² / (16 π² d^α), with d the distance and λ = c / carrier the wavelength, in m.
 //     H. T. Friis, "A Note on a Simple Transmission Formula", 1946, has α = 2.
 //   BreakpointPathLoss: loss in dB = l01 + 10 α1 log10(d / 1 m) for d below the breakpoint, and
 //     l02 + 10 α2 log10(d / breakpoint) at and above it; the same for all carriers. The defaults (8 m, 40.2
 //     dB, 2, 58.5 dB, 3.3) are those with which IEEE 802.15.4-2006, annex E, studies coexistence.
-// Used by the medium for every pair of radios. Adding a model that is no power law: give the class a variant.
+//   The fading models: that of free space.
+//   The two-ray models are no power laws (two_ray.hpp): theirs here is one that is nowhere below them.
+// Used by Propagation for every pair of radios.
 #pragma once
 
 #include <algorithm>

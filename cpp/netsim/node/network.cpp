@@ -23,7 +23,7 @@ MediumConfig validated(MediumConfig config) {
 Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing)
     : seed_(seed),
       perfect_channel_(validated(medium).type_name == "UnitDiskRadioMedium"),
-      medium_(simulator_, medium, frame_fates_, fingerprint_, hearing) {}
+      medium_(simulator_, medium, frame_fates_, fingerprint_, hearing, seed) {}
 
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();

@@ -58,13 +58,38 @@ TEST(MediumConfig, ValidateNamesTheField) {
     EXPECT_EQ(text_with(&MediumConfig::alpha2, 0.0), "medium.alpha2 = 0: expected more than 0");
     EXPECT_EQ(text_with(&MediumConfig::background_noise_w, -1e-14),
               "medium.background_noise_w = -1e-14 W: expected at least 0 W");
+    EXPECT_EQ(text_with<std::string>(&MediumConfig::path_loss, "TwoRay"),
+              "medium.path_loss = \"TwoRay\": expected one of FreeSpacePathLoss, BreakpointPathLoss, "
+              "TwoRayGroundReflection, TwoRayInterference, LogNormalShadowing, RayleighFading, RicianFading, "
+              "NakagamiFading; did you mean RicianFading?");
+    EXPECT_EQ(text_with(&MediumConfig::epsilon_r, 0.9), "medium.epsilon_r = 0.9: expected at least 1");
     EXPECT_EQ(
-        text_with<std::string>(&MediumConfig::path_loss, "TwoRay"),
-        "medium.path_loss = \"TwoRay\": expected one of FreeSpacePathLoss, BreakpointPathLoss; did you mean "
-        "FreeSpacePathLoss?");
+        text_with<std::string>(&MediumConfig::polarization, "circular"),
+        "medium.polarization = \"circular\": expected one of horizontal, vertical; did you mean vertical?");
+    EXPECT_EQ(text_with(&MediumConfig::sigma_db, -1.0),
+              "medium.sigma_db = -1 dB: expected from 0 dB to 40 dB");
+    EXPECT_EQ(text_with(&MediumConfig::k_db, 101.0), "medium.k_db = 101 dB: expected from -100 dB to 100 dB");
+    EXPECT_EQ(text_with(&MediumConfig::shape_factor, 0.4),
+              "medium.shape_factor = 0.4: expected from 0.5 to 1000");
+    EXPECT_EQ(text_with(&MediumConfig::coherence_time_s, 1e-9),
+              "medium.coherence_time_s = 1e-09 s: expected from 1e-06 s to 1000000 s, 0 s (new for each "
+              "transmission) or -1 s (that of the model)");
     EXPECT_EQ(text_with<std::string>(&MediumConfig::propagation, "Instant"),
               "medium.propagation = \"Instant\": expected ConstantSpeedPropagation");
     EXPECT_NE(text_with<std::string>(&MediumConfig::type_name, "Air"), "no error");
+}
+
+TEST(MediumConfig, TheCoherenceTimeIsThatOfTheModelUnlessItIsSet) {
+    MediumConfig config;
+    config.path_loss = "RayleighFading";
+    EXPECT_EQ(config.coherence_time(), 0.005);
+    config.path_loss = "LogNormalShadowing";
+    EXPECT_EQ(config.coherence_time(), 1);
+    for (const double set_s : {0.0, 1e-6, 0.25}) {
+        config.coherence_time_s = set_s;
+        EXPECT_NO_THROW(config.validate());
+        EXPECT_EQ(config.coherence_time(), set_s);
+    }
 }
 
 TEST(MediumConfig, NoNoiseIsAllowed) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/far_flung_scenario.hpp"
+#include "support/random_path_loss.hpp"
 #include "support/random_scenario.hpp"
 
 namespace netsim {
@@ -87,12 +88,34 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
     }
 }
 
+TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
+    constexpr std::uint64_t scenarios = 200;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(
+            test::with_random_path_loss(test::make_random_scenario(GetParam() * scenarios + i)));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
     constexpr std::uint64_t scenarios = 20;
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(test::make_far_flung_scenario(GetParam() * scenarios + i));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
+    constexpr std::uint64_t scenarios = 10;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(
+            test::with_random_path_loss(test::make_far_flung_scenario(GetParam() * scenarios + i)));
         if (HasFatalFailure()) {
             return;
         }

@@ -142,7 +142,7 @@ class Air {
 public:
     explicit Air(const MediumConfig& config = MediumConfig(), Hearing hearing = Hearing::what_matters,
                  std::uint64_t seed = 1)
-        : medium(simulator, config, frame_fates, fingerprint, hearing), seed_(seed) {}
+        : medium(simulator, config, frame_fates, fingerprint, hearing, seed), seed_(seed) {}
 
     BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
         frame_fates.add_node();

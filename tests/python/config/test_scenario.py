@@ -92,6 +92,13 @@ def test_values_may_depend_on_the_run(folder: Any) -> None:
         ("pathLoss.l02", "58.5dB", "l02_db", 58.5),
         ("pathLoss.alpha1", "2", "alpha1", 2.0),
         ("pathLoss.alpha2", "3.3", "alpha2", 3.3),
+        ("pathLoss.epsilon_r", "4", "epsilon_r", 4.0),
+        ("pathLoss.polarization", '"vertical"', "polarization", "vertical"),
+        ("pathLoss.sigma", "2.5", "sigma_db", 2.5),
+        ("pathLoss.k", "6dB", "k_db", 6.0),
+        ("pathLoss.shapeFactor", "0.5", "shape_factor", 0.5),
+        ("pathLoss.coherenceTime", "20ms", "coherence_time_s", 0.02),
+        ("pathLoss.coherenceTime", "-1s", "coherence_time_s", -1.0),
         (
             "propagation.typename",
             '"ConstantSpeedPropagation"',

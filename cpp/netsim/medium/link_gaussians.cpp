@@ -1,0 +1,53 @@
+#include "netsim/medium/link_gaussians.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "netsim/kernel/random.hpp"
+
+namespace netsim {
+
+GaussianPair LinkGaussians::at(NodeId a, NodeId b, SimTime time, std::uint64_t transmission) const {
+    if (a > b) {
+        std::swap(a, b);
+    }
+    if (coherence_time_ == SimTime{}) {
+        return draw(a, b, transmission);
+    }
+    const auto index = static_cast<std::uint64_t>(time.ps() / coherence_time_.ps());
+    const std::int64_t since_ps = time.ps() % coherence_time_.ps();
+    const GaussianPair before = draw(a, b, index);
+    if (since_ps == 0) {
+        return before;
+    }
+    const GaussianPair after = draw(a, b, index + 1);
+    const double angle =
+        std::numbers::pi / 2 * static_cast<double>(since_ps) / static_cast<double>(coherence_time_.ps());
+    const double weight_before = std::cos(angle);
+    const double weight_after = std::sin(angle);
+    return {weight_before * before.first + weight_after * after.first,
+            weight_before * before.second + weight_after * after.second};
+}
+
+// Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical
+// Statistics 29, 1958.
+GaussianPair LinkGaussians::draw(NodeId low, NodeId high, std::uint64_t index) const {
+    // The name of a stream, kernel/random.hpp, has room for one node; the index of the block makes way for the
+    // other. Its upper part goes above the purpose, of which 16 bits are more than enough.
+    const std::uint32_t purpose =
+        static_cast<std::uint32_t>(Purpose::fading) | (static_cast<std::uint32_t>(index >> 32) << 16);
+    const auto words =
+        philox4x32({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(low),
+                    static_cast<std::uint32_t>(high), purpose},
+                   {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+    const auto uniform = [](std::uint32_t high_word, std::uint32_t low_word) {  // in [0, 1), 53 bits
+        return static_cast<double>((static_cast<std::uint64_t>(high_word >> 5) << 26) | (low_word >> 6)) *
+               0x1p-53;
+    };
+    const double radius = std::sqrt(-2 * std::log(1 - uniform(words[0], words[1])));
+    const double angle = 2 * std::numbers::pi * uniform(words[2], words[3]);
+    return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+}  // namespace netsim

@@ -1,0 +1,21 @@
+#include "netsim/medium/propagation.hpp"
+
+namespace netsim {
+
+Propagation::Propagation(const MediumConfig& config, std::uint64_t seed)
+    : path_loss_(make_path_loss(config)),
+      two_ray_(config),
+      fading_(config, seed),
+      is_power_law_(two_ray_.is_none() && fading_.is_none()),
+      most_factor_(fading_.most()) {}
+
+double Propagation::other_gain(const Transmission& sent, NodeId receiver, const Position& place,
+                               double distance_m) const {
+    const double path_gain = two_ray_.is_none()
+                                 ? path_loss_.gain(distance_m, sent.band.carrier_hz)
+                                 : two_ray_.gain(sent.origin, place, distance_m, sent.band.carrier_hz);
+    // Every factor of the gain stands here, and its largest value in most_factor_.
+    return path_gain * fading_.gain(sent.sender, receiver, sent.start, sent.id);
+}
+
+}  // namespace netsim

@@ -1,0 +1,69 @@
+// What is left of a transmission on its way from one end of a link to the other: power and time.
+//
+// The gain is the product of all that changes the power: path loss, with or without a ground, and fading. The medium
+// asks for it for every pair of radios, and it has to search the places around a sender for those whom it reaches: for
+// that there are bounds, which no gain ever exceeds.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/config/medium_config.hpp"
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/medium/fading.hpp"
+#include "netsim/medium/path_loss.hpp"
+#include "netsim/medium/transmission.hpp"
+#include "netsim/medium/two_ray.hpp"
+#include "netsim/units.hpp"
+
+namespace netsim {
+
+class Propagation {
+public:
+    // `seed` is that of the run. Throws ConfigError for a path loss of an unknown name.
+    Propagation(const MediumConfig& config, std::uint64_t seed);
+
+    // Received over transmitted power for node `receiver`, at `place` when the transmission starts, `distance_m` from
+    // its origin. A function of its arguments: no order, no memory. Reciprocal, if start and id are the same.
+    double gain(const Transmission& sent, NodeId receiver, const Position& place, double distance_m) const {
+        if (is_power_law_) {
+            return path_loss_.gain(distance_m, sent.band.carrier_hz);
+        }
+        return other_gain(sent, receiver, place, distance_m);
+    }
+
+    // The distance in m beyond which no gain reaches `gain`, up to rounding: a search radius needs a margin. 0 if not
+    // even the gain at distance 0 does, infinite if `gain` is 0.
+    double reach_m(double gain, double carrier_hz) const {
+        return path_loss_.reach_m(gain / most_factor_, carrier_hz);
+    }
+
+    // No gain is larger at `distance_m` and beyond, up to rounding.
+    double most_gain_beyond(double distance_m, double carrier_hz) const {
+        return most_factor_ * path_loss_.most_gain_beyond(distance_m, carrier_hz);
+    }
+
+private:
+    double other_gain(const Transmission& sent, NodeId receiver, const Position& place,
+                      double distance_m) const;
+
+    PathLoss path_loss_;  // of the two-ray models: their bound
+    TwoRay two_ray_;
+    Fading fading_;
+    bool is_power_law_;   // and nothing else: most networks
+    double most_factor_;  // the largest possible gain over that of the path loss
+};
+
+// The time that light takes.
+inline SimTime propagation_delay(double distance_m) {
+    return SimTime::from_seconds(distance_m / speed_of_light_mps);
+}
+
+// At least that, for any number; years are as good as for ever.
+inline SimTime most_propagation_delay(double distance_m) {
+    constexpr double long_s = 4e6;
+    const double delay_s = distance_m / speed_of_light_mps;
+    return delay_s < long_s ? SimTime::from_seconds(delay_s) + SimTime::from_ns(1)
+                            : SimTime::from_seconds(long_s);
+}
+
+}  // namespace netsim

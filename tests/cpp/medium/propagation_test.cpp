@@ -1,0 +1,115 @@
+#include "netsim/medium/propagation.hpp"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "netsim/error.hpp"
+#include "netsim/kernel/random.hpp"
+
+namespace netsim {
+namespace {
+
+Transmission sent_from(const Position& origin, NodeId sender = 0, SimTime start = SimTime(),
+                       std::uint64_t id = 0) {
+    Transmission sent;
+    sent.id = id;
+    sent.sender = sender;
+    sent.start = start;
+    sent.band = {2.412e9, 22e6};
+    sent.origin = origin;
+    return sent;
+}
+
+// Each path loss with drawn parameters, over drawn positions, near and far, up to a scene's diagonal.
+class EveryPathLoss : public testing::TestWithParam<std::string_view> {
+protected:
+    EveryPathLoss() { config.path_loss = GetParam(); }
+
+    double between(double low, double high) { return low + draws.uniform() * (high - low); }
+    double log_between(double low, double high) { return low * std::pow(high / low, draws.uniform()); }
+    Position place() {
+        const double far_m = log_between(1e-3, 1e7);
+        return Position{between(-1, 1), between(-1, 1), 0} * far_m +
+               Position{0, 0, between(0, 1) * log_between(1e-2, 1e3)};
+    }
+    void draw_parameters() {
+        config.alpha = between(1.5, 4);
+        config.epsilon_r = between(1, 20);
+        config.polarization = polarization_names[draws.uniform_int(2)];
+        config.sigma_db = between(0, 10);
+        config.k_db = between(-20, 30);
+        config.shape_factor = log_between(0.5, 50);
+    }
+
+    MediumConfig config;
+    RandomStream draws{1, 0, Purpose{1005}};
+};
+
+TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
+    for (int i = 0; i < 20'000; ++i) {
+        if (i % 100 == 0) {
+            draw_parameters();
+        }
+        const Propagation propagation(config, 1);
+        const Position a = place();
+        const Position b = place();
+        const double distance_m = distance(a, b);
+        const double gain = propagation.gain(sent_from(a, 0, SimTime::from_us(i)), 1, b, distance_m);
+        ASSERT_GE(gain, 0);
+        ASSERT_LE(gain, propagation.most_gain_beyond(distance_m, 2.412e9) * (1 + 1e-12));
+        ASSERT_LE(gain, propagation.most_gain_beyond(between(0, distance_m), 2.412e9) * (1 + 1e-12));
+        if (gain > 0) {
+            ASSERT_GE(propagation.reach_m(gain, 2.412e9) * (1 + 1e-12), distance_m) << gain;
+        }
+    }
+}
+
+TEST_P(EveryPathLoss, IsReciprocal) {
+    const Propagation propagation(config, 1);
+    for (int i = 0; i < 1000; ++i) {
+        const Position a = place();
+        const Position b = place();
+        const SimTime time = SimTime::from_us(i);
+        EXPECT_EQ(propagation.gain(sent_from(a, 4, time), 9, b, distance(a, b)),
+                  propagation.gain(sent_from(b, 9, time), 4, a, distance(a, b)));
+    }
+}
+
+TEST_P(EveryPathLoss, NothingReachesForEverButNothing) {
+    const Propagation propagation(config, 1);
+    EXPECT_EQ(propagation.reach_m(0, 2.412e9), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(propagation.reach_m(1e9, 2.412e9), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, EveryPathLoss, testing::ValuesIn(path_loss_names),
+                         [](const auto& name) { return std::string(name.param); });
+
+TEST(Propagation, FadingIsAFactorOnFreeSpace) {
+    MediumConfig config;
+    config.path_loss = "RayleighFading";
+    const Propagation faded(config, 5);
+    const Propagation free(MediumConfig(), 5);
+    const Transmission sent = sent_from({0, 0, 10}, 2, SimTime::from_us(777));
+    const double factor = faded.gain(sent, 6, {50, 0, 10}, 50) / free.gain(sent, 6, {50, 0, 10}, 50);
+    EXPECT_NEAR(factor, Fading(config, 5).gain(2, 6, SimTime::from_us(777), 0), 1e-12);
+    EXPECT_NEAR(faded.gain(sent, 6, {500, 0, 10}, 500) / free.gain(sent, 6, {500, 0, 10}, 500), factor,
+                1e-12);
+}
+
+TEST(Propagation, DelayIsThatOfLight) {
+    EXPECT_EQ(propagation_delay(299.792458), SimTime::from_us(1));
+    EXPECT_GE(most_propagation_delay(299.792458), SimTime::from_us(1));
+    EXPECT_GT(most_propagation_delay(std::numeric_limits<double>::infinity()), SimTime::from_seconds(1e6));
+}
+
+TEST(Propagation, UnknownPathLossIsAnError) {
+    MediumConfig config;
+    config.path_loss = "FreePathLoss";
+    EXPECT_THROW(Propagation(config, 1), ConfigError);
+}
+
+}  // namespace
+}  // namespace netsim
