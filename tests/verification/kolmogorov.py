@@ -24,4 +24,4 @@ def ks_p(distance: float, count: int) -> float:
     scaled = distance * (sqrt(count) + 0.12 + 0.11 / sqrt(count))
     if scaled < 0.3:
         return 1.0
-    return min(1.0, 2 * sum((-1) ** (k - 1) * exp(-2 * (k * scaled) ** 2) for k in range(1, 30)))
+    return min(1.0, 2 * sum((1 if k % 2 else -1) * exp(-2 * (k * scaled) ** 2) for k in range(1, 30)))

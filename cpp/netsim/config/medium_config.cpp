@@ -36,8 +36,9 @@ void MediumConfig::validate() const {
     check_between("medium.sigma_db", sigma_db, 0, 40, "dB");
     check_between("medium.k_db", k_db, -100, 100, "dB");
     check_between("medium.shape_factor", shape_factor, 0.5, 1000, "");
-    if (coherence_time_s != -1 && coherence_time_s != 0 &&
-        !(coherence_time_s >= 1e-6 && coherence_time_s <= 1e6)) {
+    const bool is_special = coherence_time_s == -1 || coherence_time_s == 0;
+    const bool is_time = coherence_time_s >= 1e-6 && coherence_time_s <= 1e6;  // NaN is not
+    if (!is_special && !is_time) {
         throw ConfigError("medium.coherence_time_s = " + text_of(coherence_time_s) +
                           " s: expected from 1e-06 s to 1000000 s, 0 s (new for each transmission) or -1 s "
                           "(that of the model)");

@@ -27,12 +27,13 @@ double series(double shape, double x) {
 // Source: Abramowitz and Stegun 6.5.31, in its even part, 1/(x+1−a − 1(1−a)/(x+3−a − 2(2−a)/(x+5−a − …))); evaluated
 // as in W. J. Lentz, "Generating Bessel functions in Mie scattering calculations", Applied Optics 15, 1976.
 double continued_fraction(double shape, double x) {
+    constexpr int most_terms = 100'000;
     double denominator = x + 1 - shape;
     double upper = std::numeric_limits<double>::max();  // ratio of successive numerators
     double lower = 1 / denominator;                     // and of successive denominators
     double value = lower;
     double factor = 0;
-    for (double n = 1; std::abs(factor - 1) > precision && n < 1e5; ++n) {
+    for (int n = 1; std::abs(factor - 1) > precision && n < most_terms; ++n) {
         const double numerator = n * (shape - n);
         denominator += 2;
         lower = 1 / (numerator * lower + denominator);
