@@ -1,4 +1,4 @@
-"""What tests of several folders use: scenarios made of a few lines, and a vehicle that speaks MAVLink."""
+"""What tests of several folders use: scenarios of a few lines, a wall clock, a vehicle that speaks MAVLink."""
 
 import json
 import stat
@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.simulator import real_time
 
 PROTOCOL = """
 import random
@@ -75,3 +76,28 @@ def toy_copter(tmp_path: Path) -> Callable[..., Path]:
         return program
 
     return with_wrongs
+
+
+class WallClock:
+    """Stands for the module `time`: it goes on only while somebody sleeps."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+        self.sleeps: list[float] = []
+
+    def monotonic(self) -> float:
+        """Return seconds."""
+        return self.now
+
+    def sleep(self, duration_s: float) -> None:
+        """Let them go by."""
+        self.sleeps.append(duration_s)
+        self.now += duration_s
+
+
+@pytest.fixture
+def wall_clock(monkeypatch: pytest.MonkeyPatch) -> WallClock:
+    """The clock that simulations in real time keep to."""
+    clock = WallClock()
+    monkeypatch.setattr(real_time, "time", clock)
+    return clock

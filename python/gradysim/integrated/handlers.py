@@ -6,7 +6,7 @@ order as there.
 """
 
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.encapsulator.netsim import NetsimEncapsulator
@@ -60,26 +60,26 @@ class EngineHandlers:
             self._live.append(handler)
             handler.initialize()
 
-    def advance(self, limit_s: float) -> Callable[[int], bool]:
-        """Return what runs the network up to `limit_s`, for `run_in_slices`.
+    @property
+    def held_up_s(self) -> float:
+        """Wall seconds for which the handlers held the run up on purpose."""
+        return sum(getattr(handler, "held_up_s", 0.0) for handler in self.by_label.values())
+
+    def run_until(self, limit_s: float, max_events: int) -> bool:
+        """Run at most so many events up to `limit_s`, and say whether that was all of them.
 
         If a handler wants its turn after every event, the events are run one at a time.
         """
         network, hooks = self._network, self._hooks
-
-        def run_fast(max_events: int) -> bool:
+        if not hooks:
             return network.run_until(limit_s, max_events)
-
-        def run_step_by_step(max_events: int) -> bool:
-            for _ in range(max_events):
-                if not network.step(limit_s):
-                    return network.run_until(limit_s)  # sets the clock
-                iteration, timestamp = network.event_count - 1, network.now
-                for hook in hooks:
-                    hook(iteration, timestamp)
-            return False
-
-        return run_step_by_step if hooks else run_fast
+        for _ in range(max_events):
+            if not network.step(limit_s):
+                return network.run_until(limit_s)  # sets the clock
+            iteration, timestamp = network.event_count - 1, network.now
+            for hook in hooks:
+                hook(iteration, timestamp)
+        return False
 
     def finalize(self) -> None:
         """End; after the protocols have."""

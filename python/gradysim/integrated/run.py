@@ -16,11 +16,13 @@ from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import start_captures
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.network import build_network
+from gradysim.integrated.real_time import RealTimeRun
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.node_results import node_results
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.real_time import real_time_factor
 
 
 class IntegratedRun:
@@ -32,6 +34,7 @@ class IntegratedRun:
         captures: Mapping[int, Path] | None = None,
         *,
         handlers: Iterable[INodeHandler] = (),
+        real_time: bool | float = False,
     ) -> None:
         """Build the network and the protocols.
 
@@ -42,14 +45,18 @@ class IntegratedRun:
         `captures` says for the ids of some nodes in which pcap file to write what they send and receive.
         The files are complete when `execute` returns or raises.
 
+        `real_time` lets simulated time go by as on the wall clock (True), or so many times as fast; False or
+        0 is full speed. For viewers: events are up to 10 ms of wall time late.
+
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
         accept a value of the scenario or cannot write a capture file, ValueError or TypeError when a handler
-        cannot work in this mode, and what the constructor of a protocol raises.
+        cannot work in this mode or `real_time` is no factor, and what the constructor of a protocol raises.
         """
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
         self._scenario = scenario
         self._complete = False
+        self._real_time_factor = real_time_factor(real_time)
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
         self._captures = captures or {}
@@ -86,14 +93,14 @@ class IntegratedRun:
         handler raises, as for an assertion that failed. Handlers are finalized in any case. A capture
         file that could not be written to its end raises SimulationError when all else is done.
         """
-        network, limit_s = self._network, self._scenario.sim_time_limit_s
+        network = self._network
         random.seed(self._scenario.seed)  # another run may have been built in between
         try:
             try:
                 self._handlers.initialize()
                 network.initialize()
                 self._complete = run_in_slices(
-                    self._handlers.advance(limit_s),
+                    self._advance(),
                     lambda: network.now,
                     progress,
                     should_stop,
@@ -111,6 +118,13 @@ class IntegratedRun:
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
             if self._captures:
                 network.close_captures()
+
+    def _advance(self) -> Callable[[int], bool]:
+        """Return what runs the next events, at the pace that is wanted; its clock starts now."""
+        handlers, limit_s, factor = self._handlers, self._scenario.sim_time_limit_s, self._real_time_factor
+        if factor == 0:
+            return lambda max_events: handlers.run_until(limit_s, max_events)
+        return RealTimeRun(handlers.run_until, limit_s, factor, lambda: handlers.held_up_s).advance
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
@@ -145,8 +159,9 @@ def run(
     should_stop: Callable[[], bool] | None = None,
     captures: Mapping[int, Path] | None = None,
     handlers: Iterable[INodeHandler] = (),
+    real_time: bool | float = False,
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
-    integrated_run = IntegratedRun(scenario, captures, handlers=handlers)
+    integrated_run = IntegratedRun(scenario, captures, handlers=handlers, real_time=real_time)
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

@@ -19,20 +19,29 @@ from gradysim.simulator.handler.interface import INodeHandler
 class PrototypeRun:
     """A scenario on the plain simulator: built by the constructor, run once by `execute`."""
 
-    def __init__(self, scenario: Scenario, *, handlers: Iterable[INodeHandler] = ()) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        *,
+        handlers: Iterable[INodeHandler] = (),
+        real_time: bool | float = False,
+    ) -> None:
         """Build the simulation and the protocols.
 
         `handlers` are added to those of communication, timers and mobility: assertions, a viewer, one's own.
+        `real_time` lets simulated time go by as on the wall clock (True), or so many times as fast; False or
+        0 is full speed.
 
         Raises ConfigError when the simulator does not accept a value of the scenario, ValueError or TypeError
-        when one of the handlers cannot be added, and what the constructor of a protocol raises.
+        when one of the handlers cannot be added or `real_time` is no factor, and what the constructor of a
+        protocol raises.
         """
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
         self._scenario = scenario
         self._complete = False
         random.seed(scenario.seed)
-        self._simulator, self._ledger = build_simulation(scenario, handlers)
+        self._simulator, self._ledger = build_simulation(scenario, handlers, real_time)
 
     def execute(
         self,
@@ -97,8 +106,9 @@ def run(
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
     handlers: Iterable[INodeHandler] = (),
+    real_time: bool | float = False,
 ) -> RunResult:
     """Run `scenario` on the plain simulator and return its result; see `PrototypeRun` for the details."""
-    prototype_run = PrototypeRun(scenario, handlers=handlers)
+    prototype_run = PrototypeRun(scenario, handlers=handlers, real_time=real_time)
     prototype_run.execute(progress, should_stop)
     return prototype_run.result()

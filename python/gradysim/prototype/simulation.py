@@ -15,11 +15,12 @@ from gradysim.simulator.simulation import SimulationBuilder, SimulationConfigura
 
 
 def build_simulation(
-    scenario: Scenario, handlers: Iterable[INodeHandler] = ()
+    scenario: Scenario, handlers: Iterable[INodeHandler] = (), real_time: bool | float = False
 ) -> tuple[Simulator, CopyLedger]:
     """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
-    `handlers` come beside those of communication, timers and mobility, and after them.
+    `handlers` come beside those of communication, timers and mobility, and after them; `real_time` is that of
+    `SimulationConfiguration`.
 
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
     handlers cannot be added, and what the constructor of a protocol raises.
@@ -30,7 +31,10 @@ def build_simulation(
     communication = CommunicationHandler(communication_medium(scenario), ledger)
     builder = SimulationBuilder(
         SimulationConfiguration(
-            duration=scenario.sim_time_limit_s, seed=scenario.seed, execution_logging=False
+            duration=scenario.sim_time_limit_s,
+            real_time=real_time,
+            seed=scenario.seed,
+            execution_logging=False,
         )
     )
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility_handler(scenario))

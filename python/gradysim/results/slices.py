@@ -17,6 +17,10 @@ FIRST_SLICE = 64
 """Events of the first slice: few, as nothing is known yet of what one costs."""
 
 
+MOST_EVENTS = 1 << 20
+"""Events of a slice at most: one of a run that waits for the wall clock never has enough of them."""
+
+
 def run_in_slices(
     advance: Callable[[int], bool],
     now: Callable[[], float],
@@ -46,4 +50,4 @@ def run_in_slices(
 def next_slice(max_events: int, took_s: float) -> int:
     """Return the number of events of the next slice: at most four times as many, at least a quarter."""
     factor = min(4.0, max(0.25, SLICE_S / took_s)) if took_s > 0 else 4.0
-    return max(1, int(max_events * factor))
+    return min(MOST_EVENTS, max(1, int(max_events * factor)))

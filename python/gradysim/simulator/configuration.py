@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gradysim.simulator.number_range import is_in_range
+from gradysim.simulator.real_time import real_time_factor
 
 
 @dataclass
@@ -41,8 +42,7 @@ class SimulationConfiguration:
             raise ValueError(f"duration must be >= 0 s or None, got {self.duration!r}")
         if self.max_iterations is not None and not _is_natural(self.max_iterations):
             raise ValueError(f"max_iterations must be an integer >= 0 or None, got {self.max_iterations!r}")
-        if not isinstance(self.real_time, bool) and not is_in_range(self.real_time, 0):
-            raise ValueError(f"real_time must be a bool or a finite factor >= 0, got {self.real_time!r}")
+        real_time_factor(self.real_time)
         if self.seed is not None and not _is_natural(self.seed):
             raise ValueError(f"seed must be an integer >= 0 or None, got {self.seed!r}")
         if self.log_file is not None and not isinstance(self.log_file, str | Path):

@@ -1,41 +1,11 @@
 """What happens between two events: waiting for the wall clock, and letting asyncio have its turn."""
 
-import time
 from collections.abc import Callable, Iterable, Iterator
 
 from gradysim.simulator.asyncio_turns import AsyncioTurns
 from gradysim.simulator.event import EventLoop
+from gradysim.simulator.real_time import RealTimePacer
 from gradysim.simulator.timing_report import TimingReport
-
-
-class RealTimePacer:
-    """Tells how long the wall clock is behind the simulation, counted from the start: delays do not add up.
-
-    Attributes:
-        held_up_s: Wall seconds for which the simulation was held up on purpose, as by a pause; these are not
-            caught up on.
-    """
-
-    def __init__(self, factor: float) -> None:
-        """Let `factor` simulated seconds, > 0, go by in each second of wall time."""
-        self._factor = factor
-        self._start = time.monotonic()
-        self.held_up_s = 0.0
-
-    @property
-    def elapsed_s(self) -> float:
-        """Wall seconds since the start, without those that the simulation was held up."""
-        return time.monotonic() - self._start - self.held_up_s
-
-    def remaining_s(self, simulated_s: float) -> float:
-        """Wall seconds until a simulated time; negative when it is past."""
-        return simulated_s / self._factor - self.elapsed_s
-
-    def wait_until(self, simulated_s: float) -> None:
-        """Sleep until the wall clock has reached a simulated time; return at once when it is past."""
-        remaining = self.remaining_s(simulated_s)
-        if remaining > 0:
-            time.sleep(remaining)
 
 
 class Pacing:

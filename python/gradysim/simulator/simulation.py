@@ -23,9 +23,10 @@ from gradysim.simulator.handler.given import step_hooks
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
-from gradysim.simulator.pacing import Pacing, RealTimePacer
+from gradysim.simulator.pacing import Pacing
 from gradysim.simulator.position_scheme import PositionScheme
 from gradysim.simulator.profile import EventProfile
+from gradysim.simulator.real_time import RealTimePacer, real_time_factor
 from gradysim.simulator.timing_report import TimingReport
 
 __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
@@ -284,7 +285,7 @@ class Simulator:
         )
 
     def _real_time_factor(self) -> float:
-        return 0.0 if _FORCE_FAST_EXECUTION else float(self._configuration.real_time)
+        return 0.0 if _FORCE_FAST_EXECUTION else real_time_factor(self._configuration.real_time)
 
     def _execute(self, count: int) -> None:
         limit = self._configuration.max_iterations

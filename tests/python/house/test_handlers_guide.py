@@ -67,13 +67,15 @@ def test_a_protocol_that_is_loaded_twice_is_an_error(watch: Any) -> None:
         watch.check("watch.ini")
 
 
-def test_it_is_shown(watch: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_is_shown_in_real_time(watch: Any, wall_clock: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("websockets")
     configuration = watch.VisualizationConfiguration
     monkeypatch.setattr(
         watch, "VisualizationConfiguration", lambda **settings: configuration(port=0, **settings)
     )
+    started = wall_clock.now
     assert watch.show("watch.ini").sim_time_s == 10
+    assert wall_clock.now - started == pytest.approx(10)
 
 
 def test_heights_once_a_second(watch: Any) -> None:

@@ -128,3 +128,14 @@ def test_what_a_failed_run_computed_is_not_lost(make_scenario):
 def test_the_compiled_part_is_not_needed():
     code = "import sys; sys.modules['gradysim._netsim'] = None; import gradysim.prototype.run"
     subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": ":".join(sys.path)})
+
+
+def test_at_the_pace_of_the_wall_clock(make_scenario, wall_clock):
+    run(make_scenario(), real_time=2)
+    assert sum(wall_clock.sleeps) == pytest.approx(2.05 / 2)
+
+
+@pytest.mark.parametrize("factor", [-1, float("nan"), "fast"])
+def test_what_is_no_pace(make_scenario, factor):
+    with pytest.raises(ValueError, match="real_time must be a bool or a finite factor >= 0, got "):
+        run(make_scenario(), real_time=factor)

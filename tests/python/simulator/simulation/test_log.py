@@ -1,0 +1,95 @@
+import gc
+import logging
+import weakref
+
+from simulated import build, timers
+
+from gradysim.simulator import simulation
+from gradysim.simulator.simulation import (
+    PositionScheme,
+)
+
+
+def test_simulations_stepped_in_turn_log_their_own_lines(tmp_path):
+    def logs(name):
+        def handle_timer(self, timer):
+            logging.getLogger(name).info("%s at %s", name, timer)
+
+        tested = timers(1, 2)
+        tested.handle_timer = handle_timer
+        return tested
+
+    simulators = [build(logs(name), log_file=tmp_path / name) for name in ("first", "second")]
+    while sum(simulator.step_simulation() for simulator in simulators) > 0:
+        pass
+    for name in ("first", "second"):
+        lines = (tmp_path / name).read_text().splitlines()
+        assert [line.split("] ")[-1] for line in lines[1:3]] == [f"{name} at 1", f"{name} at 2"]
+        assert sum("finished" in line for line in lines) == sum("started" in line for line in lines) == 1
+
+
+def test_lines_say_when_and_to_whom(capsys):
+    def handle_timer(self, timer):
+        logging.getLogger().info("hello")
+
+    tested = timers(7.5)
+    tested.handle_timer = handle_timer
+    build(tested).start_simulation()
+    assert "INFO     [it=0 time=0:00:07.500000 | Tested 0 handle_timer] hello\n" in capsys.readouterr().err
+
+
+def test_the_course_of_the_simulation_is_logged(capsys):
+    build(timers(1)).start_simulation()
+    lines = capsys.readouterr().err
+    assert "Simulation started" in lines
+    assert "Simulation finished" in lines
+    assert "Total iterations: 1\tSimulation time: 0:00:01" in lines
+
+
+def test_the_log_can_be_turned_off(capsys):
+    build(timers(1), execution_logging=False).start_simulation()
+    assert capsys.readouterr().err == ""
+
+
+def test_the_log_goes_to_a_file_too(tmp_path):
+    build(timers(1), log_file=tmp_path / "run.log").start_simulation()
+    assert "Simulation finished" in (tmp_path / "run.log").read_text()
+
+
+def test_the_profile_is_logged_at_the_end(capsys):
+    build(timers(1, 2), profile=True, execution_logging=False).start_simulation()
+    assert ["Tested", "0", "handle_timer", "2"] in [
+        line.split()[:4] for line in capsys.readouterr().err.splitlines()
+    ]
+
+
+def test_a_dropped_simulation_leaves_no_log_handler():
+    simulator = build(timers(1, 2))
+    simulator.step_simulation()
+    del simulator
+    gc.collect()
+
+
+def test_a_simulation_that_ended_is_not_kept():
+    simulator = build(timers(1))
+    simulator.start_simulation()
+    gone = weakref.ref(simulator)
+    del simulator
+    gc.collect()
+    assert gone() is None
+
+
+def test_the_scope_of_a_line_can_be_set(capsys):
+    simulator = build(timers(1, 2))
+    simulator.step_simulation()
+    simulator.scope_event(41, 60, "elsewhere")
+    logging.getLogger().info("hello")
+    simulator.finalize()
+    assert "[it=41 time=0:01:00 | elsewhere] hello" in capsys.readouterr().err
+
+
+def test_the_names_of_the_published_module_are_here():
+    assert {"PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"} <= set(
+        vars(simulation)
+    )
+    assert simulation.PositionScheme is PositionScheme
