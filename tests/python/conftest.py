@@ -1,4 +1,4 @@
-"""What tests of several folders use: scenarios of a few lines, a wall clock, a vehicle that speaks MAVLink."""
+"""What tests of several folders use: scenarios of a few lines, a wall clock, a vehicle with MAVLink."""
 
 import json
 import stat

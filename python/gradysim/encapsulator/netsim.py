@@ -11,11 +11,11 @@ from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from gradysim.encapsulator.failure import add_protocol_note
+from gradysim.encapsulator.geo_target import geo_target
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import random_stream
 from gradysim.encapsulator.tracked_history import TrackedHistory
 from gradysim.encapsulator.tracked_variables import TrackedVariables
-from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
@@ -24,7 +24,7 @@ from gradysim.protocol.messages.mobility import (
     MobilityCommandType,
 )
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.protocol.position import Position
 
 if TYPE_CHECKING:
     from gradysim._netsim import Node
@@ -109,12 +109,7 @@ class NetsimProvider(IProvider):
     def send_mobility_command(self, command: MobilityCommand) -> None:
         """Steer the node. Geographic coordinates are taken relative to the origin of the scene."""
         if getattr(command, "command_type", None) == MobilityCommandType.GOTO_GEO_COORDS:
-            latitude, longitude, altitude = command.param_1, command.param_2, command.param_3
-            if latitude is None or longitude is None or altitude is None:
-                raise MasslessMobilityException(
-                    f"latitude, longitude and altitude are needed, this is {command!r}"
-                )
-            target = geo_to_cartesian(self._reference_coordinates, (latitude, longitude, altitude))
+            target = geo_target(command, self.get_id(), self._reference_coordinates)
             command = GotoCoordsMobilityCommand(*target)
         self._node.send_mobility_command(command)
 

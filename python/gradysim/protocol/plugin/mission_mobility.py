@@ -110,7 +110,8 @@ class MissionMobilityPlugin:
         Empty lines are skipped. A relative path starts at the working directory.
 
         Raises:
-            MissionMobilityPluginException: The file cannot be read, or a line is not three finite numbers.
+            MissionMobilityPluginException: The file cannot be read or is empty, or a line is not three finite
+                numbers.
         """
         try:
             text = Path(mission_file_path).read_text(encoding="utf-8-sig")
@@ -129,6 +130,10 @@ class MissionMobilityPlugin:
                     f"{mission_file_path}:{number}: expected a waypoint x,y,z of finite numbers in metres, "
                     f"got {line.strip()!r}"
                 ) from None
+        if not mission:
+            raise MissionMobilityPluginException(
+                f"{mission_file_path}: a mission needs at least one waypoint"
+            )
         self.start_mission(mission)
 
     def stop_mission(self) -> None:

@@ -5,9 +5,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, TypeGuard
 
+from gradysim.encapsulator.geo_target import geo_target
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
-from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.protocol.position import Position
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
@@ -165,12 +166,8 @@ class MasslessMobilityHandler(INodeHandler):
         if kind == MobilityCommandType.GOTO_COORDS:
             self.targets[node.id] = _point(command, node)
         elif kind == MobilityCommandType.GOTO_GEO_COORDS:
-            target = _point(command, node)
-            if not -90 <= target[0] <= 90:
-                raise MasslessMobilityException(
-                    f"node {node.id} was sent to latitude {target[0]!r}: expected -90 to 90 degrees"
-                )
-            self.targets[node.id] = geo_to_cartesian(self._configuration.reference_coordinates, target)
+            reference = self._configuration.reference_coordinates
+            self.targets[node.id] = geo_target(command, node.id, reference)
         elif kind == MobilityCommandType.SET_SPEED:
             self.speeds[node.id] = _speed(command, node)
         else:

@@ -1,0 +1,154 @@
+"""What cannot be carried out is the same exception in both modes, naming the value and the expectation."""
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+from perfect_channel import MODES, Case
+from quiet import Quiet
+
+from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
+from gradysim.protocol.interface import IProvider
+from gradysim.protocol.messages.communication import (
+    BroadcastMessageCommand,
+    CommunicationCommand,
+    CommunicationCommandType,
+    SendMessageCommand,
+)
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    GotoGeoCoordsMobilityCommand,
+    MobilityCommand,
+    SetSpeedMobilityCommand,
+    SetVelocityMobilityCommand,
+)
+from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
+
+CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)])
+Deed = Callable[[IProvider], None]
+Wrong = Any
+
+
+def send(command: Wrong) -> Deed:
+    return lambda provider: provider.send_communication_command(command)
+
+
+def steer(command: Wrong) -> Deed:
+    return lambda provider: provider.send_mobility_command(command)
+
+
+def timer(name: Wrong, time: Wrong) -> Deed:
+    return lambda provider: provider.schedule_timer(name, time)
+
+
+def cancel(name: Wrong) -> Deed:
+    return lambda provider: provider.cancel_timer(name)
+
+
+NODES = "0 (to|…) 1"
+AT_LEAST_0 = ">= 0|at least 0"
+KIND = CommunicationCommandType.SEND
+SEND, STEER, TIMER = CommunicationException, MasslessMobilityException, TimerException
+
+TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, what its text has to name
+    (send("hello"), SEND, ["'hello'", "CommunicationCommand"]),
+    (send(None), SEND, ["None", "CommunicationCommand"]),
+    (send(BroadcastMessageCommand(cast("str", 5))), SEND, ["int", "text|str"]),
+    (send(BroadcastMessageCommand(cast("str", b"x"))), SEND, ["bytes", "text|str"]),
+    (send(SendMessageCommand("a", 7)), SEND, ["7", NODES]),
+    (send(SendMessageCommand("a", -1)), SEND, ["-1", NODES]),
+    (send(SendMessageCommand("a", cast("int", "1"))), SEND, ["'1'", f"int|{NODES}"]),
+    (send(SendMessageCommand("a", cast("int", 1.5))), SEND, ["1.5", f"int|{NODES}"]),
+    (send(SendMessageCommand("a", 0)), SEND, ["itself|its own|0"]),
+    (send(CommunicationCommand(KIND, "a")), SEND, ["destination"]),
+    (send(CommunicationCommand(cast("Any", 9), "a")), SEND, ["9", "command"]),
+    (steer("north"), STEER, ["'north'", "MobilityCommand"]),
+    (steer(GotoCoordsMobilityCommand(math.nan, 0, 0)), STEER, ["nan", "three"]),
+    (steer(GotoCoordsMobilityCommand(0, math.inf, 0)), STEER, ["inf", "three"]),
+    (steer(GotoCoordsMobilityCommand(0, 0, cast("float", "5"))), STEER, ["'5'", "number"]),
+    (steer(MobilityCommand(cast("Any", 1), 1, 2)), STEER, ["None", "number"]),
+    (steer(GotoGeoCoordsMobilityCommand(91, 0, 0)), STEER, ["91", "-90 to 90"]),
+    (steer(GotoGeoCoordsMobilityCommand(0, math.nan, 0)), STEER, ["nan", "three"]),
+    (steer(SetSpeedMobilityCommand(-1)), STEER, ["-1", AT_LEAST_0]),
+    (steer(SetSpeedMobilityCommand(math.nan)), STEER, ["nan", AT_LEAST_0]),
+    (steer(SetSpeedMobilityCommand(cast("float", "5"))), STEER, ["'5'", "number"]),
+    (steer(SetVelocityMobilityCommand(1, 2, 3)), STEER, ["velocity", "speed|velocities"]),
+    (steer(MobilityCommand(cast("Any", 9), 1)), STEER, ["9", "command"]),
+    (timer("a", -1), TIMER, ["-1", "now|current time"]),
+    (timer("a", math.nan), TIMER, ["nan", "seconds|number from"]),
+    (timer("a", math.inf), TIMER, ["inf", "seconds|number from"]),
+    (timer("a", "5"), TIMER, ["'5'", "seconds"]),
+    (timer("a", None), TIMER, ["None", "seconds"]),
+    (timer(5, 1), TIMER, ["5|int", "str"]),
+    (cancel(5), TIMER, ["5|int", "str"]),
+]
+
+
+def failure_of(mode: str, deed: Deed) -> Exception:
+    """What node 0 gets for it."""
+
+    class Wrongdoer(Quiet):
+        def initialize(self) -> None:
+            if self.provider.get_id() == 0:
+                self.provider.schedule_timer("now", 0.25)
+
+        def handle_timer(self, timer: str) -> None:
+            deed(self.provider)
+
+    with pytest.raises(Exception) as raised:  # noqa: PT011 (which one is what the tests ask)
+        CASE.run(mode, Wrongdoer)
+    return raised.value
+
+
+@pytest.mark.parametrize("row", TABLE, ids=[str(number) for number in range(len(TABLE))])
+@pytest.mark.parametrize("mode", MODES)
+def test_it_is_refused_with_the_value_and_what_was_expected(
+    mode: str, row: tuple[Deed, type[Exception], list[str]]
+) -> None:
+    deed, kind, words = row
+    failure = failure_of(mode, deed)
+    assert type(failure) is kind, repr(failure)
+    assert [word for word in words if not re.search(word, str(failure))] == [], str(failure)
+    assert failure.__notes__ == ["in handle_timer of node 0 (Wrongdoer 0) at 0.25 s of simulated time"]
+
+
+MISSIONS = {
+    "1,2,3\n4,5\n": r"line 2|:2",
+    "1,2,3\n4,5,x\n": r"line 2|:2",
+    "1,2,3\n\n4,5,nan\n": r"line 3|:3",
+    "": "waypoint",
+}
+
+
+@pytest.mark.parametrize("text", MISSIONS)
+@pytest.mark.parametrize("mode", MODES)
+def test_a_malformed_mission_file_is_refused_with_the_line(mode: str, text: str, tmp_path: Path) -> None:
+    file = tmp_path / "mission.txt"
+    file.write_text(text)
+
+    class OnMission(Quiet):
+        def initialize(self) -> None:
+            MissionMobilityPlugin(self).start_mission_with_waypoint_file(str(file))
+
+    with pytest.raises(MissionMobilityPluginException, match=MISSIONS[text]) as raised:
+        CASE.run(mode, OnMission)
+    assert "mission.txt" in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        (Case([(math.nan, 0.0, 0.0)]), "nan"),
+        (Case([(0.0, 0.0, 0.0)], range_m=-1.0), "-1"),
+        (Case([(0.0, 0.0, 0.0)], speed_mps=-1.0), "-1"),
+        (Case([(0.0, 0.0, 0.0)], telemetry_interval_s=-1.0), "-1"),
+    ],
+    ids=["position", "range", "speed", "telemetry interval"],
+)
+@pytest.mark.parametrize("mode", MODES)
+def test_a_scenario_that_makes_no_sense_is_refused(mode: str, case: Case, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        case.run(mode, Quiet)
