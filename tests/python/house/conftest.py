@@ -1,5 +1,6 @@
 """Where the project lies, which files belong to it, and what its documents show."""
 
+import os
 import re
 import subprocess
 import sys
@@ -67,3 +68,27 @@ def type_errors(root: Path) -> Callable[[Path], str]:
         return "" if check.returncode == 0 else check.stdout + check.stderr
 
     return errors
+
+
+@pytest.fixture
+def shell(root: Path, tmp_path: Path) -> Callable[[str, Path], str]:
+    """`shell(commands, folder)`: what commands print that run there, with the project's `gradysim`."""
+    pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+    program = tmp_path / "bin" / "gradysim"
+    program.parent.mkdir()
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m gradysim "$@"\n')
+    program.chmod(0o755)
+    variables = {**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}
+    variables["PYTHONPATH"] = str(root / "python")
+
+    def run(commands: str, folder: Path) -> str:
+        return subprocess.run(
+            ["bash", "-euc", commands],
+            cwd=folder,
+            env=variables,
+            check=True,
+            stdout=subprocess.PIPE,
+            text=True,
+        ).stdout
+
+    return run

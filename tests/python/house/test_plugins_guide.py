@@ -92,3 +92,10 @@ def test_the_script_flies_in_formation(guide: Path, monkeypatch: pytest.MonkeyPa
 
 def test_its_types_hold(guide: Path, type_errors: Callable[[Path], str]) -> None:
     assert type_errors(guide / "guide.py") == ""
+
+
+def test_its_commands_work(
+    guide: Path, code_blocks: Callable[[str, str], list[str]], shell: Callable[[str, Path], str]
+) -> None:
+    (commands,) = code_blocks("docs/guides/plugins.md", "sh")
+    assert shell(commands, guide).count("Follow") >= 2

@@ -1,5 +1,6 @@
 """What README.md shows to a newcomer is what happens."""
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -8,6 +9,8 @@ from typing import Any
 import pytest
 
 from gradysim.config import load_scenarios
+
+README = Path(__file__).parents[3] / "README.md"
 
 
 @pytest.fixture
@@ -71,6 +74,38 @@ def test_the_sweep_in_the_shell_sets_a_key_that_exists(root: Path, first_protoco
     setting = re.search(r'--set "(.*)=\$jitter"', (root / "README.md").read_text())
     assert setting is not None
     load_scenarios(first_protocol, overrides=[f"{setting[1]}=10ms"])
+
+
+def test_the_commands_of_the_first_protocol_print_what_is_said(
+    first_protocol: Path, shell: Callable[..., str]
+) -> None:
+    lines = re.findall(r"^(gradysim run .*?) +# .*heard = (\d+)$", README.read_text(), re.MULTILINE)
+    assert len(lines) == 3
+    for command, heard_by_each in lines:
+        result = json.loads(shell(f"{command} --json --quiet", first_protocol.parent))
+        assert [node["tracked_variables"]["heard"] for node in result["nodes"]] == [int(heard_by_each)] * 4
+
+
+def test_the_sweep_in_the_shell_leaves_a_folder_for_each_value(
+    first_protocol: Path, shell: Callable[..., str]
+) -> None:
+    (loop,) = re.findall(r"^for .*?^done$", README.read_text(), re.MULTILINE | re.DOTALL)
+    shell(loop.replace("gradysim run", "gradysim run --quiet"), first_protocol.parent)
+    folders = (first_protocol.parent / "results").iterdir()
+    assert {folder.name: len(list(folder.glob("*.json"))) for folder in folders} == {
+        "jitter-10ms": 1,
+        "jitter-50ms": 1,
+        "jitter-100ms": 1,
+    }
+
+
+def test_the_commands_of_docker_name_what_there_is(root: Path) -> None:
+    lines = re.findall(r"^docker (.*)$", README.read_text(), re.MULTILINE)
+    assert len(lines) == 3
+    for name in re.findall(r"\S+/\S+", " ".join(lines)):
+        assert (root / name).exists()
+    file, config = re.findall(r"gradysim run (\S+) -c (\S+)", " ".join(lines))[0]
+    load_scenarios(root / file, config)
 
 
 def test_its_commands_are_those_of_make(root: Path) -> None:
