@@ -2,13 +2,14 @@
 
 import asyncio
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
 
 _GONE = "the connection was closed by the other side"
 _CLOSED = "the connection was closed"
+_RETRY_S = 0.2
 
 
 class StreamConnection(asyncio.Protocol):
@@ -63,8 +64,8 @@ class DatagramConnection(asyncio.DatagramProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Take the port."""
-        assert isinstance(transport, asyncio.DatagramTransport)
-        self._transport = transport
+        # Before Python 3.12 it is not an instance of that class.
+        self._transport = cast(asyncio.DatagramTransport, transport)
         self._link.send_bytes = self._send
 
     def datagram_received(self, data: bytes, addr: Any) -> None:
@@ -121,7 +122,7 @@ async def connect(link: MavlinkLink, address: str, timeout_s: float) -> Connecti
     try:
         async with asyncio.timeout(timeout_s):
             if kind == "tcp":
-                _, connection = await loop.create_connection(lambda: StreamConnection(link), host, port)
+                connection = await _connect_stream(link, host, port)
             elif kind == "udpin":
                 _, connection = await loop.create_datagram_endpoint(
                     lambda: DatagramConnection(link, has_one_peer=False), local_addr=(host, port)
@@ -134,3 +135,15 @@ async def connect(link: MavlinkLink, address: str, timeout_s: float) -> Connecti
         why = str(error) or f"no answer in {timeout_s:g} s"
         raise SitlError(f"{link.name}: cannot connect to {address}: {why}") from error
     return connection
+
+
+async def _connect_stream(link: MavlinkLink, host: str, port: int) -> StreamConnection:
+    """Connect, as soon as somebody listens."""
+    loop = asyncio.get_running_loop()
+    while True:
+        try:
+            _, connection = await loop.create_connection(lambda: StreamConnection(link), host, port)
+        except ConnectionRefusedError:
+            await asyncio.sleep(_RETRY_S)
+        else:
+            return connection

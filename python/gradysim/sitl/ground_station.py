@@ -1,7 +1,7 @@
 """Passes a vehicle's messages on to a ground station's program, and its orders back."""
 
 import asyncio
-from typing import Any
+from typing import Any, cast
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
@@ -19,9 +19,9 @@ class GroundStationPort(asyncio.DatagramProtocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begin to pass on."""
-        assert isinstance(transport, asyncio.DatagramTransport)
-        self._transport = transport
-        self._link.on_bytes = transport.sendto
+        # Before Python 3.12 it is not an instance of that class.
+        self._transport = cast(asyncio.DatagramTransport, transport)
+        self._link.on_bytes = self._transport.sendto
 
     def datagram_received(self, data: bytes, addr: Any) -> None:
         """Hand an order to the vehicle, as it is."""

@@ -45,6 +45,22 @@ def place(latitude, longitude, north, east):
     )
 
 
+def connected(kind, address):
+    """A socket, connected to an address; "tcpserver" waits there for the other side to do so."""
+    if kind == "udpclient":
+        udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        udp.connect(address)
+        return udp
+    if kind == "tcpclient":
+        tcp = socket.create_connection(address)
+    else:
+        assert kind == "tcpserver"
+        with socket.create_server(address) as server:
+            tcp, _ = server.accept()
+    tcp.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return tcp
+
+
 class Copter:
     def __init__(self, options, wrongs):
         self.wrongs = wrongs
@@ -53,9 +69,7 @@ class Copter:
         self.codec = mavlink.MAVLink(None, srcSystem=int(options["--sysid"]), srcComponent=1)
         self.codec.robust_parsing = True
         kind, host, port = options["--serial0"].split(":")
-        assert kind == "tcpclient"
-        self.socket = socket.create_connection((host, int(port)))
-        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.socket = connected(kind, (host, int(port)))
         self.speedup = float(options["--speedup"])
         self.now = 0.0  # s, on its own clock
         self.begun = math.inf  # when the simulation did
@@ -70,6 +84,7 @@ class Copter:
         self.intervals = {"HEARTBEAT": 1.0}
         self.sent = {}
         self.lost = set()
+        self.greetings = 0
 
     def run(self):
         while True:
@@ -106,7 +121,12 @@ class Copter:
 
     def state(self):
         moving = self.target is None and self.now < self.until
-        return {"target": self.target, "speed": self.speed, "velocity": self.velocity if moving else None}
+        return {
+            "target": self.target,
+            "speed": self.speed,
+            "velocity": self.velocity if moving else None,
+            "greetings": self.greetings,
+        }
 
     def move(self, dt):
         if self.target is not None:
@@ -164,6 +184,8 @@ class Copter:
             result = self.command(message)
             if not self.wrongs.get("deaf"):
                 self.send(mavlink.MAVLink_command_ack_message(message.command, result))
+        elif kind == "HEARTBEAT":
+            self.greetings += 1
         elif kind == "SET_MODE":
             self.mode = message.custom_mode
         elif kind == "REQUEST_DATA_STREAM":
@@ -174,8 +196,7 @@ class Copter:
             }
             for name in names[message.req_stream_id]:
                 self.intervals[name] = 1 / message.req_message_rate
-        elif kind == "PARAM_SET":
-            assert message.param_id == "SIM_SPEEDUP"
+        elif kind == "PARAM_SET" and message.param_id == "SIM_SPEEDUP":
             self.speedup = message.param_value
             self.begun = self.now
             self.send(mavlink.MAVLink_param_value_message(b"SIM_SPEEDUP", self.speedup, 9, 1, 0))

@@ -1,0 +1,96 @@
+from pathlib import Path
+
+import pytest
+
+from gradysim.sitl.arducopter import find_arducopter, options, parameter_file
+from gradysim.sitl.error import SitlError
+
+NEW, OLD = "--serial0 --uartA --sysid", "--uartA"
+
+
+@pytest.fixture(autouse=True)
+def _nothing_else_is_named(monkeypatch):
+    monkeypatch.delenv("GRADYSIM_ARDUPILOT", raising=False)
+    monkeypatch.setenv("PATH", "")
+
+
+@pytest.fixture
+def checkout(tmp_path):
+    """A folder as ArduPilot's build leaves it."""
+    program = tmp_path / "build/sitl/bin/arducopter"
+    program.parent.mkdir(parents=True)
+    program.touch(mode=0o755)
+    return tmp_path
+
+
+def test_a_program_is_itself(checkout):
+    program = checkout / "build/sitl/bin/arducopter"
+    assert find_arducopter(program) == program
+
+
+def test_in_a_checkout_it_is_where_the_build_puts_it(checkout):
+    assert find_arducopter(str(checkout)) == checkout / "build/sitl/bin/arducopter"
+
+
+def test_the_environment_may_name_it(checkout, monkeypatch):
+    monkeypatch.setenv("GRADYSIM_ARDUPILOT", str(checkout))
+    assert find_arducopter(None) == checkout / "build/sitl/bin/arducopter"
+
+
+def test_it_may_be_a_command(checkout, monkeypatch):
+    monkeypatch.setenv("PATH", str(checkout / "build/sitl/bin"))
+    assert find_arducopter(None) == checkout / "build/sitl/bin/arducopter"
+
+
+def test_without_any_it_says_what_to_give():
+    with pytest.raises(
+        SitlError, match="as ardupilot_path or in the environment variable GRADYSIM_ARDUPILOT"
+    ):
+        find_arducopter(None)
+
+
+def test_a_checkout_that_was_not_built_is_told_how(tmp_path):
+    with pytest.raises(
+        SitlError, match=r"no such file \(./waf configure --board sitl && ./waf copter builds it\)"
+    ):
+        find_arducopter(tmp_path)
+
+
+def test_what_cannot_be_executed_is_refused(tmp_path):
+    (tmp_path / "program").touch(mode=0o644)
+    with pytest.raises(SitlError, match="is not executable"):
+        find_arducopter(tmp_path / "program")
+
+
+def started_with(help_text):
+    words = options(
+        home=(-15.84, -47.92, 1000),
+        speedup=2.5,
+        parameters=Path("/p"),
+        instance=3,
+        system_id=8,
+        port=1234,
+        help_text=help_text,
+    )
+    return " ".join(words)
+
+
+def test_it_is_started_with_what_its_version_knows():
+    home = "--home -15.8400000,-47.9200000,1000.000,0"
+    same = f"--wipe --model quad {home} --speedup 2.5 --defaults /p --instance 3"
+    assert started_with(NEW) == f"{same} --sysid 8 --serial0 tcpclient:127.0.0.1:1234"
+    assert started_with(OLD) == f"{same} --uartA tcpclient:127.0.0.1:1234"
+
+
+def test_an_old_version_gets_its_id_as_a_parameter():
+    assert "SYSID_THISMAV" not in parameter_file(system_id=8, help_text=NEW, more={})
+    assert "SYSID_THISMAV 8\n" in parameter_file(system_id=8, help_text=OLD, more={})
+
+
+def test_more_parameters_win():
+    lines = parameter_file(
+        system_id=8, help_text=NEW, more={"BATT_MONITOR": 0, "WPNAV_ACCEL": 250}
+    ).splitlines()
+    assert "BATT_MONITOR 0" in lines
+    assert "WPNAV_ACCEL 250" in lines
+    assert len(lines) == len({line.split()[0] for line in lines})

@@ -1,0 +1,98 @@
+import asyncio
+import socket
+
+import pytest
+
+from gradysim.sitl.connection import connect, parse_address
+from gradysim.sitl.dialect import load_dialect
+from gradysim.sitl.error import SitlError
+from gradysim.sitl.link import MavlinkLink
+
+mavlink = load_dialect()
+HEARTBEAT = mavlink.MAVLink_heartbeat_message(2, 3, 1, 4, 4, 3)
+
+
+def packed():
+    return HEARTBEAT.pack(mavlink.MAVLink(None, srcSystem=1, srcComponent=1))
+
+
+def any_message(message):
+    return True
+
+
+def test_an_address_has_three_parts():
+    assert parse_address("udpin:0.0.0.0:14550") == ("udpin", "0.0.0.0", 14550)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "tcp", "tcp:5760", "tcp::5760", "tcp:host:0", "tcp:host:99999", "serial:a:1"]
+)
+def test_other_texts_are_refused(text):
+    with pytest.raises(ValueError, match=r"expected the address of a vehicle, tcp:HOST:PORT, .* got"):
+        parse_address(text)
+
+
+def free_port(kind=socket.SOCK_DGRAM):
+    with socket.socket(socket.AF_INET, kind) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+async def exchange(address, vehicle):
+    """Connect; get a message of the vehicle, a function of a link that is connected, and send one to it."""
+    link = MavlinkLink("node 0")
+    connection = await connect(link, address, 5)
+    try:
+        return await vehicle(link)
+    finally:
+        connection.close()
+        await asyncio.sleep(0)
+
+
+def test_udpin_listens_and_answers_to_where_messages_come_from():
+    port = free_port()
+
+    async def vehicle(link):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
+            udp.setblocking(False)
+            link.send(HEARTBEAT)  # To nobody, as yet.
+            udp.sendto(packed(), ("127.0.0.1", port))
+            assert await link.wait_for(any_message, 5) is not None
+            link.send(HEARTBEAT)
+            return await asyncio.get_running_loop().sock_recv(udp, 1000)
+
+    assert len(asyncio.run(exchange(f"udpin:127.0.0.1:{port}", vehicle))) == len(packed())
+
+
+def test_udpout_speaks_first():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
+        udp.bind(("127.0.0.1", 0))
+        udp.setblocking(False)
+
+        async def vehicle(link):
+            link.send(HEARTBEAT)
+            _, address = await asyncio.get_running_loop().sock_recvfrom(udp, 1000)
+            udp.sendto(packed(), address)
+            return await link.wait_for(any_message, 5)
+
+        message = asyncio.run(exchange(f"udpout:127.0.0.1:{udp.getsockname()[1]}", vehicle))
+    assert message.custom_mode == 4
+
+
+def test_a_tcp_connection_that_ends_loses_the_link():
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        async def vehicle(link):
+            server.accept()[0].close()
+            await link.wait_for(any_message, 5)
+
+        with pytest.raises(SitlError, match=r"^node 0: the connection was closed by the other side$"):
+            asyncio.run(exchange(f"tcp:127.0.0.1:{server.getsockname()[1]}", vehicle))
+
+
+def test_where_nobody_listens_it_gives_up_in_time():
+    port = free_port(socket.SOCK_STREAM)
+    with pytest.raises(
+        SitlError, match=rf"^node 0: cannot connect to tcp:127.0.0.1:{port}: no answer in 0.01 s"
+    ):
+        asyncio.run(connect(MavlinkLink("node 0"), f"tcp:127.0.0.1:{port}", 0.01))

@@ -1,0 +1,85 @@
+"""Flights with ArduPilot itself: `GRADYSIM_ARDUPILOT=path python -m pytest -m autopilot`.
+
+Not among the tests that are run otherwise: nobody can be expected to have one, and each takes half a minute.
+"""
+
+import csv
+import os
+
+import pytest
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.mobility import SetVelocityMobilityCommand
+from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
+from gradysim.simulator.handler.ardupilot_mobility import (
+    ArdupilotMobilityConfiguration,
+    ArdupilotMobilityHandler,
+)
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+
+pytestmark = pytest.mark.autopilot
+
+
+@pytest.fixture(autouse=True)
+def _there_is_one(tmp_path, monkeypatch):
+    if not os.environ.get("GRADYSIM_ARDUPILOT"):
+        pytest.fail("GRADYSIM_ARDUPILOT must name an arducopter program for SITL, or a checkout with one")
+    monkeypatch.chdir(tmp_path)
+
+
+class Quiet(IProtocol):
+    def initialize(self):
+        self.track = []
+
+    def handle_timer(self, timer): ...
+    def handle_packet(self, message): ...
+
+    def handle_telemetry(self, telemetry):
+        self.track.append((self.provider.current_time(), telemetry.current_position))
+
+    def finish(self): ...
+
+    def at(self, moment):
+        return min(self.track, key=lambda sample: abs(sample[0] - moment))[1]
+
+
+class Mission(Quiet):
+    def initialize(self):
+        super().initialize()
+        self.mission = MissionMobilityPlugin(self, MissionMobilityConfiguration(speed=8, tolerance=1))
+        self.mission.start_mission([(40, 0, 15), (40, 20, 15)])
+
+
+class Drift(Quiet):
+    def initialize(self):
+        super().initialize()
+        self.provider.schedule_timer("drift", 1)
+
+    def handle_timer(self, timer):
+        self.provider.send_mobility_command(SetVelocityMobilityCommand(0, -3, 0.5))
+
+
+@pytest.mark.parametrize("reference", [(-15.84, -47.92, 1000.0), (0, 0, 0)])
+def test_a_mission_a_drift_and_a_node_on_the_ground(reference, tmp_path):
+    configuration = ArdupilotMobilityConfiguration(
+        reference_coordinates=reference, simulation_startup_speedup=10
+    )
+    builder = SimulationBuilder(SimulationConfiguration(duration=40, real_time=4))
+    builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
+    builder.add_node(Mission, (0, 0, 10))
+    builder.add_node(Drift, (0, 50, 12))
+    builder.add_node(Quiet, (0, 0, 0))
+    simulator = builder.build()
+    simulator.start_simulation()
+    mission, drift, ground = (node.protocol_encapsulator.protocol for node in simulator.nodes)
+    assert mission.at(0) == pytest.approx((0, 0, 10), abs=1.5)
+    assert mission.mission.is_idle
+    assert mission.at(40) == pytest.approx((40, 20, 15), abs=2)
+    moved = [b - a for a, b in zip(drift.at(20), drift.at(40), strict=True)]
+    assert moved == pytest.approx([0, -60, 10], abs=12)
+    assert ground.at(20) == pytest.approx((0, 0, 0), abs=1)
+    with (tmp_path / "ardupilot_mobility_report.csv").open() as file:
+        for row in csv.DictReader(file):
+            assert int(row["telemetry_requests"]) == 401
+            assert float(row["battery_wasted"]) > 0
