@@ -1,9 +1,12 @@
 """An asyncio loop that runs between the events of a simulation, for handlers in touch with the world."""
 
 import asyncio
+import logging
 from typing import Any
 
 from gradysim.simulator.event import EventLoop, ScheduledEvent
+
+_logger = logging.getLogger(__name__)
 
 
 class AsyncioTurns:
@@ -17,6 +20,7 @@ class AsyncioTurns:
     def __init__(self) -> None:
         self.asyncio_loop = asyncio.new_event_loop()
         self._failure: BaseException | None = None
+        self._is_turn = False
         self.asyncio_loop.set_exception_handler(self._note_failure)
 
     def take(self, duration_s: float) -> None:
@@ -28,17 +32,19 @@ class AsyncioTurns:
         loop = self.asyncio_loop
         alarm: asyncio.Handle
         alarm = loop.call_later(duration_s, loop.stop) if duration_s > 0 else loop.call_soon(loop.stop)
+        self._is_turn = True
         try:
             loop.run_forever()
         finally:
+            self._is_turn = False
             alarm.cancel()
         failure, self._failure = self._failure, None
         if failure is not None:
             raise failure
 
     def wake(self) -> None:
-        """End the turn that is under way; no-op if there is none."""
-        if self.asyncio_loop.is_running():
+        """End the turn that is under way; no-op if there is none, as while a handler runs the loop itself."""
+        if self._is_turn:
             self.asyncio_loop.stop()
 
     def close(self) -> None:
@@ -59,6 +65,9 @@ class AsyncioTurns:
             loop.run_until_complete(loop.shutdown_default_executor())
         finally:
             loop.close()
+            if self._failure is not None and not isinstance(self._failure, KeyboardInterrupt):
+                _logger.error("A task failed after the last turn of asyncio", exc_info=self._failure)
+            self._failure = None
 
     def _note_failure(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
         exception = context.get("exception")

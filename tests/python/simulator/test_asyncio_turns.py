@@ -111,3 +111,33 @@ def test_an_event_scheduled_between_turns_is_an_event_as_any(turns):
     event_loop = WakingEventLoop(turns)
     event_loop.schedule_event(1.0, lambda: None, "context")
     assert event_loop.pop_event().context == "context"
+
+
+# A handler that runs the loop itself
+
+
+def test_an_event_that_is_scheduled_meanwhile_does_not_stop_the_loop(turns):
+    event_loop = WakingEventLoop(turns)
+
+    async def schedule():
+        event_loop.schedule_event(1, lambda: None)
+        await asyncio.sleep(0)
+        return "done"
+
+    assert turns.asyncio_loop.run_until_complete(schedule()) == "done"
+
+
+def test_a_failure_meanwhile_is_raised_by_the_next_turn(turns):
+    turns.asyncio_loop.call_soon(lambda: 1 / 0)
+    turns.asyncio_loop.run_until_complete(asyncio.sleep(0))
+    with pytest.raises(ZeroDivisionError):
+        turns.take(0)
+
+
+def test_a_failure_after_the_last_turn_is_logged(caplog):
+    turns = AsyncioTurns()
+    turns.asyncio_loop.call_soon(lambda: 1 / 0)
+    turns.close()
+    (record,) = caplog.records
+    assert "ZeroDivisionError" in caplog.text
+    assert record.levelname == "ERROR"

@@ -1,6 +1,7 @@
 """Lets autopilots fly the nodes of a simulation in real time."""
 
 import asyncio
+import contextlib
 import logging
 from collections.abc import Coroutine, Iterable
 from pathlib import Path
@@ -111,7 +112,7 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
                 )
             for identifier, node in self.nodes.items():
                 self._flights[identifier] = Flight(node, self._event_loop, configuration, self._real_time)
-            loop.run_until_complete(self._take_off())
+            _run(loop, self._take_off())
         except SitlError as error:
             raise ArdupilotMobilityException(str(error)) from error
         self._has_begun = True
@@ -200,6 +201,18 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
             raise ArdupilotMobilityException(str(error)) from error
         self._updates += 1
         event_loop.schedule_event(self._times.time_of(self._updates), self._update, "ArduPilot")
+
+
+def _run(loop: asyncio.AbstractEventLoop, work: Coroutine[Any, Any, None]) -> None:
+    """Run to the end; Ctrl-C, which may have hit any task, leaves none of them half-done."""
+    task = loop.create_task(work)
+    try:
+        loop.run_until_complete(task)
+    except KeyboardInterrupt:
+        task.cancel()
+        with contextlib.suppress(KeyboardInterrupt, asyncio.CancelledError, SitlError):
+            loop.run_until_complete(task)
+        raise
 
 
 async def _all(steps: Iterable[Coroutine[Any, Any, None]]) -> None:

@@ -343,6 +343,15 @@ def test_ctrl_c_while_taking_off_leaves_nothing_behind(toy_copter):
     alarm.join()
 
 
+def test_ctrl_c_within_one_of_its_tasks_leaves_nothing_behind(toy_copter, monkeypatch):
+    async def interrupted(vehicle, timeout_s):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("gradysim.sitl.vehicle.Vehicle.meet", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        fly(toy_copter(), Flyer, Flyer)
+
+
 def test_ctrl_c_in_flight_leaves_nothing_behind(toy_copter):
     finished = []
     tested = flyer(at_1=lambda protocol: signal.raise_signal(signal.SIGINT))
