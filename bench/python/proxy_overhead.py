@@ -22,7 +22,7 @@ from gradysim import _netsim
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.encapsulator.netsim import NetsimProvider
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.integrated.network import build_network
 from gradysim.integrated.run import run
 from gradysim.protocol.interface import IProtocol, IProvider
@@ -66,7 +66,7 @@ class IdleProvider(IProvider):
         self.tracked_variables = {}
         self.time = 0.0
         self._id = node
-        self._random = random_stream(seed, node, "protocol")
+        self._random = RandomStream(seed, node, Purpose.PROTOCOL)
 
     @property
     def random(self) -> Random:

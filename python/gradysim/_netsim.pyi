@@ -106,6 +106,14 @@ class NodeConfig:
     def __init__(self, name: str) -> None: ...
     def validate(self) -> None: ...
 
+class RandomStream:
+    """A stream of random numbers, by its name; gradysim.encapsulator.random_stream has the purposes."""
+
+    def __init__(self, seed: int, node: int, purpose: int) -> None: ...
+    def next_u32(self) -> int: ...
+    def uniform(self) -> float:
+        """Uniform in [0, 1), 53 random bits."""
+
 class Node:
     """The engine's side of one node: what its protocol may ask of it. Errors: gradysim.protocol.errors."""
 

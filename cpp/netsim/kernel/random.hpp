@@ -12,8 +12,15 @@
 
 namespace netsim {
 
-// What a stream is drawn for. The numbers are part of every result: never change one, only add.
-enum class Purpose : std::uint32_t { backoff = 1, reception = 2, fading = 4, rate_control = 6 };
+// What a stream is drawn for. The numbers are part of every result: never change one, only add. Those that Python
+// draws for, too, are in gradysim.encapsulator.random_stream with the same numbers.
+enum class Purpose : std::uint32_t {
+    backoff = 1,
+    reception = 2,
+    protocol = 3,
+    fading = 4,
+    rate_control = 6,
+};
 
 // Philox4x32 with 10 rounds: 128 bits of counter and 64 bits of key to 128 random bits.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
@@ -26,6 +33,8 @@ public:
     std::uint32_t next_u32();
     // Uniform in [0, 1), 53 random bits.
     double uniform();
+    // Uniform between two bounds, as Python's random.uniform computes it.
+    double uniform(double from, double to) { return from + (to - from) * uniform(); }
     // Uniform among 0 … count − 1, without bias. count > 0.
     std::uint32_t uniform_int(std::uint32_t count);
 

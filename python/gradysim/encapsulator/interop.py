@@ -12,7 +12,7 @@ from typing import Any
 
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.interface import IEncapsulator
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import TrackedVariables
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
@@ -98,7 +98,7 @@ class InteropProvider(IProvider):
     def random(self) -> Random:
         """The node's stream in the run; made on first use, of the seed and the id that hold then."""
         if self._random is None:
-            self._random = random_stream(self.seed, self.id, "protocol")
+            self._random = RandomStream(self.seed, self.id, Purpose.PROTOCOL)
         return self._random
 
     def _track(self, name: str, value: Any) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.geo_target import geo_target
 from gradysim.encapsulator.interface import IEncapsulator
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_history import TrackedHistory
 from gradysim.encapsulator.tracked_variables import TrackedVariables
 from gradysim.protocol.interface import IProtocol, IProvider
@@ -77,7 +77,7 @@ class NetsimProvider(IProvider):
         self._nodes = nodes
         self.handlers = {} if handlers is None else handlers
         self._reference_coordinates = reference_coordinates
-        self._random = random_stream(seed, node.id, "protocol")
+        self._random = RandomStream(seed, node.id, Purpose.PROTOCOL)
         self.history = TrackedHistory(node.current_time)
         self._tracked_variables = TrackedVariables(self.history.note)
         # An attribute of the instance hides the method of the class: a call goes straight to the engine.

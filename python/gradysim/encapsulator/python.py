@@ -7,7 +7,7 @@ from typing import Any, Protocol, cast
 
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.interface import IEncapsulator
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
@@ -104,7 +104,7 @@ class PythonProvider(IProvider):
     def random(self) -> Random:
         """The node's stream in this run, the same in every run with the same seed."""
         if self._random is None:
-            self._random = random_stream(getattr(self.node, "seed", 0), self.node.id, "protocol")
+            self._random = RandomStream(getattr(self.node, "seed", 0), self.node.id, Purpose.PROTOCOL)
         return self._random
 
     def node_positions(self) -> dict[int, Position]:

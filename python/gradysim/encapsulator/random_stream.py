@@ -1,11 +1,139 @@
-"""Named streams of random numbers, so that nobody's draws disturb anybody else's."""
+"""Named streams of random numbers: those of the engine, in plain Python.
 
+A stream is named by (seed of the run, node, purpose), so nobody's draws disturb anybody else's. `random()`
+gives bit for bit what `RandomStream::uniform()` of cpp/netsim/kernel/random.hpp gives for the same name: a
+protocol draws the same numbers in both modes, and a native one the same as its counterpart in Python.
+
+Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3",
+SC 2011: Philox4x32 with 10 rounds.
+"""
+
+from enum import IntEnum
 from random import Random
+from typing import Any, Self
+
+_MASK_32 = 0xFFFF_FFFF
+_MASK_64 = 0xFFFF_FFFF_FFFF_FFFF
+_WEYL_0 = 0x9E3779B9  # golden ratio
+_WEYL_1 = 0xBB67AE85  # sqrt(3) - 1
+_ROUNDS = 10
+
+Words = tuple[int, int, int, int]
 
 
-def random_stream(seed: int, node_id: int, purpose: str) -> Random:
-    """Return the stream of one node for one purpose in the run with that seed.
+class Purpose(IntEnum):
+    """What a stream is drawn for. The numbers are part of every result: never change one, only add.
 
-    Equal arguments give equal streams, on every platform: a text seeds the generator through SHA-512.
+    Those below 100 are the engine's too, where `enum class Purpose` has them all.
     """
-    return Random(f"{seed}/{node_id}/{purpose}")
+
+    PROTOCOL = 3
+    """`IProvider.random`."""
+    COMMUNICATION = 101
+    """Lost messages of prototype mode; of the receiver."""
+
+
+def philox4x32(counter: Words, key: tuple[int, int]) -> Words:
+    """128 bits of counter and 64 bits of key to 128 random bits, all in words of 32 bits."""
+    return _ten_rounds(counter, _round_keys(*key))
+
+
+def _round_keys(key_0: int, key_1: int) -> tuple[tuple[int, int], ...]:
+    return tuple(
+        ((key_0 + number * _WEYL_0) & _MASK_32, (key_1 + number * _WEYL_1) & _MASK_32)
+        for number in range(_ROUNDS)
+    )
+
+
+def _ten_rounds(counter: Words, keys: tuple[tuple[int, int], ...]) -> Words:
+    word_0, word_1, word_2, word_3 = counter
+    for key_0, key_1 in keys:
+        product_0 = 0xD2511F53 * word_0  # the multipliers as constants: this is the hot path
+        product_1 = 0xCD9E8D57 * word_2
+        word_0 = product_1 >> 32 ^ word_1 ^ key_0
+        word_1 = product_1 & 0xFFFF_FFFF
+        word_2 = product_0 >> 32 ^ word_3 ^ key_1
+        word_3 = product_0 & 0xFFFF_FFFF
+    return word_0, word_1, word_2, word_3
+
+
+class RandomStream(Random):
+    """The stream of one node for one purpose in the run with that seed; equal arguments give equal streams.
+
+    All methods of `random.Random` work and draw from it. Distributions are Python's own but for `random()`.
+    """
+
+    def __new__(cls, *_: Any, **__: Any) -> Self:
+        """As object's: the names of streams are no business of the base class."""
+        return super().__new__(cls)
+
+    def __init__(self, seed: int = 0, node: int = 0, purpose: int = Purpose.PROTOCOL) -> None:
+        """Start at the first number. Of `seed` 64 bits count, of the others 32."""
+        self._node = node & _MASK_32
+        self._purpose = int(purpose) & _MASK_32
+        self._seed = seed & _MASK_64
+        self._begin()
+
+    def _begin(self) -> None:
+        self._keys = _round_keys(self._seed & _MASK_32, self._seed >> 32)
+        self._block = 0  # number of the next one
+        self._words: list[int] = []  # of the present one, the next at the end
+        self.gauss_next: float | None = None  # of the base class
+
+    def _draw_block(self) -> None:
+        block = self._block
+        self._block = (block + 1) & _MASK_64
+        words = _ten_rounds((block & _MASK_32, block >> 32, self._node, self._purpose), self._keys)
+        self._words.extend(words[::-1])
+
+    def random(self) -> float:
+        """Uniform in [0, 1), 53 random bits."""
+        words = self._words
+        if not words:
+            self._draw_block()
+        high = words.pop() >> 5  # 27 bits
+        if not words:
+            self._draw_block()
+        return (high << 26 | words.pop() >> 6) * 2.0**-53
+
+    def getrandbits(self, k: int, /) -> int:
+        """`k` random bits; ValueError if there are less than none."""
+        if k < 0:
+            raise ValueError("number of bits must be non-negative")
+        words = self._words
+        result = 0
+        for shift in range(0, k, 32):
+            if not words:
+                self._draw_block()
+            missing = k - shift
+            word = words.pop()
+            result |= (word if missing >= 32 else word >> 32 - missing) << shift
+        return result
+
+    def seed(self, a: Any = None, version: int = 2) -> None:
+        """Begin again: with the seed `a` instead of the run's, or with the same one if there is none.
+
+        What is no whole number is made one as `random.Random` does it.
+        """
+        if a is not None:
+            number = a if isinstance(a, int) else Random(a).getrandbits(64)
+            self._seed = number & _MASK_64
+        self._begin()
+
+    def getstate(self) -> tuple[Any, ...]:
+        """What `setstate` takes, in this stream or in another one."""
+        name = (self._seed, self._node, self._purpose)
+        return ("Philox4x32-10", name, self._block, tuple(self._words), self.gauss_next)
+
+    def setstate(self, state: tuple[Any, ...]) -> None:
+        """Go on where the stream that gave `state` was; ValueError if no such stream did."""
+        if len(state) != 5 or state[0] != "Philox4x32-10":
+            raise ValueError("the state is not that of a RandomStream")
+        self._seed, self._node, self._purpose = state[1]
+        self._begin()
+        self._block = state[2]
+        self._words[:] = state[3]
+        self.gauss_next = state[4]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (self._seed, self._node, self._purpose), self.getstate())

@@ -11,7 +11,7 @@ from watched_run import Trace, assert_same, trace_case
 from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftMode
 
 NODES = 5
-CASE = Case([(10.0 * node, 0.0, 0.0) for node in range(NODES)], range_m=100.0, duration_s=6.0)
+CASE = Case([(10.0 * node, 0.0, 0.0) for node in range(NODES)], range_m=100.0, seed=1, duration_s=6.0)
 
 
 class Member(Quiet):

@@ -1,7 +1,7 @@
 import pytest
 
 from gradysim.encapsulator.interop import ConsequenceType, InteropEncapsulator
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
@@ -149,7 +149,7 @@ def test_replacing_the_tracked_variables_reports_what_is_gone():
 def test_the_stream_is_the_runs():
     encapsulator = encapsulated(lambda p: None)
     encapsulator.set_seed(9)
-    assert encapsulator.provider.random.random() == random_stream(9, 4, "protocol").random()
+    assert encapsulator.provider.random.random() == RandomStream(9, 4, Purpose.PROTOCOL).random()
 
 
 def test_an_exception_passes_with_a_note():

@@ -6,7 +6,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 from gradysim import _netsim
 from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
@@ -188,7 +188,7 @@ def test_a_geographic_target_without_altitude_is_an_error():
 
 def test_random_numbers_follow_from_the_seed_and_the_id():
     drawn = [encapsulator.provider.random.random() for encapsulator in Pair(seed=9).encapsulators]
-    assert drawn == [random_stream(9, identifier, "protocol").random() for identifier in range(2)]
+    assert drawn == [RandomStream(9, identifier, Purpose.PROTOCOL).random() for identifier in range(2)]
 
 
 def test_tracked_variables_keep_their_times():

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import pytest
 
 from gradysim.encapsulator.python import PythonEncapsulator, PythonProvider
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
@@ -114,12 +114,12 @@ def test_other_handlers_can_be_found(node):
 
 
 def test_the_stream_is_the_nodes_in_this_run(node):
-    assert PythonProvider(node).random.random() == random_stream(9, 3, "protocol").random()
+    assert PythonProvider(node).random.random() == RandomStream(9, 3, Purpose.PROTOCOL).random()
 
 
 def test_a_node_without_a_seed_has_a_stream_too():
     provider = PythonProvider(SimpleNamespace(id=3))
-    assert provider.random.random() == random_stream(0, 3, "protocol").random()
+    assert provider.random.random() == RandomStream(0, 3, Purpose.PROTOCOL).random()
 
 
 def test_tracked_variables_start_empty(node):

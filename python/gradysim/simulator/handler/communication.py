@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.position import Position, squared_distance
@@ -82,7 +82,7 @@ class CommunicationDestination:
         self.node = node
         self.context = f"{label_node(node)} handle_packet"
         # Losses are the receiver's draws: what others hear does not depend on it.
-        self.stream = random_stream(getattr(node, "seed", 0), node.id, "communication")
+        self.stream = RandomStream(getattr(node, "seed", 0), node.id, Purpose.COMMUNICATION)
 
     def receive_message(self, message: str, source: CommunicationSource) -> None:
         """Hand the message to the node's protocol, which is not told whose it is."""

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import pytest
 
 from gradysim.config.scenario import load_scenarios
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.mobility import MobilityCommandType
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
@@ -24,7 +24,7 @@ class RecordingProvider(IProvider):
         self.sent = []
         self.timers = []
         self.tracked_variables = {}
-        self._stream = random_stream(seed, node_id, "protocol")
+        self._stream = RandomStream(seed, node_id, Purpose.PROTOCOL)
 
     def send_communication_command(self, command):
         self.sent.append(command)

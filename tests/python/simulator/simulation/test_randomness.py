@@ -2,7 +2,7 @@ import random
 
 from simulated import build, protocol
 
-from gradysim.encapsulator.random_stream import random_stream
+from gradysim.encapsulator.random_stream import Purpose, RandomStream
 
 
 def draws(**configuration):
@@ -25,7 +25,7 @@ def test_another_seed_draws_differently():
 
 
 def test_the_protocols_stream_has_a_name():
-    assert draws(seed=5)[0][1][0] == random_stream(5, 1, "protocol").random()
+    assert draws(seed=5)[0][1][0] == RandomStream(5, 1, Purpose.PROTOCOL).random()
 
 
 def test_pythons_own_stream_starts_with_the_run():
