@@ -20,7 +20,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-tshark system-clang
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -74,7 +74,7 @@ build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the
 verify: build $(STAMPS)/verify  ## Compare with INET, ns-3 and closed forms; draws docs/verification.
 	$(BIN)/python -m pytest tests/verification --verify
 
-bench: build system-benchmark  ## Benchmarks, with the distance to their goals.
+bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals.
 	cmake -S cpp --preset bench --log-level=WARNING
 	cmake --build build/bench
 	build/bench/netsim_bench
@@ -112,6 +112,13 @@ system-clang:
 
 system-benchmark:
 	$(call need,echo '#include <benchmark/benchmark.h>' | $${CXX:-g++} -E -x c++ -,libbenchmark-dev)
+
+# Without it the benchmarks do all but the comparison with ns-3.
+system-ns3:
+	@$(MAKE) --no-print-directory need-ns3 || echo "The benchmarks go on without ns-3."
+
+need-ns3:
+	$(call need,test -e /usr/include/ns3/wifi-module.h,libns3-dev)
 
 system-tshark:
 	$(call need,command -v tshark,tshark)

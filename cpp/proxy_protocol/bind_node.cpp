@@ -2,8 +2,10 @@
 #include <memory>
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "netsim/node/node.hpp"
+#include "netsim/node/protocols/native_protocols.hpp"
 #include "proxy_protocol/bindings.hpp"
 #include "proxy_protocol/node_commands.hpp"
 #include "proxy_protocol/python_protocol.hpp"
@@ -29,6 +31,16 @@ void bind_node(py::module_& module) {
                     std::make_unique<PythonProtocol>(std::move(protocol), std::move(on_failure)));
             },
             py::arg("protocol"), py::arg("on_failure"))
+        .def("set_native_protocol", &netsim::set_native_protocol, py::arg("name"),
+             py::arg("parameters") = netsim::Parameters())
+        .def_property_readonly("tracked_variables",
+                               [](const Node& node) {
+                                   py::dict variables;
+                                   for (const auto& [name, value] : node.tracked_variables().values()) {
+                                       variables[py::str(name)] = value;
+                                   }
+                                   return variables;
+                               })
         .def("send_communication_command", &send_communication_command, py::arg("command"))
         .def("send_mobility_command", &send_mobility_command, py::arg("command"))
         .def("schedule_timer", &schedule_timer, py::arg("timer"), py::arg("timestamp"))

@@ -8,6 +8,7 @@ namespace proxy_protocol {
 void bind_config(pybind11::module_& module);
 void bind_propagation(pybind11::module_& module);
 void bind_random(pybind11::module_& module);
+void bind_native_protocols(pybind11::module_& module);
 void bind_node(pybind11::module_& module);
 void bind_network(pybind11::module_& module);
 

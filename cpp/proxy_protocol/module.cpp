@@ -13,6 +13,7 @@ PYBIND11_MODULE(_netsim, module) {
     proxy_protocol::bind_config(module);
     proxy_protocol::bind_propagation(module);
     proxy_protocol::bind_random(module);
+    proxy_protocol::bind_native_protocols(module);
     proxy_protocol::bind_node(module);
     proxy_protocol::bind_network(module);
 }

@@ -1,6 +1,6 @@
 """The compiled engine. Names, arguments and meaning are those of the C++ sources in cpp/netsim."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 class ConfigError(ValueError):
@@ -114,6 +114,33 @@ class RandomStream:
     def uniform(self) -> float:
         """Uniform in [0, 1), 53 random bits."""
 
+class Parameter:
+    """A parameter of a native protocol; its kind is that of its default."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def default(self) -> bool | int | float: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def meaning(self) -> str: ...
+
+class NativeProtocol:
+    """A protocol that the engine has itself."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def meaning(self) -> str: ...
+    @property
+    def python_class(self) -> str:
+        """The class in examples/ that does the same, as "file.py:Class", or ""."""
+    @property
+    def parameters(self) -> list[Parameter]: ...
+
+def native_protocols() -> list[NativeProtocol]: ...
+
 class Node:
     """The engine's side of one node: what its protocol may ask of it. Errors: gradysim.protocol.errors."""
 
@@ -129,6 +156,14 @@ class Node:
         `on_failure(exception, callback_name)` is called when one of them raises, before the exception
         leaves `Network.run_until`.
         """
+    def set_native_protocol(self, name: str, parameters: Mapping[str, bool | int | float] = ...) -> None:
+        """Give the node a protocol of `native_protocols()`.
+
+        ConfigError: there is none of that name, it has no such parameter, or a value is out of range.
+        """
+    @property
+    def tracked_variables(self) -> dict[str, bool | int | float | str]:
+        """What a native protocol tracks; those of a protocol in Python are its provider's."""
     def send_communication_command(self, command: Any) -> None: ...
     def send_mobility_command(self, command: Any) -> None: ...
     def schedule_timer(self, timer: str, timestamp: float) -> None: ...

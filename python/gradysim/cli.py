@@ -170,14 +170,15 @@ def list_keys(
     from gradysim.config.key_list import key_sections, matching
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.integrated.engine_defaults import engine_defaults
+    from gradysim.integrated.native_protocols import native_protocols
     from gradysim.report import key_table
 
     try:
-        structs = engine_defaults()
+        structs, natives = engine_defaults(), list(native_protocols().values())
     except CompiledPartMissingError:
-        structs = {}
+        structs, natives = {}, []
         print("defaults shown as ? are the compiled part's, which is not installed", file=sys.stderr)
-    sections = matching(key_sections(structs), pattern)
+    sections = matching(key_sections(structs, natives), pattern)
     if not sections:
         print(f"no key contains {pattern!r}; `gradysim keys` lists all", file=sys.stderr)
         return MISTAKE

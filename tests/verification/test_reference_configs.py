@@ -1,4 +1,4 @@
-"""Every configuration of configs/reference runs, in both modes."""
+"""Every configuration of configs/reference runs, in both modes; those with native protocols in one."""
 
 from collections.abc import Callable
 from functools import cache
@@ -9,13 +9,15 @@ import pytest
 import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.config import Scenario, load_scenarios
+from gradysim.config.error import ConfigError
+from gradysim.config.native_protocol import NativeProtocol
 from gradysim.config.reader import read_ini
 from gradysim.config.sections import config_names
 from gradysim.results.run_result import RunResult
 
 FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 BASES = {"Sensitivity", "Noise"}
-FILES = {"beacons", "hidden", "link", "rate_control", "saturation", "sir", "synchronised"}
+FILES = {"beacons", "flood", "hidden", "link", "rate_control", "saturation", "sir", "synchronised"}
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
 
@@ -44,7 +46,12 @@ def test_every_comparison_has_its_file() -> None:
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize(("name", "config"), runnable())
 def test_it_runs(name: str, config: str, mode: str) -> None:
+    scenario = short_run(name, config)
     run: Callable[[Scenario], RunResult] = MODES[mode]
-    result = run(short_run(name, config))
+    if mode == "prototype" and any(issubclass(node.protocol, NativeProtocol) for node in scenario.nodes):
+        with pytest.raises(ConfigError, match="does not run in prototype mode"):
+            run(scenario)
+        return
+    result = run(scenario)
     assert not result.interrupted
     assert sum(sum(fates.values()) for fates in result.fates["messages"].values()) > 0

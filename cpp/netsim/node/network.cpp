@@ -31,7 +31,7 @@ Node& Network::add_node(const NodeConfig& config) {
     if (!perfect_channel_) {
         Dcf::check(config.mac);  // before anything is built, so that a refused node leaves no trace
     }
-    Node& node = nodes_.emplace_back(simulator_, config, node_count_++, fingerprint_);
+    Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
     if (perfect_channel_) {

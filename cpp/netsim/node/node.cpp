@@ -12,12 +12,14 @@ constexpr std::uint64_t timer_word = 0x74696D6572;
 
 }  // namespace
 
-Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, Fingerprint& fingerprint)
+Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
+           Fingerprint& fingerprint)
     : simulator_(simulator),
       fingerprint_(fingerprint),
       id_(id),
       name_(config.name),
-      mobility_(make_mobility(config.mobility, config.initial_position)) {}
+      mobility_(make_mobility(config.mobility, config.initial_position)),
+      random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
 
 void Node::initialize() {
     if (protocol_) {

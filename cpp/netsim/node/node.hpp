@@ -8,17 +8,20 @@
 
 #include "netsim/config/node_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/link.hpp"
 #include "netsim/mobility/mobility.hpp"
 #include "netsim/node/protocol.hpp"
 #include "netsim/node/timers.hpp"
+#include "netsim/node/tracked_variables.hpp"
 
 namespace netsim {
 
 class Node final : private LinkListener {
 public:
-    Node(Simulator& simulator, const NodeConfig& config, NodeId id, Fingerprint& fingerprint);
+    Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
+         Fingerprint& fingerprint);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
@@ -50,6 +53,11 @@ public:
     void schedule_timer(std::string timer, SimTime time);
     // All pending timers of that name; none is fine.
     void cancel_timer(const std::string& timer);
+    // The protocol's own random numbers: IProvider.random in Python.
+    RandomStream& random() { return random_; }
+    // Values for the results of the run; they outlive the protocol.
+    TrackedVariables& tracked_variables() { return tracked_variables_; }
+    const TrackedVariables& tracked_variables() const { return tracked_variables_; }
 
 private:
     void message_received(NodeId source, const Payload& payload) override;
@@ -64,6 +72,8 @@ private:
     std::unique_ptr<Link> link_;
     std::unique_ptr<Protocol> protocol_;
     Timers timers_;
+    RandomStream random_;
+    TrackedVariables tracked_variables_;
 };
 
 }  // namespace netsim

@@ -1,7 +1,7 @@
 // The contract of a protocol in C++: the same five events as in Python.
 //
 // A protocol reacts to events and acts through its Node (send, go_to, schedule_timer, …). The Python proxy is
-// one implementation; native protocols are others. An exception thrown by a callback ends the run.
+// one implementation; native protocols, in protocols/, are others. An exception thrown by a callback ends the run.
 #pragma once
 
 #include <string>

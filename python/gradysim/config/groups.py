@@ -1,7 +1,7 @@
 """Finds the groups of nodes that a configuration names, and how many nodes each has.
 
 `*.numUavs = 2` or `*.uavs.count = 2` makes uavs[0] and uavs[1]. A name without a count is a single node
-without an index, if its protocol class is given by that name: `*.groundStation.protocol.class = ...`. Groups
+without an index, if its protocol is given by that name: `*.groundStation.protocol.class = ...`. Groups
 come in the order in which they are first named, [General] first, then the bases, the own section and the
 command line; that is the order of node ids.
 """
@@ -9,10 +9,12 @@ command line; that is the order of node ids.
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gradysim.config.keys import GROUP_SIZE, IGNORED_MODULES, NETWORK_MODULES, PROTOCOL_CLASS
+from gradysim.config.keys import GROUP_SIZE, IGNORED_MODULES, NETWORK_MODULES, PROTOCOL_KEYS
 from gradysim.config.lookup import Found, Lookup
 from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.setting import SettingReader
+
+_PROTOCOL_PATHS = frozenset(key.path for key in PROTOCOL_KEYS)
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class _Mentions:
             if rest is None and not _is_size_key(name):
                 continue
             self._names.setdefault(name)
-            if rest == PROTOCOL_CLASS.path and _names_single(found):
+            if rest in _PROTOCOL_PATHS and _names_single(found):
                 self.with_class.add(name)
 
     def size_keys(self) -> dict[str, str]:

@@ -1,6 +1,6 @@
 """The list of all keys for people: unit, default and meaning, from the tables that files are read with."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
@@ -9,9 +9,12 @@ from gradysim.config.keys import (
     NETWORK_KEYS,
     NODE_KEYS,
     OPTION_KEYS,
+    PROTOCOL_KEYS,
     PROTOCOL_PARAMETER,
     Key,
 )
+from gradysim.config.native_protocol import NativeProtocol
+from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.scenario import CommunicationMediumSpec
 
 Structs = Mapping[str, Mapping[str, object]]
@@ -41,15 +44,22 @@ class KeySection:
     rows: tuple[KeyRow, ...]
 
 
-def key_sections(structs: Structs) -> list[KeySection]:
-    """All keys. `structs` has the defaults of the engine's configurations; a struct may be missing."""
+def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ()) -> list[KeySection]:
+    """All keys. `structs` has the defaults of the engine's configurations; a struct may be missing.
+
+    `natives` are the engine's protocols.
+    """
     known = {**structs, **OWN_STRUCTS}
-    node_keys = (GROUP_SIZE, NODE_KEYS[0], PROTOCOL_PARAMETER, *NODE_KEYS[1:])
-    return [
+    node_keys = (GROUP_SIZE, *PROTOCOL_KEYS, PROTOCOL_PARAMETER, *NODE_KEYS[len(PROTOCOL_KEYS) :])
+    native_rows = tuple(row for protocol in natives for row in _native_rows(protocol))
+    sections = [
         KeySection("Options of a run", _rows("", OPTION_KEYS, known)),
         KeySection("Of a group of nodes, or of one node", _rows("*.nodes[*].", node_keys, known)),
         KeySection("Of the network", _rows("*.", NETWORK_KEYS, known)),
     ]
+    return (
+        [*sections, KeySection("Of a node with a native protocol", native_rows)] if native_rows else sections
+    )
 
 
 def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
@@ -70,6 +80,19 @@ def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, .
         KeyRow(f"{_prefix(prefix, key)}{key.written}", key.kind.unit, _default(key, structs), key.meaning)
         for key in keys
     )
+
+
+def _native_rows(protocol: type[NativeProtocol]) -> Iterator[KeyRow]:
+    """The protocol itself, and its parameters."""
+    same = f"the same as {protocol._python_class}" if protocol._python_class else ""
+    yield KeyRow(f'*.nodes[*].protocol.typename = "{protocol.__name__}"', same, "", protocol._meaning)
+    for name, kind in parameters_of(protocol).items():
+        unit, meaning = protocol._parameters[name].unit, protocol._parameters[name].meaning
+        value = getattr(protocol, name)
+        is_quantity = isinstance(value, float)
+        default = f"{value:g}{unit}" if is_quantity else kind.show(value)
+        shown = unit or "number" if is_quantity else f"{kind.unit} of {unit}" if unit else kind.unit
+        yield KeyRow(f"*.nodes[*].protocol.{name}", shown, default, meaning)
 
 
 def _prefix(prefix: str, key: Key) -> str:

@@ -63,7 +63,9 @@ def _hint(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtoco
 
 def _unknown_protocol_parameter_text(key: str, rest: Pattern, classes: Sequence[type[IProtocol]]) -> str:
     name = rest.text.removeprefix(_PROTOCOL)
-    parameters = sorted({"class", *(parameter for cls in classes for parameter in parameters_of(cls))})
+    parameters = sorted(
+        {"class", "typename", *(parameter for cls in classes for parameter in parameters_of(cls))}
+    )
     match = nearest(name, parameters)
     hint = f"; did you mean `{key.removesuffix(name)}{match}`?" if match else ""
     whose = " or ".join(cls.__name__ for cls in classes)

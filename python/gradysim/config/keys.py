@@ -76,8 +76,19 @@ PROTOCOL_CLASS = Key(
     default="none: it has to be given",
 )
 
+PROTOCOL_TYPENAME = Key(
+    "protocol.typename",
+    "protocol.typename",
+    text(),
+    "Instead of a class one of the engine's own protocols, listed below; integrated mode only",
+    default="none",
+)
+
+PROTOCOL_KEYS = (PROTOCOL_CLASS, PROTOCOL_TYPENAME)
+"""The two ways to say what a node runs; of both the first match wins."""
+
 NODE_KEYS: tuple[Key, ...] = (
-    PROTOCOL_CLASS,
+    *PROTOCOL_KEYS,
     Key(
         "mobility.typename",
         "mobility.typename",

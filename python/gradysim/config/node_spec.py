@@ -1,9 +1,10 @@
 """One node of a scenario, as both modes build it."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from gradysim.config.setting import Setting
+from gradysim.config.source import Source
 from gradysim.protocol.interface import IProtocol
 
 
@@ -16,12 +17,14 @@ class NodeSpec:
         name: "uavs[0]", or "groundStation" for a single node.
         group: The name without the index.
         index: The index in the group; 0 for a single node.
-        protocol: The class as it was written; see parametrize for its parameters.
+        protocol: The class as it was written; see parametrize for its parameters. A subclass of
+            NativeProtocol stands for a protocol of the engine.
         protocol_parameters: Values of class attributes, checked and converted.
         initial_position: x, y, z in metres.
         mobility: Fields of MobilityConfig that were set; the others keep their defaults.
         radio: Fields of RadioConfig that were set.
         mac: Fields of MacConfig that were set.
+        protocol_sources: Where the parameters were written, and under "" what chose the protocol.
     """
 
     id: int
@@ -34,3 +37,4 @@ class NodeSpec:
     mobility: Mapping[str, Setting]
     radio: Mapping[str, Setting]
     mac: Mapping[str, Setting]
+    protocol_sources: Mapping[str, Source] = field(default_factory=dict)

@@ -9,14 +9,23 @@ from dataclasses import dataclass
 
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.groups import Group
-from gradysim.config.keys import LARGEST_COORDINATE_M, NODE_KEYS, PROTOCOL_CLASS, Key
+from gradysim.config.keys import (
+    LARGEST_COORDINATE_M,
+    NODE_KEYS,
+    PROTOCOL_CLASS,
+    PROTOCOL_KEYS,
+    PROTOCOL_TYPENAME,
+    Key,
+)
 from gradysim.config.kinds import Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
+from gradysim.config.native_protocol import native_protocol
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.setting import Setting, SettingReader
+from gradysim.config.source import Source
 from gradysim.protocol.interface import IProtocol
 
 _AXES = ("x", "y", "z")
@@ -30,6 +39,7 @@ class _Shared:
     """
 
     protocol_parameters: Mapping[str, object]
+    protocol_sources: Mapping[str, Source]
     line: tuple[tuple[float, float], ...]
     steps: tuple[Found | None, ...]
     mobility: Mapping[str, Setting]
@@ -37,33 +47,47 @@ class _Shared:
     mac: Mapping[str, Setting]
 
 
-def load_classes(
+@dataclass(frozen=True, eq=False)
+class ChosenProtocol:
+    """The protocol of some nodes, and the line that says so."""
+
+    cls: type[IProtocol]
+    source: Source
+
+
+def load_protocols(
     lookup: Lookup, groups: list[Group], settings: SettingReader, loader: ProtocolLoader
-) -> dict[str, type[IProtocol]]:
-    """The protocol class of each node, by name. Raises ConfigError if a node has none or it does not load."""
-    candidates = lookup.candidates(PROTOCOL_CLASS.path)
-    classes: dict[str, type[IProtocol]] = {}
-    by_entry: dict[Found, type[IProtocol]] = {}
+) -> dict[str, ChosenProtocol]:
+    """The protocol of each node, by name. Raises ConfigError if a node has none or it does not load."""
+    candidates = [(key, lookup.candidates(key.path)) for key in PROTOCOL_KEYS]
+    protocols: dict[str, ChosenProtocol] = {}
+    by_entry: dict[Found, ChosenProtocol] = {}
     for group in groups:
         for name in group.node_names():
-            found = candidates.first(name)
-            if found is None or found.is_default:
+            given = [
+                (found.order, key, found)
+                for key, of_key in candidates
+                if (found := of_key.first(name)) is not None and not found.is_default
+            ]
+            if not given:
                 raise _no_class_error(group, groups, name)
+            _, key, found = min(given, key=lambda each: each[0])
             if found not in by_entry:
-                by_entry[found] = _load_class(found, settings, loader)
-            classes[name] = by_entry[found]
-    return classes
+                load = _load_class if key is PROTOCOL_CLASS else _native_class
+                by_entry[found] = ChosenProtocol(load(found, settings, loader), found.entry.source)
+            protocols[name] = by_entry[found]
+    return protocols
 
 
 def build_nodes(
-    lookup: Lookup, groups: list[Group], classes: Mapping[str, type[IProtocol]], settings: SettingReader
+    lookup: Lookup, groups: list[Group], protocols: Mapping[str, ChosenProtocol], settings: SettingReader
 ) -> tuple[NodeSpec, ...]:
     """All nodes, in the order of their ids. Raises ConfigError for a value that is none."""
     builder = _NodeBuilder(lookup, settings)
     nodes: list[NodeSpec] = []
     for group in groups:
         for index, name in enumerate(group.node_names()):
-            shared = builder.shared(name, classes[name])
+            shared = builder.shared(name, protocols[name])
             x, y, z = (
                 _coordinate(name, index, axis, line, step)
                 for axis, line, step in zip(_AXES, shared.line, shared.steps, strict=True)
@@ -74,12 +98,13 @@ def build_nodes(
                     name=name,
                     group=group.name,
                     index=index,
-                    protocol=classes[name],
+                    protocol=protocols[name].cls,
                     protocol_parameters=shared.protocol_parameters,
                     initial_position=(x, y, z),
                     mobility=shared.mobility,
                     radio=shared.radio,
                     mac=shared.mac,
+                    protocol_sources=shared.protocol_sources,
                 )
             )
     return tuple(nodes)
@@ -92,12 +117,13 @@ class _NodeBuilder:
         self._keys = [
             (key, candidates)
             for key in NODE_KEYS
-            if key is not PROTOCOL_CLASS and (candidates := lookup.candidates(key.path))
+            if key not in PROTOCOL_KEYS and (candidates := lookup.candidates(key.path))
         ]
         self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
         self._shared: dict[object, _Shared] = {}
 
-    def shared(self, name: str, cls: type[IProtocol]) -> _Shared:
+    def shared(self, name: str, protocol: ChosenProtocol) -> _Shared:
+        cls = protocol.cls
         parameters = self._parameters.get(cls)
         if parameters is None:
             parameters = self._parameters[cls] = [
@@ -107,20 +133,25 @@ class _NodeBuilder:
             ]
         found = [candidates.first(name) for _, candidates in self._keys]
         found_parameters = [candidates.first(name) for _, _, candidates in parameters]
-        in_force = (cls, *found, *found_parameters)
+        in_force = (protocol, *found, *found_parameters)
         shared = self._shared.get(in_force)
         if shared is None:
             shared = self._shared[in_force] = self._make(
                 {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},
+                protocol.source,
                 {
-                    parameter: self._settings.scalar(entry.entry, kind)
+                    parameter: self._settings.setting(entry.entry, kind)
                     for (parameter, kind, _), entry in zip(parameters, found_parameters, strict=True)
                     if entry and not entry.is_default
                 },
             )
         return shared
 
-    def _make(self, found: dict[Key, Found], protocol_parameters: dict[str, object]) -> _Shared:
+    def _make(
+        self, found: dict[Key, Found], chosen_at: Source, protocol_settings: dict[str, Setting]
+    ) -> _Shared:
+        parameters = {name: setting.value for name, setting in protocol_settings.items()}
+        sources = {name: setting.source for name, setting in protocol_settings.items()}
         structs = {
             struct: read_struct(struct, found, self._settings) for struct in ("mobility", "radio", "mac")
         }
@@ -131,7 +162,7 @@ class _NodeBuilder:
         }
         line = tuple(_axis_line(axis, position, values) for axis in _AXES)
         steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
-        return _Shared(protocol_parameters, line, steps, **structs)
+        return _Shared(parameters, {"": chosen_at, **sources}, line, steps, **structs)
 
 
 def read_struct(struct: str, found: Mapping[Key, Found], settings: SettingReader) -> dict[str, Setting]:
@@ -175,6 +206,15 @@ def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -
     except BadValue as error:
         expected = 'a protocol as "file.py:Class" or "package.module:Class"'
         text = f"{error.problem}; expected {expected}{error.suggestion}"
+        raise ConfigError.at(entry.source, text) from error
+
+
+def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> type[IProtocol]:
+    entry = found.entry
+    try:
+        return native_protocol(str(settings.scalar(entry, PROTOCOL_TYPENAME.kind)))
+    except BadValue as error:
+        text = f"{error.problem}; expected one that `gradysim keys protocol` lists{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 
 

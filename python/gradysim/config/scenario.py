@@ -11,7 +11,7 @@ from gradysim.config.keys import NETWORK_KEYS, OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
-from gradysim.config.nodes import build_nodes, load_classes, read_struct
+from gradysim.config.nodes import build_nodes, load_protocols, read_struct
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
 from gradysim.config.run_numbers import select_runs
@@ -200,9 +200,9 @@ def _network(
         if instead and "matches no node" in error.message:
             raise ConfigError(error.message + instead, error.source) from None
         raise
-    classes = load_classes(lookup, groups, settings, loader)
-    check_parameters(lookup, groups, classes)
-    if not classes:
+    protocols = load_protocols(lookup, groups, settings, loader)
+    check_parameters(lookup, groups, {name: protocol.cls for name, protocol in protocols.items()})
+    if not protocols:
         raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
 
     found = {
@@ -215,7 +215,7 @@ def _network(
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
     )
     return _Network(
-        nodes=build_nodes(lookup, groups, classes, settings),
+        nodes=build_nodes(lookup, groups, protocols, settings),
         medium=read_struct("medium", found, settings),
         communication_medium=CommunicationMediumSpec(
             **{field: float(setting.value) for field, setting in communication.items()}

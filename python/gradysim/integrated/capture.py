@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from gradysim.config.error import ConfigError
 from gradysim.config.nearest import did_you_mean
 from gradysim.config.scenario import NodeSpec, Scenario
-from gradysim.integrated.network import errors_at
+from gradysim.integrated.engine_errors import errors_at
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network

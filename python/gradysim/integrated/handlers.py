@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.event_loop import EngineEventLoop
+from gradysim.integrated.native_protocols import NativeView
 from gradysim.integrated.node_view import NodeView
 from gradysim.simulator.handler.given import given_handlers, step_hooks
 from gradysim.simulator.handler.interface import INodeHandler
@@ -47,7 +48,9 @@ class EngineHandlers:
         for handler in self.by_label.values():
             handler.inject(cast("EventLoop", EngineEventLoop(network)))
 
-    def register_node(self, node: "Node", encapsulator: NetsimEncapsulator[Any], seed: int) -> None:
+    def register_node(
+        self, node: "Node", encapsulator: NetsimEncapsulator[Any] | NativeView, seed: int
+    ) -> None:
         """Show every handler one more node."""
         if self.by_label:
             view = cast("SimulatorNode[Any]", NodeView(node, encapsulator, seed))

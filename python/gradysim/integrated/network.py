@@ -4,28 +4,32 @@ The settings of the scenario have the names of the fields of the engine's passiv
 one by one; what the engine's own check then finds wrong is reported where the .ini file says it.
 """
 
-import re
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
+from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.native_protocols import is_native, set_native_protocol
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
-    """Return the network of `scenario` and its nodes in the order of their ids, without protocols.
+    """Return the network of `scenario` and its nodes in the order of their ids, without protocols in Python.
 
     Raises ConfigError, with the place in the .ini file, when a value is outside the engine's range.
     """
     config = medium_config(scenario)
     with errors_at(scenario.medium):
         network: Network = load_netsim().Network(config, scenario.seed)
-    return network, tuple(add_node(network, spec) for spec in scenario.nodes)
+    nodes = tuple(add_node(network, spec) for spec in scenario.nodes)
+    for spec, node in zip(scenario.nodes, nodes, strict=True):
+        if is_native(spec):
+            set_native_protocol(node, spec)
+    return network, nodes
 
 
 def check_scenario(scenario: Scenario) -> None:
@@ -75,22 +79,3 @@ def set_fields(config: object, settings: Mapping[str, Setting]) -> None:
         except (TypeError, OverflowError) as error:
             text = f"{setting.value!r} does not fit the engine's field {field}"
             raise ConfigError.at(setting.source, text) from error
-
-
-@contextmanager
-def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
-    """Turn an error of the engine's check into a ConfigError, at the setting whose field its text names."""
-    try:
-        yield
-    except ValueError as error:  # the engine's ConfigError is one
-        setting = named_in(str(error), settings)
-        if setting is None:
-            raise ConfigError(str(error)) from error
-        raise ConfigError.at(setting.source, str(error)) from error
-
-
-def named_in(text: str, settings: Mapping[str, Setting]) -> Setting | None:
-    """Return the setting whose field is named first in `text`, or None."""
-    found = {field: re.search(rf"\b{re.escape(field)}\b", text) for field in settings}
-    places = {match.start(): field for field, match in found.items() if match is not None}
-    return settings[places[min(places)]] if places else None

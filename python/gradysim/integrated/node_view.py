@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.integrated.native_protocols import NativeView
 from gradysim.protocol.position import Position
 
 if TYPE_CHECKING:
@@ -18,7 +19,9 @@ class NodeView:
         seed: Seed of the run.
     """
 
-    def __init__(self, node: "Node", protocol_encapsulator: NetsimEncapsulator[Any], seed: int) -> None:
+    def __init__(
+        self, node: "Node", protocol_encapsulator: NetsimEncapsulator[Any] | NativeView, seed: int
+    ) -> None:
         self.id = node.id
         self.protocol_encapsulator = protocol_encapsulator
         self.seed = seed

@@ -15,6 +15,7 @@ from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import start_captures
 from gradysim.integrated.handlers import EngineHandlers
+from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
 from gradysim.integrated.real_time import RealTimeRun
 from gradysim.protocol.interface import IProtocol
@@ -64,12 +65,17 @@ class IntegratedRun:
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
-        self._encapsulators: list[NetsimEncapsulator[IProtocol]] = []
+        self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
         self._make_protocols()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
+            if is_native(spec):
+                view = NativeView(node, spec)
+                self._encapsulators.append(view)
+                self._handlers.register_node(node, view, scenario.seed)
+                continue
             encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(
                 node,
                 seed=scenario.seed,

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from gradysim.config.error import ConfigError
+from gradysim.config.native_protocol import NativeProtocol, text_of_only_integrated
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import NodeSpec, Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
@@ -25,6 +26,7 @@ def build_simulation(
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
     handlers cannot be added, and what the constructor of a protocol raises.
     """
+    check_protocols(scenario)
     world = "its {label} handler follows from the scenario"
     given = given_handlers(handlers, "prototype mode", world, asynchronous=True)
     ledger = CopyLedger()
@@ -50,8 +52,17 @@ def check_scenario(scenario: Scenario) -> None:
 
     Building the simulation does the same check; this is for who wants to know before other runs are run.
     """
+    check_protocols(scenario)
     communication_medium(scenario)
     mobility_handler(scenario)
+
+
+def check_protocols(scenario: Scenario) -> None:
+    """Raise ConfigError for the first node whose protocol only the engine can run."""
+    for spec in scenario.nodes:
+        if issubclass(spec.protocol, NativeProtocol):
+            text = f"{spec.name}: {text_of_only_integrated(spec.protocol, 'prototype mode')}"
+            raise ConfigError(text, spec.protocol_sources.get(""))
 
 
 def mobility_handler(scenario: Scenario) -> MasslessMobilityHandler:

@@ -55,4 +55,4 @@ def markdown(sections: Iterable[KeySection]) -> str:
 
 
 def _code(default: str) -> str:
-    return default if " " in default and '"' not in default else f"`{default}`"
+    return default if not default or (" " in default and '"' not in default) else f"`{default}`"

@@ -84,22 +84,22 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
         (
             "*.uavs[*].protocol.heartbeat_jiter",
             "`heartbeat_jiter` is no parameter of Mobile; "
-            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries; "
+            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries, typename; "
             "did you mean `*.uavs[*].protocol.heartbeat_jitter`?",
         ),
         (
             "*.uavs[*].protocol.waypoints",
             "`waypoints` is no parameter of Mobile, it is of type list and not a plain public value; "
-            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries",
+            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries, typename",
         ),
         (
             "*.groundStation.protocol.label",
-            "`label` is no parameter of Sensor; expected one of class",
+            "`label` is no parameter of Sensor; expected one of class, typename",
         ),
         (
             "*.*.protocol.lable",
             "`lable` is no parameter of Mobile or Sensor; "
-            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries; "
+            "expected one of class, eager, heartbeat_jitter, label, launch_interval, retries, typename; "
             "did you mean `*.*.protocol.label`?",
         ),
     ],

@@ -17,9 +17,11 @@ CONFIGS = ROOT / "configs"
 LIMIT_S = 2.5
 
 CASES = {  # file in configs/reference: (configuration, reach in metres, more settings)
-    "beacons": ("Beacons100", 300, ()),
+    "beacons": ("Python100", 300, ()),
+    "flood": ("Python", 50, ()),
     "hidden": ("General", 1000, ()),
     "link": ("Snr24", 45, ()),
+    "rate_control": ("Fixed", 1000, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "sir": ("General", 1000, ()),
     "synchronised": ("General", 100, ()),

@@ -7,9 +7,7 @@ from gradysim.config.scenario import Setting, Source
 from gradysim.integrated.network import (
     build_network,
     check_scenario,
-    errors_at,
     medium_config,
-    named_in,
     node_config,
     set_fields,
 )
@@ -59,12 +57,6 @@ def test_what_the_engine_refuses_is_an_error_at_its_setting(make_scenario, text)
     assert error.value.key == text.partition(" = ")[0]
 
 
-def test_an_error_that_names_no_setting_is_one_without_a_place():
-    with pytest.raises(ConfigError) as error, errors_at({"power_w": setting(0)}):
-        raise ValueError("nothing works")
-    assert str(error.value) == "nothing works"
-
-
 def test_a_value_of_a_type_that_the_field_cannot_hold_is_an_error_at_its_setting():
     class Strict:
         @property
@@ -77,12 +69,3 @@ def test_a_value_of_a_type_that_the_field_cannot_hold_is_an_error_at_its_setting
 
     with pytest.raises(ConfigError, match=r"a\.ini:7: .*'x' does not fit the engine's field"):
         set_fields(Strict(), {"field": setting("x")})
-
-
-def test_the_field_that_is_named_first_is_the_wrong_one():
-    settings = {"cw_max": setting(3), "cw_min": setting(7)}
-    assert named_in("mac.cw_min = 7: expected at most mac.cw_max = 3", settings) is settings["cw_min"]
-
-
-def test_a_part_of_a_name_is_no_name():
-    assert named_in("radio.tx_power_w = 0", {"power_w": setting(0)}) is None

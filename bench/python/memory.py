@@ -1,0 +1,82 @@
+"""What a node takes of memory, and whether memory grows over a run.
+
+Native beacons (configs/reference/beacons.ini) with 500 nodes. Goals: less than 4 kB for each node more; and
+resident memory at the end of a run within 1 MB of what it was after the first tenth. The run has 10 million
+events, with the option --long 100 million.
+"""
+
+import gc
+import os
+import sys
+from pathlib import Path
+
+from gradysim.config.scenario import load_scenarios
+from gradysim.integrated.run import IntegratedRun
+
+CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"
+PER_NODE_GOAL_BYTES = 4096
+GROWTH_GOAL_KB = 1024
+NODES = 500
+PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
+
+
+def resident_kb() -> float:
+    """Memory of this process now, in kB of 1024 bytes."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE_BYTES / 1024
+
+
+def long_run(events: float) -> float:
+    """Run that many events, and return by how many kB memory grew after the first tenth of them."""
+    (probe,) = load_scenarios(CONFIG, overrides=["sim-time-limit = 11s", f"*.numNodes = {NODES}"])
+    built = IntegratedRun(probe)
+    built.execute()
+    sim_time_s = 1 + 10 * events / built.result().events
+    overrides = [f"sim-time-limit = {sim_time_s:.0f}s", "*.nodes[*].protocol.stop = 1000000s"]
+    (scenario,) = load_scenarios(CONFIG, overrides=[*overrides, f"*.numNodes = {NODES}"])
+    samples: list[tuple[float, float]] = []
+    built = IntegratedRun(scenario)
+    built.execute(progress=lambda time_s: samples.append((time_s, resident_kb())))
+    result = built.result()
+    early = [kb for time_s, kb in samples if time_s <= sim_time_s / 10]
+    if not early:
+        sys.exit("the run was too short to look at its memory")
+    growth_kb = samples[-1][1] - early[-1]
+    print(
+        f"    {result.events:.3g} events in {result.cpu_s:.1f} s, "
+        f"{result.events / result.cpu_s / 1e6:.1f} M/s; resident {early[-1] / 1024:.1f} MB after a tenth, "
+        f"{samples[-1][1] / 1024:.1f} MB at the end"
+    )
+    return growth_kb
+
+
+def per_node() -> float:
+    """Return how many bytes a node takes, with its share of what the run needs: between 100 and 500 nodes."""
+
+    def peak_kb(nodes: int) -> float:
+        (scenario,) = load_scenarios(CONFIG, overrides=["sim-time-limit = 5s", f"*.numNodes = {nodes}"])
+        gc.collect()
+        before = resident_kb()
+        built = IntegratedRun(scenario)
+        built.execute()
+        return resident_kb() - before
+
+    # Each in a process of its own: what one run has given back would else serve the next.
+    sizes = {}
+    for nodes in (100, NODES):
+        child = os.fork()
+        if child == 0:
+            Path(f"/tmp/gradysim-memory-{os.getppid()}-{nodes}").write_text(str(peak_kb(nodes)))
+            os._exit(0)
+        os.waitpid(child, 0)
+        file = Path(f"/tmp/gradysim-memory-{os.getpid()}-{nodes}")
+        sizes[nodes] = float(file.read_text())
+        file.unlink()
+    return (sizes[NODES] - sizes[100]) * 1024 / (NODES - 100)
+
+
+if __name__ == "__main__":
+    node_bytes = per_node()
+    growth_kb = long_run(1e8 if "--long" in sys.argv[1:] else 1e7)
+    print(f"memory of a node: {node_bytes:.0f} B (goal: less than {PER_NODE_GOAL_BYTES} B)")
+    print(f"growth over the run: {growth_kb:.0f} kB (goal: at most {GROWTH_GOAL_KB} kB)")
+    sys.exit(node_bytes >= PER_NODE_GOAL_BYTES or growth_kb > GROWTH_GOAL_KB)

@@ -1,0 +1,44 @@
+// A node that broadcasts at regular times and counts what it hears: examples/reference/beacon.py, natively.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/node/protocols/parameter.hpp"
+
+namespace netsim {
+
+struct BeaconConfig {
+    double first_send_s = 1.0;  // ≥ 0
+    double spread_s = 0.0;      // ≥ 0
+    double interval_s = 1.0;    // > 0
+    double stop_s = 60.9;
+    std::int64_t payload_bytes = 100;  // ≥ 0
+
+    void validate() const;
+};
+
+// Message number k goes out at first_send + offset + k · interval. The offset is drawn at the start, between 0 and
+// spread. Tracked in the end: "sent", "received".
+class BeaconProtocol final : public Protocol {
+public:
+    BeaconProtocol(Node& node, const BeaconConfig& config);
+    static NativeProtocol description();
+
+    void initialize() override;
+    void handle_timer(const std::string& timer) override;
+    void handle_packet(const Payload&) override { ++received_; }
+    void handle_telemetry(const Position&) override {}
+    void finish() override;
+
+private:
+    void schedule();
+
+    Node& node_;
+    BeaconConfig config_;
+    Payload message_;
+    double start_s_ = 0;
+    std::int64_t sent_ = 0;
+    std::int64_t received_ = 0;
+};
+
+}  // namespace netsim

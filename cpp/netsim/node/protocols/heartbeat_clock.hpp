@@ -1,0 +1,34 @@
+// When heartbeats are sent: number k at k · interval + a random delay of up to `jitter`.
+//
+// All nodes count from time zero, so without jitter they all send at exactly the same instants.
+#pragma once
+
+#include <cmath>
+
+#include "netsim/kernel/random.hpp"
+#include "netsim/kernel/sim_time.hpp"
+
+namespace netsim {
+
+class HeartbeatClock {
+public:
+    // interval_s > 0; 0 ≤ jitter_s ≤ interval_s. The first heartbeat is the first one after `start_s`.
+    HeartbeatClock(double interval_s, double jitter_s, double start_s, RandomStream& random)
+        : interval_s_(interval_s),
+          jitter_s_(jitter_s),
+          number_(std::floor(start_s / interval_s)),
+          random_(random) {}
+
+    SimTime next() {
+        number_ += 1;
+        return SimTime::from_seconds(number_ * interval_s_ + random_.uniform(0, jitter_s_));
+    }
+
+private:
+    double interval_s_;
+    double jitter_s_;
+    double number_;  // a whole one
+    RandomStream& random_;
+};
+
+}  // namespace netsim

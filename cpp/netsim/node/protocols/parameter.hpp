@@ -1,0 +1,106 @@
+// The parameters of native protocols: fields of a plain struct, each with the name, unit and meaning that people see.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "netsim/node/node.hpp"
+#include "netsim/node/protocol.hpp"
+
+namespace netsim {
+
+// The alternatives are the kinds of parameters.
+using ParameterValue = std::variant<bool, std::int64_t, double>;
+
+struct Parameter {
+    std::string_view name;  // as in the Python class that does the same
+    ParameterValue default_value;
+    std::string_view unit;  // SI; "" for a plain number, "B" for a size in bytes
+    std::string_view meaning;
+};
+
+// What is given; what is not has its default.
+using Parameters = std::map<std::string, ParameterValue, std::less<>>;
+
+// One row of the table of native protocols.
+struct NativeProtocol {
+    std::string_view name;
+    std::string_view meaning;
+    std::string_view python_class;  // "file.py:Class" in examples/ that does the same, or ""
+    std::vector<Parameter> parameters;
+    // Makes the protocol of one node. Throws ConfigError for an unknown name, another kind of value, or one out of
+    // range.
+    std::function<std::unique_ptr<Protocol>(Node&, const Parameters&)> make;
+};
+
+// A field of the struct `Config`, and how it is called.
+template <typename Config>
+struct ParameterField {
+    std::string_view name;
+    std::variant<bool Config::*, std::int64_t Config::*, double Config::*> member;
+    std::string_view unit;
+    std::string_view meaning;
+};
+
+[[noreturn]] void refuse_unknown_parameter(std::string_view protocol, std::string_view parameter,
+                                           const std::vector<std::string_view>& names);
+[[noreturn]] void refuse_kind_of_parameter(std::string_view parameter, const ParameterValue& expected);
+
+// For validate(): a size of a message that fits into any MTU, 0 … 65,507 B (the largest UDP payload).
+void check_payload_bytes(std::int64_t payload_bytes);
+
+// A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults and validate().
+template <typename Type, typename Config>
+NativeProtocol native_protocol(std::string_view name, std::string_view meaning, std::string_view python_class,
+                               std::vector<ParameterField<Config>> fields) {
+    NativeProtocol row{name, meaning, python_class, {}, {}};
+    for (const ParameterField<Config>& field : fields) {
+        const ParameterValue value =
+            std::visit([](auto member) { return ParameterValue(Config().*member); }, field.member);
+        row.parameters.push_back({field.name, value, field.unit, field.meaning});
+    }
+    row.make = [name, fields = std::move(fields)](Node& node, const Parameters& given) {
+        Config config;
+        std::vector<std::string_view> names;
+        std::size_t used = 0;
+        for (const ParameterField<Config>& field : fields) {
+            names.push_back(field.name);
+            const auto found = given.find(field.name);
+            if (found == given.end()) {
+                continue;
+            }
+            ++used;
+            std::visit(
+                [&](auto member) {
+                    using Value = std::remove_reference_t<decltype(config.*member)>;
+                    const Value* value = std::get_if<Value>(&found->second);
+                    if (value == nullptr) {
+                        refuse_kind_of_parameter(field.name, ParameterValue(config.*member));
+                    }
+                    config.*member = *value;
+                },
+                field.member);
+        }
+        if (used != given.size()) {
+            for (const auto& [parameter, value] : given) {
+                if (std::find(names.begin(), names.end(), parameter) == names.end()) {
+                    refuse_unknown_parameter(name, parameter, names);
+                }
+            }
+        }
+        config.validate();
+        return std::make_unique<Type>(node, config);
+    };
+    return row;
+}
+
+}  // namespace netsim

@@ -1,0 +1,49 @@
+#include "netsim/node/protocols/saturating_source.hpp"
+
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "netsim/config/check.hpp"
+
+namespace netsim {
+
+void SaturatingSourceConfig::validate() const {
+    constexpr double most = std::numeric_limits<NodeId>::max();
+    check_between("protocol.destination", static_cast<double>(destination), 0, most, "");
+    check_payload_bytes(payload_bytes);
+    check_between("protocol.burst", static_cast<double>(burst), 1, most, "");
+    check_greater("protocol.interval", interval_s, 0, "s");
+}
+
+SaturatingSource::SaturatingSource(Node& node, const SaturatingSourceConfig& config)
+    : node_(node),
+      config_(config),
+      message_(std::make_shared<const std::string>(static_cast<std::size_t>(config.payload_bytes), 'x')) {}
+
+NativeProtocol SaturatingSource::description() {
+    using Config = SaturatingSourceConfig;
+    return native_protocol<SaturatingSource, Config>(
+        "SaturatingSource", "Sends to one node, faster than the channel can carry it",
+        "examples/reference/saturating_source.py:SaturatingSource",
+        {
+            {"destination", &Config::destination, "", "Id of the node that the messages go to"},
+            {"payload_bytes", &Config::payload_bytes, "B", "Size of a message"},
+            {"burst", &Config::burst, "", "Messages handed over at once"},
+            {"interval", &Config::interval_s, "s", "Time between two bursts"},
+        });
+}
+
+void SaturatingSource::initialize() {
+    node_.schedule_timer("burst", SimTime());
+}
+
+void SaturatingSource::handle_timer(const std::string&) {
+    for (std::int64_t i = 0; i < config_.burst; ++i) {
+        node_.send(static_cast<NodeId>(config_.destination), message_);
+    }
+    ++bursts_;
+    node_.schedule_timer("burst", SimTime::from_seconds(static_cast<double>(bursts_) * config_.interval_s));
+}
+
+}  // namespace netsim

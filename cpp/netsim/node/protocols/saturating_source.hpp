@@ -1,0 +1,39 @@
+// A node that always has something to send: examples/reference/saturating_source.py, natively.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/node/protocols/parameter.hpp"
+
+namespace netsim {
+
+struct SaturatingSourceConfig {
+    std::int64_t destination = 0;       // a node's id
+    std::int64_t payload_bytes = 1000;  // ≥ 0
+    std::int64_t burst = 4;             // ≥ 1
+    double interval_s = 0.001;          // > 0
+
+    void validate() const;
+};
+
+// Hands a burst of messages to its MAC at regular times, faster than the channel can carry them: the queue never runs
+// empty. The defaults offer 32 Mbps of payload. What does not fit into the queue is dropped there.
+class SaturatingSource final : public Protocol {
+public:
+    SaturatingSource(Node& node, const SaturatingSourceConfig& config);
+    static NativeProtocol description();
+
+    void initialize() override;
+    void handle_timer(const std::string& timer) override;
+    void handle_packet(const Payload&) override {}
+    void handle_telemetry(const Position&) override {}
+    void finish() override {}
+
+private:
+    Node& node_;
+    SaturatingSourceConfig config_;
+    Payload message_;
+    std::int64_t bursts_ = 0;
+};
+
+}  // namespace netsim

@@ -1,0 +1,35 @@
+// A node that only counts what it receives: examples/reference/sink.py, natively.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/node/protocols/parameter.hpp"
+
+namespace netsim {
+
+struct SinkConfig {
+    double count_from_s = 0.0;
+
+    void validate() const;
+};
+
+// Tracked in the end, of the messages from `count_from` on: "received" and "received_bytes".
+class SinkProtocol final : public Protocol {
+public:
+    SinkProtocol(Node& node, const SinkConfig& config) : node_(node), config_(config) {}
+    static NativeProtocol description();
+
+    void initialize() override {}
+    void handle_timer(const std::string&) override {}
+    void handle_packet(const Payload& message) override;
+    void handle_telemetry(const Position&) override {}
+    void finish() override;
+
+private:
+    Node& node_;
+    SinkConfig config_;
+    std::int64_t received_ = 0;
+    std::int64_t received_bytes_ = 0;
+};
+
+}  // namespace netsim

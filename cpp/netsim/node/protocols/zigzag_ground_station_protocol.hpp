@@ -1,0 +1,43 @@
+// The ground station's part of ZigZag: examples/zigzag/ground_station.py, natively.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/node/protocols/heartbeat_clock.hpp"
+#include "netsim/node/protocols/parameter.hpp"
+#include "netsim/node/protocols/zigzag_custody.hpp"
+#include "netsim/node/protocols/zigzag_message.hpp"
+
+namespace netsim {
+
+struct ZigZagGroundStationConfig {
+    double heartbeat_interval_s = 1.0;  // > 0
+    double heartbeat_jitter_s = 0.1;    // 0 … interval
+
+    void validate() const;
+};
+
+// Stands still and takes all data of each UAV that comes by; the UAV then flies away from it. Tracked: "data", readings
+// that have arrived; "deliveries", how often a UAV brought any.
+class ZigZagGroundStationProtocol final : public Protocol {
+public:
+    ZigZagGroundStationProtocol(Node& node, const ZigZagGroundStationConfig& config);
+    static NativeProtocol description();
+
+    void initialize() override;
+    void handle_timer(const std::string& timer) override;
+    void handle_packet(const Payload& message) override;
+    void handle_telemetry(const Position&) override {}
+    void finish() override {}
+
+private:
+    void take(NodeId uav, std::int64_t given);
+    void track();
+
+    Node& node_;
+    HeartbeatClock heartbeats_;
+    zigzag::Custody custody_;
+    std::int64_t deliveries_ = 0;
+};
+
+}  // namespace netsim

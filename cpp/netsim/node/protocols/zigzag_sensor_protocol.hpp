@@ -1,0 +1,31 @@
+// The sensor's part of ZigZag: examples/zigzag/sensor.py, natively.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/node/protocols/parameter.hpp"
+
+namespace netsim {
+
+struct ZigZagSensorConfig {
+    void validate() const {}
+};
+
+// Stands still and answers each heartbeat of a UAV with a reading. Tracked: "answered", readings sent so far.
+class ZigZagSensorProtocol final : public Protocol {
+public:
+    ZigZagSensorProtocol(Node& node, const ZigZagSensorConfig&) : node_(node) {}
+    static NativeProtocol description();
+
+    void initialize() override;
+    void handle_timer(const std::string&) override {}
+    void handle_packet(const Payload& message) override;
+    void handle_telemetry(const Position&) override {}
+    void finish() override {}
+
+private:
+    Node& node_;
+    std::int64_t answered_ = 0;
+};
+
+}  // namespace netsim

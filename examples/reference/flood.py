@@ -1,0 +1,86 @@
+"""Flooding: a message reaches all nodes of a network, relayed by each of them once."""
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+
+_ORIGIN_TIMER = "flood"
+
+
+class Flood(IProtocol):
+    """The origin broadcasts number k at first_send + k * interval; each other node relays it once.
+
+    A message is "NUMBER HOPS ", filled up with x to `payload_bytes`. HOPS, 1 from the origin, grows by one
+    with each relay.
+
+    Tracked variables, at the end:
+        sent: Messages of one's own.
+        received: Messages heard, each one once.
+        duplicates: Messages heard again.
+        relayed: Messages passed on.
+        most_hops: Transmissions in a row of the message that came from farthest.
+    """
+
+    origin: int = 0
+    """Id of the node that the messages come from."""
+    first_send: float = 1.0
+    """Seconds; not negative."""
+    interval: float = 1.0
+    """Seconds between two messages of the origin, > 0."""
+    stop: float = 60.9
+    """The origin sends nothing from this time in seconds on."""
+    jitter: float = 0.01
+    """Longest delay of a relay in seconds; drawn for each, or neighbours would relay at the same instant."""
+    hop_limit: int = 16
+    """Transmissions in a row after which a message is not relayed any more."""
+    payload_bytes: int = 100
+    """Size of a message; longer if its numbers are."""
+
+    def initialize(self) -> None:
+        """Schedule the first message of the origin."""
+        if not self.interval > 0:
+            raise ValueError(f"interval is {self.interval} s, expected more than 0 s")
+        self._known: set[int] = set()
+        self._counts = dict.fromkeys(("sent", "received", "duplicates", "relayed", "most_hops"), 0)
+        if self.provider.get_id() == self.origin:
+            self._schedule()
+
+    def _schedule(self) -> None:
+        time = self.first_send + self._counts["sent"] * self.interval
+        if time < self.stop:
+            self.provider.schedule_timer(_ORIGIN_TIMER, time)
+
+    def _text(self, number: int, hops: int) -> str:
+        return f"{number} {hops} ".ljust(self.payload_bytes, "x")
+
+    def handle_timer(self, timer: str) -> None:
+        """Send the origin's next message, or relay the one that is the timer's name."""
+        if timer != _ORIGIN_TIMER:
+            self.provider.send_communication_command(BroadcastMessageCommand(timer))
+            self._counts["relayed"] += 1
+            return
+        number = self._counts["sent"]
+        self._known.add(number)
+        self.provider.send_communication_command(BroadcastMessageCommand(self._text(number, hops=1)))
+        self._counts["sent"] += 1
+        self._schedule()
+
+    def handle_packet(self, message: str) -> None:
+        """Count, and relay what is new."""
+        number, hops = map(int, message.split(" ", 2)[:2])
+        if number in self._known:
+            self._counts["duplicates"] += 1
+            return
+        self._known.add(number)
+        self._counts["received"] += 1
+        self._counts["most_hops"] = max(self._counts["most_hops"], hops)
+        if hops < self.hop_limit:
+            delay = self.provider.random.uniform(0, self.jitter)
+            self.provider.schedule_timer(self._text(number, hops + 1), self.provider.current_time() + delay)
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """Where it is does not matter."""
+
+    def finish(self) -> None:
+        """Show the counts."""
+        self.provider.tracked_variables.update(self._counts)

@@ -1,0 +1,76 @@
+#include "netsim/node/protocols/native_protocols.hpp"
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "config/error_text.hpp"
+#include "netsim/node/network.hpp"
+
+namespace netsim {
+namespace {
+
+class NativeProtocols : public testing::Test {
+protected:
+    std::string error_of(std::string_view name, const Parameters& parameters) {
+        return error_text([&] { set_native_protocol(node, name, parameters); });
+    }
+
+    Network network{MediumConfig(), 1};
+    Node& node = network.add_node(NodeConfig("node"));
+};
+
+TEST_F(NativeProtocols, HaveNamesOfTheirOwn) {
+    std::set<std::string_view> names;
+    for (const NativeProtocol& protocol : native_protocols()) {
+        EXPECT_TRUE(names.insert(protocol.name).second) << protocol.name;
+    }
+}
+
+TEST_F(NativeProtocols, TellWhatTheirParametersMean) {
+    for (const NativeProtocol& protocol : native_protocols()) {
+        EXPECT_FALSE(protocol.meaning.empty()) << protocol.name;
+        for (const Parameter& parameter : protocol.parameters) {
+            EXPECT_FALSE(parameter.meaning.empty()) << protocol.name << "." << parameter.name;
+        }
+    }
+}
+
+TEST_F(NativeProtocols, CanBeMadeWithTheDefaultsThatTheyTell) {
+    for (const NativeProtocol& protocol : native_protocols()) {
+        Parameters defaults;
+        for (const Parameter& parameter : protocol.parameters) {
+            defaults.emplace(parameter.name, parameter.default_value);
+        }
+        set_native_protocol(node, protocol.name, defaults);
+        EXPECT_NE(node.protocol(), nullptr) << protocol.name;
+    }
+}
+
+TEST_F(NativeProtocols, AnUnknownNameIsRefusedWithTheNearest) {
+    EXPECT_EQ(error_of("BeaconProtokol", {}),
+              "there is no native protocol `BeaconProtokol`; did you mean `BeaconProtocol`?");
+}
+
+TEST_F(NativeProtocols, AnUnknownParameterIsRefusedWithTheNearest) {
+    EXPECT_EQ(error_of("BeaconProtocol", {{"first_sent", 1.0}}),
+              "`first_sent` is no parameter of BeaconProtocol; did you mean `first_send`?");
+    EXPECT_EQ(error_of("ZigZagSensorProtocol", {{"speed", 1.0}}),
+              "`speed` is no parameter of ZigZagSensorProtocol, which has none");
+}
+
+TEST_F(NativeProtocols, AValueOfAnotherKindIsRefused) {
+    EXPECT_EQ(error_of("BeaconProtocol", {{"payload_bytes", 1.5}}),
+              "protocol.payload_bytes: expected a whole number");
+    EXPECT_EQ(error_of("BeaconProtocol", {{"interval", std::int64_t{1}}}),
+              "protocol.interval: expected a number");
+}
+
+TEST_F(NativeProtocols, AValueOutOfRangeIsRefused) {
+    EXPECT_EQ(error_of("BeaconProtocol", {{"interval", 0.0}}),
+              "protocol.interval = 0 s: expected more than 0 s");
+}
+
+}  // namespace
+}  // namespace netsim

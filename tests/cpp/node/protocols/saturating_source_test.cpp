@@ -1,0 +1,34 @@
+#include "netsim/node/protocols/saturating_source.hpp"
+
+#include <cstdint>
+
+#include <gtest/gtest.h>
+
+#include "support/pair_of_nodes.hpp"
+
+namespace netsim {
+namespace {
+
+using SaturatingSourceTest = test::PairOfNodes;
+
+TEST_F(SaturatingSourceTest, HandsOverABurstInEachInterval) {
+    run("SaturatingSource",
+        {{"destination", std::int64_t{1}},
+         {"burst", std::int64_t{3}},
+         {"interval", 0.1},
+         {"payload_bytes", std::int64_t{10}}},
+        0.25);
+    EXPECT_EQ(other->packets.size(), 9U);
+    EXPECT_EQ(other->packets.back().text, "xxxxxxxxxx");
+}
+
+TEST_F(SaturatingSourceTest, ItsQueueNeverRunsEmpty) {
+    run("SaturatingSource", {{"destination", std::int64_t{1}}}, 1);
+    constexpr auto dropped = static_cast<std::size_t>(MessageFate::queue_overflow);
+    EXPECT_GT(network.message_fates().counts(MessageKind::unicast)[dropped], 0U);
+    // Nothing but frame, ACK and waiting: more than 2 Mbps at the default rate of 6 Mbps or more.
+    EXPECT_GT(other->packets.size() * 8000, 2e6);
+}
+
+}  // namespace
+}  // namespace netsim

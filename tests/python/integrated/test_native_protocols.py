@@ -1,0 +1,82 @@
+from pathlib import Path
+
+import pytest
+
+import gradysim.prototype.run
+from gradysim.config.error import ConfigError
+from gradysim.config.protocol_loader import ProtocolLoader
+from gradysim.config.protocol_parameters import parameters_of
+from gradysim.integrated.native_protocols import native_protocols
+from gradysim.integrated.network import check_scenario
+from gradysim.integrated.run import IntegratedRun, run
+from gradysim.simulator.handler.assertion import AssertionHandler, assert_always_true_for_protocol
+
+ROOT = Path(__file__).parents[3]
+BEACON = '*.uavs[*].protocol.typename = "BeaconProtocol"'
+
+
+@pytest.mark.parametrize("name", native_protocols())
+def test_parameters_are_those_of_the_class_in_python(name):
+    native = native_protocols()[name]
+    python = ProtocolLoader().load(native._python_class, ROOT)
+    assert {each: getattr(native, each) for each in parameters_of(native)} == {
+        each: getattr(python, each) for each in parameters_of(python)
+    }
+    assert [kind.expected for kind in parameters_of(native).values()] == [
+        parameters_of(python)[each].expected for each in parameters_of(native)
+    ]
+
+
+def test_what_it_counted_is_in_the_result(make_scenario):
+    spread = "*.uavs[*].protocol.spread = 100ms", "*.uavs[*].protocol.stop = 1.9s"
+    result = run(make_scenario("class Tested(Quiet): pass", BEACON, *spread))
+    assert [(node.protocol, node.tracked_variables) for node in result.nodes] == [
+        ("BeaconProtocol", {"sent": 1, "received": 1}),
+        ("BeaconProtocol", {"sent": 1, "received": 1}),
+    ]
+
+
+def test_beside_protocols_in_python(make_scenario):
+    result = run(make_scenario("class Tested(Talker): pass", BEACON.replace("[*]", "[0]")))
+    assert result.nodes[0].tracked_variables["received"] > 10
+    assert result.nodes[1].tracked_variables == {"heard": 2, "finished": True}
+
+
+def test_a_parameter_out_of_range_is_an_error_at_its_setting(make_scenario):
+    scenario = make_scenario("class Tested(Quiet): pass", BEACON, "*.uavs[1].protocol.interval = 0s")
+    with pytest.raises(ConfigError, match=r"interval = 0 s: expected more than 0 s") as error:
+        check_scenario(scenario)
+    assert error.value.key == "*.uavs[1].protocol.interval"
+
+
+def test_prototype_mode_names_the_class_to_use(make_scenario):
+    scenario = make_scenario("class Tested(Quiet): pass", BEACON)
+    expected = (
+        r"uavs\[0\]: the native protocol BeaconProtocol does not run in prototype mode; use `protocol.class` "
+        r'with "examples/reference/beacon.py:Beacon" instead, or integrated mode'
+    )
+    with pytest.raises(ConfigError, match=expected) as error:
+        gradysim.prototype.run.run(scenario)
+    assert error.value.key == "*.uavs[*].protocol.typename"
+
+
+def test_a_command_that_cannot_be_carried_out_ends_the_run(make_scenario):
+    lost = '*.uavs[0].protocol.typename = "SaturatingSource"', "*.uavs[0].protocol.destination = 7"
+    built = IntegratedRun(make_scenario("class Tested(Quiet): pass", *lost))
+    with pytest.raises(RuntimeError, match=r"cannot send to node 7: nodes are 0 … 1"):
+        built.execute()
+    assert built.result().interrupted
+
+
+def test_handlers_see_the_node_and_its_parameters(make_scenario):
+    seen = []
+
+    @assert_always_true_for_protocol(native_protocols()["BeaconProtocol"], name="seen")
+    def look(node):
+        seen.append((node.id, node.protocol_encapsulator.protocol.interval))
+        return True
+
+    interval = "*.uavs[*].protocol.interval = 0.5s"
+    scenario = make_scenario("class Tested(Quiet): pass", BEACON, interval)
+    run(scenario, handlers=[AssertionHandler([look])])
+    assert set(seen) == {(0, 0.5), (1, 0.5)}
