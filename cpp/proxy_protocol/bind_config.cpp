@@ -1,9 +1,11 @@
-// The config structs, field by field under their own names (C++'s type_name is Python's typename).
+// The config structs, field by field under their own names (C++'s type_name is Python's typename,
+// its interface_type Python's interface).
 #include <array>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "netsim/config/csma_config.hpp"
 #include "netsim/config/mac_config.hpp"
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/mobility_config.hpp"
@@ -38,7 +40,7 @@ void bind_config(py::module_& module) {
         .def("validate", &MediumConfig::validate);
 
     py::class_<RadioConfig>(module, "RadioConfig")
-        .def(py::init<>())
+        .def(py::init<std::string_view>(), py::arg("interface") = ieee80211_interface)
         .def_readwrite("carrier_hz", &RadioConfig::carrier_hz)
         .def_readwrite("bandwidth_hz", &RadioConfig::bandwidth_hz)
         .def_readwrite("tx_power_w", &RadioConfig::tx_power_w)
@@ -77,6 +79,24 @@ void bind_config(py::module_& module) {
         .def_readwrite("ewma_weight", &MacConfig::ewma_weight)
         .def("validate", &MacConfig::validate);
 
+    py::class_<CsmaConfig>(module, "CsmaConfig")
+        .def(py::init<>())
+        .def_readwrite("use_acks", &CsmaConfig::use_acks)
+        .def_readwrite("max_frame_retries", &CsmaConfig::max_frame_retries)
+        .def_readwrite("ack_wait_s", &CsmaConfig::ack_wait_s)
+        .def_readwrite("sifs_s", &CsmaConfig::sifs_s)
+        .def_readwrite("backoff_method", &CsmaConfig::backoff_method)
+        .def_readwrite("max_backoffs", &CsmaConfig::max_backoffs)
+        .def_readwrite("min_be", &CsmaConfig::min_be)
+        .def_readwrite("max_be", &CsmaConfig::max_be)
+        .def_readwrite("contention_window", &CsmaConfig::contention_window)
+        .def_readwrite("unit_backoff_s", &CsmaConfig::unit_backoff_s)
+        .def_readwrite("cca_s", &CsmaConfig::cca_s)
+        .def_readwrite("cca_whole_window", &CsmaConfig::cca_whole_window)
+        .def_readwrite("turnaround_s", &CsmaConfig::turnaround_s)
+        .def_readwrite("queue_capacity", &CsmaConfig::queue_capacity)
+        .def("validate", &CsmaConfig::validate);
+
     py::class_<MobilityConfig>(module, "MobilityConfig")
         .def(py::init<>())
         .def_readwrite("typename", &MobilityConfig::type_name)
@@ -85,10 +105,13 @@ void bind_config(py::module_& module) {
         .def("validate", &MobilityConfig::validate);
 
     py::class_<NodeConfig>(module, "NodeConfig")
-        .def(py::init<std::string>(), py::arg("name"))
+        .def(py::init<std::string, std::string>(), py::arg("name"),
+             py::arg("interface") = ieee80211_interface)
         .def_readwrite("name", &NodeConfig::name)
+        .def_readonly("interface", &NodeConfig::interface_type)  // sets defaults, so only at the start
         .def_readwrite("radio", &NodeConfig::radio)
         .def_readwrite("mac", &NodeConfig::mac)
+        .def_readwrite("csma", &NodeConfig::csma)
         .def_readwrite("mobility", &NodeConfig::mobility)
         .def_property(
             "initial_position",

@@ -76,11 +76,26 @@ py::dict frames_by_bitrate(const Network& network, NodeId node) {
     return result;
 }
 
+// The same holds for channel access failures.
+bool is_shown(const Network& network, MessageFate fate) {
+    const auto count = [&](MessageKind kind) {
+        return network.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
+    };
+    return fate != MessageFate::access_failure ||
+           count(MessageKind::broadcast) + count(MessageKind::unicast) > 0;
+}
+
 py::dict message_fates(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < message_kind_count; ++index) {
-        result[message_kind_names[index]] =
-            named_counts(network.message_fates().counts(static_cast<MessageKind>(index)), message_fate_names);
+        const auto counts = network.message_fates().counts(static_cast<MessageKind>(index));
+        py::dict fates;
+        for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
+            if (is_shown(network, static_cast<MessageFate>(fate))) {
+                fates[message_fate_names[fate]] = counts[fate];
+            }
+        }
+        result[message_kind_names[index]] = fates;
     }
     return result;
 }

@@ -57,6 +57,8 @@ class Propagation:
         """What no gain exceeds at that distance and beyond."""
 
 class RadioConfig:
+    """The interface chooses the defaults."""
+
     carrier_hz: float
     bandwidth_hz: float
     tx_power_w: float
@@ -66,6 +68,7 @@ class RadioConfig:
     snir_threshold: float
     error_model: str
     antenna: str
+    def __init__(self, interface: str = ...) -> None: ...
 
 class MacConfig:
     op_mode: str
@@ -92,18 +95,39 @@ class MacConfig:
     look_around_share: float
     ewma_weight: float
 
+class CsmaConfig:
+    use_acks: bool
+    max_frame_retries: int
+    ack_wait_s: float
+    sifs_s: float
+    backoff_method: str
+    max_backoffs: int
+    min_be: int
+    max_be: int
+    contention_window: int
+    unit_backoff_s: float
+    cca_s: float
+    cca_whole_window: bool
+    turnaround_s: float
+    queue_capacity: int
+
 class MobilityConfig:
     typename: str
     speed_mps: float
     telemetry_interval_s: float
 
 class NodeConfig:
+    """The interface chooses the MAC and the defaults of the radio, so it is given at the start and stays."""
+
     name: str
+    @property
+    def interface(self) -> str: ...
     radio: RadioConfig
     mac: MacConfig
+    csma: CsmaConfig
     mobility: MobilityConfig
     initial_position: tuple[float, float, float]
-    def __init__(self, name: str) -> None: ...
+    def __init__(self, name: str, interface: str = ...) -> None: ...
     def validate(self) -> None: ...
 
 class RandomStream:
@@ -222,4 +246,7 @@ class Network:
     def frames_by_bitrate(self, node: int) -> dict[int, int]:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
     def message_fates(self) -> dict[str, dict[str, int]]:
-        """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""
+        """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}.
+
+        "channel_access_failure" is among the fates if there was any.
+        """

@@ -17,7 +17,10 @@ from gradysim.results.run_result import RunResult
 
 FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 BASES = {"Sensitivity", "Noise"}
-FILES = {"beacons", "flood", "hidden", "link", "rate_control", "saturation", "sir", "synchronised"}
+FILES = {
+    *("beacons", "flood", "hidden", "link", "narrowband", "rate_control", "saturation", "sir"),
+    "synchronised",
+}
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
 
@@ -29,7 +32,7 @@ def runnable() -> list[tuple[str, str]]:
         for config in config_names(read_ini(file))
         if not file.stem.endswith("_positions")
         and config not in BASES
-        and (config != "General" or file.stem not in ("link", "saturation"))
+        and (config != "General" or file.stem not in ("link", "narrowband", "saturation"))
     ]
 
 

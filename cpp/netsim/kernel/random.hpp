@@ -19,6 +19,7 @@ enum class Purpose : std::uint32_t {
     reception = 2,
     protocol = 3,
     fading = 4,
+    csma_backoff = 5,
     rate_control = 6,
 };
 

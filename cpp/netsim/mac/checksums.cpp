@@ -31,6 +31,19 @@ std::uint32_t frame_check_sequence(std::span<const std::uint8_t> octets) {
     return ~remainder;
 }
 
+// Bit by bit: frames are short, and only capture files need it.
+std::uint16_t narrowband_check_sequence(std::span<const std::uint8_t> octets) {
+    constexpr std::uint32_t polynomial = 0x8408;  // bits reversed as they are on the air
+    std::uint32_t remainder = 0;
+    for (const std::uint8_t octet : octets) {
+        remainder ^= octet;
+        for (int bit = 0; bit < 8; ++bit) {
+            remainder = (remainder >> 1) ^ ((remainder & 1) != 0 ? polynomial : 0);
+        }
+    }
+    return static_cast<std::uint16_t>(remainder);
+}
+
 std::uint16_t internet_checksum(std::span<const std::uint8_t> octets) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < octets.size(); ++i) {

@@ -2,10 +2,10 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 
 #include "netsim/error.hpp"
 #include "netsim/mac/checksums.hpp"
+#include "netsim/mac/datagram_octets.hpp"
 
 namespace netsim {
 
@@ -16,11 +16,6 @@ constexpr unsigned ack_type = 0xd4;
 constexpr unsigned rts_type = 0xb4;
 constexpr unsigned cts_type = 0xc4;
 constexpr unsigned retry_flag = 0x08;
-
-constexpr unsigned ipv4_time_to_live = 64;
-constexpr unsigned ipv4_protocol_udp = 17;
-constexpr std::size_t ipv4_checksum_offset = 10;
-constexpr std::size_t udp_checksum_offset = 6;
 
 void append_frame_control(Octets& octets, const Frame& frame, unsigned type) {
     append_u8(octets, type);
@@ -59,49 +54,6 @@ void append_llc_snap(Octets& octets) {
     append_be16(octets, 0x0800);  // IPv4
 }
 
-std::uint32_t ipv4_address(NodeId node) {
-    return node == broadcast_id ? 0xffffffff : 10U << 24 | (static_cast<std::uint32_t>(node) & 0xffffff);
-}
-
-void set_be16(Octets& octets, std::size_t offset, unsigned value) {
-    octets[offset] = static_cast<std::uint8_t>(value >> 8);
-    octets[offset + 1] = static_cast<std::uint8_t>(value);
-}
-
-void append_ipv4_header(Octets& octets, const Frame& frame, std::size_t payload_bytes) {
-    const std::size_t start = octets.size();
-    append_be16(octets, 0x4500);  // version 4, five words of header
-    append_be16(octets, static_cast<unsigned>(ipv4_header_bytes + udp_header_bytes + payload_bytes));
-    append_be16(octets, frame.sequence);  // identification
-    append_be16(octets, 0);               // not a fragment
-    append_u8(octets, ipv4_time_to_live);
-    append_u8(octets, ipv4_protocol_udp);
-    append_be16(octets, 0);  // checksum, filled in below
-    append_be32(octets, ipv4_address(frame.transmitter));
-    append_be32(octets, ipv4_address(frame.receiver));
-    set_be16(octets, start + ipv4_checksum_offset, internet_checksum(std::span(octets).subspan(start)));
-}
-
-void append_udp(Octets& octets, const Frame& frame) {
-    const std::string& payload = *frame.payload;
-    const std::size_t start = octets.size();
-    const auto datagram_length = static_cast<unsigned>(udp_header_bytes + payload.size());
-    append_be16(octets, udp_port);
-    append_be16(octets, udp_port);
-    append_be16(octets, datagram_length);
-    append_be16(octets, 0);  // checksum, filled in below
-    octets.insert(octets.end(), payload.begin(), payload.end());
-
-    Octets covered;  // the pseudo header, then the datagram
-    append_be32(covered, ipv4_address(frame.transmitter));
-    append_be32(covered, ipv4_address(frame.receiver));
-    append_be16(covered, ipv4_protocol_udp);
-    append_be16(covered, datagram_length);
-    covered.insert(covered.end(), octets.begin() + static_cast<std::ptrdiff_t>(start), octets.end());
-    const unsigned checksum = internet_checksum(covered);
-    set_be16(octets, start + udp_checksum_offset, checksum == 0 ? 0xffff : checksum);  // 0 would say: none
-}
-
 void append_data(Octets& octets, const Frame& frame) {
     append_frame_control(octets, frame, data_type);
     append_duration(octets, frame.duration_field);
@@ -110,8 +62,7 @@ void append_data(Octets& octets, const Frame& frame) {
     append_bss(octets);
     append_sequence_control(octets, frame);
     append_llc_snap(octets);
-    append_ipv4_header(octets, frame, frame.payload->size());
-    append_udp(octets, frame);
+    append_datagram(octets, frame);
 }
 
 void append_ack(Octets& octets, const Frame& frame) {

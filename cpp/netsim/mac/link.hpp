@@ -1,6 +1,7 @@
 // What a node asks of its network interface, and what it hears from it.
 //
-// Two interfaces exist: Dcf (an 802.11 station) and UnitDiskLink (a perfect channel).
+// Three interfaces exist: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskLink (a perfect
+// channel).
 #pragma once
 
 #include <cstddef>

@@ -7,6 +7,7 @@
 
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
+#include "netsim/mac/csma_ca_802154.hpp"
 #include "netsim/mac/dcf.hpp"
 
 namespace netsim {
@@ -27,23 +28,14 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
-    check_with_medium(config.radio);
-    if (!perfect_channel_) {
+    check_with_medium(config);
+    if (!perfect_channel_ && config.interface_type == ieee80211_interface) {
         Dcf::check(config.mac);  // before anything is built, so that a refused node leaves no trace
     }
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
-    if (perfect_channel_) {
-        node.set_link(std::make_unique<UnitDiskLink>(
-            simulator_, unit_disk_, config.radio.communication_range_m, node.trajectory(), frame_fates_,
-            message_fates_, fingerprint_, node.link_listener()));
-    } else {
-        Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_,
-                                            frame_fates_, fingerprint_);
-        node.set_link(std::make_unique<Dcf>(simulator_, radio, config.mac, seed_, message_fates_,
-                                            node.link_listener()));
-    }
+    node.set_link(make_link(config, node));
     const SimTime telemetry_interval = SimTime::from_seconds(config.mobility.telemetry_interval_s);
     if (telemetry_interval > SimTime{}) {
         add_to_telemetry_clock(node, telemetry_interval);
@@ -51,7 +43,26 @@ Node& Network::add_node(const NodeConfig& config) {
     return node;
 }
 
-void Network::check_with_medium(const RadioConfig& radio) const {
+std::unique_ptr<Link> Network::make_link(const NodeConfig& config, Node& node) {
+    if (perfect_channel_) {
+        return std::make_unique<UnitDiskLink>(simulator_, unit_disk_, config.radio.communication_range_m,
+                                              node.trajectory(), frame_fates_, message_fates_, fingerprint_,
+                                              node.link_listener());
+    }
+    interface_types_.try_emplace(config.radio.carrier_hz, config.interface_type);
+    Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_,
+                                        frame_fates_, fingerprint_);
+    if (config.interface_type == ieee802154_interface) {
+        link_types_.push_back(LinkType::ieee802154_with_fcs);
+        return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,
+                                              node.link_listener());
+    }
+    link_types_.push_back(LinkType::radiotap);
+    return std::make_unique<Dcf>(simulator_, radio, config.mac, seed_, message_fates_, node.link_listener());
+}
+
+void Network::check_with_medium(const NodeConfig& config) const {
+    const RadioConfig& radio = config.radio;
     if (perfect_channel_) {
         check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
     } else if (radio.energy_detection_w <= medium_.background_noise_w()) {
@@ -59,6 +70,14 @@ void Network::check_with_medium(const RadioConfig& radio) const {
                           " W: expected more than the background noise of " +
                           text_of(medium_.background_noise_w()) +
                           " W, which would keep the channel busy for ever");
+    }
+    // No channel of the one has the centre of a channel of the other: who sets it so has mistaken something, and
+    // neither could make anything of what it locks on to.
+    const auto there = interface_types_.find(radio.carrier_hz);
+    if (!perfect_channel_ && there != interface_types_.end() && there->second != config.interface_type) {
+        throw ConfigError("radio.carrier_hz = " + text_of(radio.carrier_hz) +
+                          " Hz: expected another one for " + config.name + " with its " +
+                          config.interface_type + ", as a node with an " + there->second + " is at this one");
     }
 }
 
@@ -83,7 +102,8 @@ void Network::capture(NodeId node, const std::string& path) {
     if (captures_.contains(node)) {
         throw ConfigError("the frames of " + name + " are captured already");
     }
-    radios_.at(static_cast<std::size_t>(node)).set_observer(&captures_.try_emplace(node, path).first->second);
+    radios_.at(static_cast<std::size_t>(node))
+        .set_observer(&captures_.try_emplace(node, path, link_types_[node]).first->second);
 }
 
 void Network::close_captures() {

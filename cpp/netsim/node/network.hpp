@@ -72,7 +72,8 @@ public:
     const MessageFates& message_fates() const { return message_fates_; }
 
 private:
-    void check_with_medium(const RadioConfig& radio) const;
+    void check_with_medium(const NodeConfig& config) const;
+    std::unique_ptr<Link> make_link(const NodeConfig& config, Node& node);
     void add_to_telemetry_clock(Node& node, SimTime interval);
 
     Simulator simulator_;
@@ -84,6 +85,8 @@ private:
     Medium medium_;
     UnitDiskChannel unit_disk_;
     std::deque<Radio> radios_;
+    std::deque<LinkType> link_types_;                // of the radios
+    std::map<double, std::string> interface_types_;  // {centre frequency in Hz: the one there}
     std::map<NodeId, RadioCapture> captures_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval

@@ -9,6 +9,7 @@
 #include "netsim/config/check.hpp"
 #include "netsim/config/radio_config.hpp"
 #include "netsim/error.hpp"
+#include "netsim/phy/oqpsk_error_rate.hpp"
 
 namespace netsim {
 namespace {
@@ -131,6 +132,8 @@ double NistErrorModel::bit_error_rate(const Mode& mode, double snir) {
             return mode.bitrate_bps == 1'000'000 ? dsss_1_bit_error(snir) : dsss_2_bit_error(snir);
         case ModeFamily::cck:
             return cck_bit_error(snir, mode.bitrate_bps == 5'500'000 ? cck_5_5_fit : cck_11_fit);
+        case ModeFamily::oqpsk:
+            break;  // not of 802.11
     }
     NETSIM_ASSERT(false);
 }
@@ -149,7 +152,11 @@ double NistErrorModel::success_probability(const Mode& mode, double snir, int ps
 
 const ErrorModel& error_model(std::string_view name) {
     static const NistErrorModel nist;
+    static const OqpskErrorModel oqpsk;
     check_name("radio.error_model", name, error_model_names);
+    if (name == "Ieee802154ErrorModel") {
+        return oqpsk;
+    }
     return nist;
 }
 

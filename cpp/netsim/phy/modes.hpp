@@ -20,7 +20,8 @@
 
 namespace netsim {
 
-enum class ModeFamily { dsss, cck, ofdm };  // 1 and 2; 5.5 and 11; 6 to 54 Mbps
+// 1 and 2; 5.5 and 11; 6 to 54 Mbps; the 250 kbps of 802.15.4, which are in phy/oqpsk_mode.hpp.
+enum class ModeFamily { dsss, cck, ofdm, oqpsk };
 enum class Constellation { bpsk, qpsk, qam16, qam64 };
 enum class CodeRate { none, one_half, two_thirds, three_quarters };
 

@@ -22,10 +22,9 @@ Radio::Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, co
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                      SimTime duration) {
     NETSIM_ASSERT(!transmitting_);
-    if (locked_ != nullptr) {
-        book(*std::exchange(locked_, nullptr), FrameFate::receiver_transmitting);
-    }
+    give_up_reception();
     transmitting_ = true;
+    turned_ = false;
     Transmission transmission;
     transmission.sender = id_;
     transmission.duration = duration;
@@ -44,6 +43,18 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     update_busy();
 }
 
+void Radio::turn_to_transmit() {
+    NETSIM_ASSERT(!transmitting_);
+    give_up_reception();
+    turned_ = true;
+}
+
+void Radio::give_up_reception() {
+    if (locked_ != nullptr) {
+        book(*std::exchange(locked_, nullptr), FrameFate::receiver_transmitting);
+    }
+}
+
 void Radio::transmission_over() {
     transmitting_ = false;
     listener_->transmission_ended();
@@ -53,7 +64,7 @@ void Radio::transmission_over() {
 void Radio::arrival_started(const Arrival& arrival) {
     present_.push_back(Present{arrival.transmission, arrival.power_w});
     if (arrival.power_w >= config_.sensitivity_w) {
-        if (transmitting_) {
+        if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ != nullptr) {
             book(*arrival.transmission, FrameFate::receiver_locked);

@@ -46,6 +46,9 @@ public:
     void set_observer(RadioObserver* observer) { observer_ = observer; }
     NodeId id() const { return id_; }
 
+    // Turns around to send: what comes before the end of the next transmission is not received. Only while not
+    // transmitting. Radios that need no time for that go without.
+    void turn_to_transmit();
     // Sends a frame now; only while not transmitting.
     void transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                   SimTime duration);
@@ -66,6 +69,7 @@ private:
 
     bool decide(const Arrival& arrival, const Interference& interference, FrameFate& fate);
     void book(const Transmission& transmission, FrameFate fate);
+    void give_up_reception();
     void transmission_over();
     void update_busy();
 
@@ -82,6 +86,7 @@ private:
     std::vector<Present> present_;
     const Transmission* locked_ = nullptr;
     bool transmitting_ = false;
+    bool turned_ = false;  // to transmit, which it does not yet
     bool busy_ = false;
 };
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint32_t nanosecond_magic = 0xa1b23c4d;
 constexpr std::uint32_t longest_packet_bytes = 262'144;
-constexpr std::uint32_t link_type_radiotap = 127;
 
 std::string cannot_write(const std::string& path, int error) {
     return "cannot write the capture file '" + path + "': " + std::generic_category().message(error);
@@ -21,7 +20,8 @@ std::string cannot_write(const std::string& path, int error) {
 
 }  // namespace
 
-PcapWriter::PcapWriter(std::string path) : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
+PcapWriter::PcapWriter(std::string path, LinkType link_type)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
     if (file_ == nullptr) {
         throw ConfigError(cannot_write(path_, errno));
     }
@@ -32,7 +32,7 @@ PcapWriter::PcapWriter(std::string path) : path_(std::move(path)), file_(std::fo
     append_le32(header, 0);
     append_le32(header, 0);
     append_le32(header, longest_packet_bytes);
-    append_le32(header, link_type_radiotap);
+    append_le32(header, static_cast<std::uint32_t>(link_type));
     write_octets(header);
     if (error_ == 0 && std::fflush(file_.get()) != 0) {  // a full disk is found out now
         error_ = errno;

@@ -1,11 +1,12 @@
-// A classic pcap file with time stamps in nanoseconds, of 802.11 frames with radiotap headers.
+// A classic pcap file with time stamps in nanoseconds, of 802.11 frames with radiotap headers, or of 802.15.4 frames.
 //
 // Opened before a run, so that a path that cannot be written is found then. A disk that gets full during the run does
 // not end it: what is written later is dropped, and close() reports it.
 //
-// Source: IETF draft-ietf-opsawg-pcap (magic 0xa1b23c4d, link type 127). Little-endian on every machine.
+// Source: IETF draft-ietf-opsawg-pcap (magic 0xa1b23c4d). Little-endian on every machine.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -15,10 +16,13 @@
 
 namespace netsim {
 
+// What each packet of a file begins with, as registered at tcpdump.org.
+enum class LinkType : std::uint32_t { radiotap = 127, ieee802154_with_fcs = 195 };
+
 class PcapWriter {
 public:
     // Creates or empties the file. Throws ConfigError, with the path and the reason, if that cannot be done.
-    explicit PcapWriter(std::string path);
+    PcapWriter(std::string path, LinkType link_type);
 
     // Adds a packet. The time is that of the simulation, not negative, cut to whole nanoseconds.
     void write(SimTime time, const Octets& packet);

@@ -56,7 +56,8 @@ class Key:
 
 
 _RADIO = "wlan[0].radio"
-_DCF = "wlan[0].mac.dcf"
+_MAC = "wlan[0].mac"
+_DCF = f"{_MAC}.dcf"
 _MAX_SIM_TIME_S = 9_223_372.0
 """The engine's clock counts picoseconds in 64 bits."""
 
@@ -171,6 +172,12 @@ NODE_KEYS: tuple[Key, ...] = (
         "Time between two calls of handle_telemetry; 0s for none",
     ),
     Key(
+        "wlan[0].typename",
+        "node.interface",
+        choice("Ieee80211Interface", "Ieee802154NarrowbandInterface"),
+        "Its network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
+    ),
+    Key(
         "wlan[0].opMode",
         "mac.op_mode",
         choice("b", "g(erp)", "g(mixed)", "a"),
@@ -186,7 +193,7 @@ NODE_KEYS: tuple[Key, ...] = (
         "wlan[0].mac.mtu",
         "mac.mtu_bytes",
         whole_bytes(),
-        "Largest IP packet: 28 B of headers and the message, which is refused if it is longer",
+        "802.11: largest IP packet: 28 B of headers and the message, which is refused if it is longer",
     ),
     Key(
         f"{_DCF}.rateSelection.multicastFrameBitrate",
@@ -309,10 +316,94 @@ NODE_KEYS: tuple[Key, ...] = (
         "Whether a node's own frames reserve the channel against itself, as in INET; not in the standard",
     ),
     Key(
+        f"{_MAC}.useMACAcks",
+        "csma.use_acks",
+        boolean(),
+        "802.15.4: whether unicast frames are acknowledged",
+    ),
+    Key(
+        f"{_MAC}.macMaxFrameRetries",
+        "csma.max_frame_retries",
+        integer(0),
+        "802.15.4: how often a frame without an ACK is repeated",
+    ),
+    Key(
+        f"{_MAC}.macAckWaitDuration",
+        "csma.ack_wait_s",
+        quantity("s", above=0, shown="us"),
+        "802.15.4: how long a sender waits for the end of an ACK",
+    ),
+    Key(
+        f"{_MAC}.sifs",
+        "csma.sifs_s",
+        quantity("s", at_least=0, shown="us"),
+        "802.15.4: from the end of a frame to its ACK",
+    ),
+    Key(
+        f"{_MAC}.macMaxCSMABackoffs",
+        "csma.max_backoffs",
+        integer(0),
+        "802.15.4: further waits after the first, if the channel is busy; then the frame is given up",
+    ),
+    Key(
+        f"{_MAC}.backoffMethod",
+        "csma.backoff_method",
+        choice("exponential", "linear", "constant"),
+        "802.15.4: how the longest wait grows when the channel is busy",
+    ),
+    Key(
+        f"{_MAC}.macMinBE",
+        "csma.min_be",
+        integer(0),
+        "802.15.4, exponential: the first wait is 0 to 2^BE - 1 periods",
+    ),
+    Key(
+        f"{_MAC}.macMaxBE",
+        "csma.max_be",
+        integer(0),
+        "802.15.4, exponential: BE grows by 1 up to that",
+    ),
+    Key(
+        f"{_MAC}.contentionWindow",
+        "csma.contention_window",
+        integer(1),
+        "802.15.4, linear and constant: the first wait is 1 to that many periods",
+    ),
+    Key(
+        f"{_MAC}.aUnitBackoffPeriod",
+        "csma.unit_backoff_s",
+        quantity("s", above=0, shown="us"),
+        "802.15.4: the period in which waits are counted",
+    ),
+    Key(
+        f"{_MAC}.ccaDetectionTime",
+        "csma.cca_s",
+        quantity("s", at_least=0, shown="us"),
+        "802.15.4: how long a device listens before it sends",
+    ),
+    Key(
+        f"{_MAC}.ccaWholeWindow",
+        "csma.cca_whole_window",
+        boolean(),
+        "802.15.4: whether all of that time has to be free; in INET, its end",
+    ),
+    Key(
+        f"{_MAC}.aTurnaroundTime",
+        "csma.turnaround_s",
+        quantity("s", at_least=0, shown="us"),
+        "802.15.4: from listening to sending, deaf in between",
+    ),
+    Key(
+        "wlan[0].queue.packetCapacity",
+        "csma.queue_capacity",
+        integer(1),
+        "802.15.4: frames that wait in the queue, without the one in progress",
+    ),
+    Key(
         f"{_RADIO}.channelNumber",
         "radio.carrier_hz",
         channel_of_2_4_ghz(),
-        "Channel of the 2.4 GHz band, counted from 0 (another way to set centerFrequency)",
+        "802.11: channel of the 2.4 GHz band, counted from 0 (another way to set centerFrequency)",
     ),
     Key(
         f"{_RADIO}.centerFrequency",
@@ -359,7 +450,7 @@ NODE_KEYS: tuple[Key, ...] = (
     Key(
         f"{_RADIO}.receiver.errorModel.typename",
         "radio.error_model",
-        choice("Ieee80211NistErrorModel"),
+        choice("Ieee80211NistErrorModel", "Ieee802154ErrorModel"),
         "How noise becomes lost frames",
     ),
     Key(

@@ -132,7 +132,10 @@ def channel_of_2_4_ghz() -> Kind:
         return 2.484e9 if channel == 13 else 2.412e9 + 5e6 * channel
 
     def show(carrier_hz: Scalar) -> str:
-        return "13" if carrier_hz == 2.484e9 else f"{(float(carrier_hz) - 2.412e9) / 5e6:g}"
+        if carrier_hz == 2.484e9:
+            return "13"
+        channel = (float(carrier_hz) - 2.412e9) / 5e6
+        return f"{channel:g}" if channel.is_integer() else "none"
 
     return Kind("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert, unit="0 to 13", show=show)
 

@@ -25,6 +25,8 @@ class NodeSpec:
         radio: Fields of RadioConfig that were set.
         mac: Fields of MacConfig that were set.
         protocol_sources: Where the parameters were written, and under "" what chose the protocol.
+        csma: Fields of CsmaConfig that were set.
+        node: Fields of NodeConfig itself that were set.
     """
 
     id: int
@@ -38,3 +40,5 @@ class NodeSpec:
     radio: Mapping[str, Setting]
     mac: Mapping[str, Setting]
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
+    csma: Mapping[str, Setting] = field(default_factory=dict)
+    node: Mapping[str, Setting] = field(default_factory=dict)

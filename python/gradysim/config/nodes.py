@@ -45,6 +45,8 @@ class _Shared:
     mobility: Mapping[str, Setting]
     radio: Mapping[str, Setting]
     mac: Mapping[str, Setting]
+    csma: Mapping[str, Setting]
+    node: Mapping[str, Setting]
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +107,8 @@ def build_nodes(
                     radio=shared.radio,
                     mac=shared.mac,
                     protocol_sources=shared.protocol_sources,
+                    csma=shared.csma,
+                    node=shared.node,
                 )
             )
     return tuple(nodes)
@@ -153,7 +157,8 @@ class _NodeBuilder:
         parameters = {name: setting.value for name, setting in protocol_settings.items()}
         sources = {name: setting.source for name, setting in protocol_settings.items()}
         structs = {
-            struct: read_struct(struct, found, self._settings) for struct in ("mobility", "radio", "mac")
+            struct: read_struct(struct, found, self._settings)
+            for struct in ("mobility", "radio", "mac", "csma", "node")
         }
         position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
         values = {

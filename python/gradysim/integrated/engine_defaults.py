@@ -12,7 +12,12 @@ def engine_defaults() -> Structs:
             "": netsim.MediumConfig(),
             "802.15.4": netsim.MediumConfig("Ieee802154NarrowbandScalarRadioMedium"),
         },
-        "radio": {"": netsim.RadioConfig()},
+        "node": {"": netsim.NodeConfig("node")},
+        "radio": {
+            "": netsim.RadioConfig(),
+            "802.15.4": netsim.RadioConfig("Ieee802154NarrowbandInterface"),
+        },
         "mac": {"": netsim.MacConfig()},
+        "csma": {"": netsim.CsmaConfig()},
         "mobility": {"": netsim.MobilityConfig()},
     }

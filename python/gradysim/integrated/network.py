@@ -43,7 +43,7 @@ def check_scenario(scenario: Scenario) -> None:
 def add_node(network: "Network", spec: NodeSpec) -> "Node":
     """Add one node to `network`; what only the whole configuration shows to be wrong is found now."""
     config = node_config(spec)
-    with errors_at({**spec.radio, **spec.mac, **spec.mobility}):
+    with errors_at(_all_settings(spec)):
         return network.add_node(config)
 
 
@@ -60,15 +60,24 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
 
 
 def node_config(spec: NodeSpec) -> "NodeConfig":
-    """Return the checked configuration of one node."""
-    config: NodeConfig = load_netsim().NodeConfig(spec.name)
+    """Return the checked configuration of one node, whose interface sets the defaults of its radio."""
+    netsim = load_netsim()
+    chosen = spec.node.get("interface")
+    config: NodeConfig = (
+        netsim.NodeConfig(spec.name) if chosen is None else netsim.NodeConfig(spec.name, chosen.value)
+    )
     set_fields(config.radio, spec.radio)
     set_fields(config.mac, spec.mac)
+    set_fields(config.csma, spec.csma)
     set_fields(config.mobility, spec.mobility)
     config.initial_position = spec.initial_position
-    with errors_at({**spec.radio, **spec.mac, **spec.mobility}):
+    with errors_at(_all_settings(spec)):
         config.validate()
     return config
+
+
+def _all_settings(spec: NodeSpec) -> dict[str, Setting]:
+    return {**spec.node, **spec.radio, **spec.mac, **spec.csma, **spec.mobility}
 
 
 def set_fields(config: object, settings: Mapping[str, Setting]) -> None:

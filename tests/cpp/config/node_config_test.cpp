@@ -1,6 +1,7 @@
 #include "netsim/config/node_config.hpp"
 
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,27 @@ TEST(NodeConfig, ChecksItsMac) {
     NodeConfig config("uavs[0]");
     config.mac.short_retry_limit = 0;
     EXPECT_EQ(error_text([&] { config.validate(); }), "mac.short_retry_limit = 0: expected from 1 to 255");
+}
+
+TEST(NodeConfig, ItsInterfaceSetsTheDefaultsOfTheRadio) {
+    const NodeConfig config("sensors[0]", std::string(ieee802154_interface));
+    EXPECT_EQ(config.radio.carrier_hz, 2.45e9);
+    EXPECT_NO_THROW(config.validate());
+}
+
+TEST(NodeConfig, ChecksItsCsma) {
+    NodeConfig config("sensors[0]");
+    config.csma.min_be = -1;
+    EXPECT_EQ(error_text([&] { config.validate(); }), "csma.min_be = -1: expected from 0 to 5");
+}
+
+TEST(NodeConfig, TheErrorModelHasToFitTheInterface) {
+    NodeConfig config("sensors[0]", std::string(ieee802154_interface));
+    config.radio.error_model = "Ieee80211NistErrorModel";
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "radio.error_model = \"Ieee80211NistErrorModel\": expected \"Ieee802154ErrorModel\", the one "
+              "for a node "
+              "with an Ieee802154NarrowbandInterface");
 }
 
 TEST(NodeConfig, ChecksItsMobility) {

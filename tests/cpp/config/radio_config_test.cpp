@@ -22,6 +22,25 @@ TEST(RadioConfig, DefaultsInTheDecibelsThatPeopleKnow) {
     EXPECT_NO_THROW(config.validate());
 }
 
+TEST(RadioConfig, DefaultsOf802154AreThoseOfInet) {
+    const RadioConfig config(ieee802154_interface);
+    EXPECT_EQ(config.carrier_hz, 2.45e9);
+    EXPECT_EQ(config.bandwidth_hz, 2.8e6);
+    EXPECT_DOUBLE_EQ(config.tx_power_w, 2.24e-3);
+    EXPECT_DOUBLE_EQ(config.sensitivity_w, w_from_dbm(-100));
+    EXPECT_DOUBLE_EQ(config.energy_detection_w, w_from_dbm(-90));
+    EXPECT_DOUBLE_EQ(config.snir_threshold, ratio_from_db(-8));
+    EXPECT_EQ(config.error_model, "Ieee802154ErrorModel");
+    EXPECT_NO_THROW(config.validate());
+}
+
+TEST(RadioConfig, AnotherInterfaceIsRefused) {
+    EXPECT_EQ(error_text([] { RadioConfig("Ieee80211"); }),
+              "interface = \"Ieee80211\": expected one of Ieee80211Interface, Ieee802154NarrowbandInterface; "
+              "did you "
+              "mean Ieee80211Interface?");
+}
+
 // Sets one field of a valid configuration and validates.
 template <typename Value>
 std::string text_with(Value RadioConfig::* field, Value value) {
@@ -45,7 +64,9 @@ TEST(RadioConfig, ValidateNamesTheField) {
     EXPECT_EQ(text_with(&RadioConfig::snir_threshold, -1.0),
               "radio.snir_threshold = -1: expected at least 0");
     EXPECT_EQ(text_with<std::string>(&RadioConfig::error_model, "Nist"),
-              "radio.error_model = \"Nist\": expected Ieee80211NistErrorModel");
+              "radio.error_model = \"Nist\": expected one of Ieee80211NistErrorModel, Ieee802154ErrorModel; "
+              "did you "
+              "mean Ieee80211NistErrorModel?");
     EXPECT_EQ(text_with<std::string>(&RadioConfig::antenna, "Dipole"),
               "radio.antenna = \"Dipole\": expected IsotropicAntenna");
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/far_flung_scenario.hpp"
+#include "support/narrowband_scenario.hpp"
 #include "support/random_path_loss.hpp"
 #include "support/random_scenario.hpp"
 
@@ -122,6 +123,42 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLos
     }
 }
 
+class NarrowbandScenarios : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(NarrowbandScenarios, TakeTheSameCourseAsWithThePlainModel) {
+    constexpr std::uint64_t scenarios = 50;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(test::make_narrowband_scenario(GetParam() * scenarios + i));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+TEST(NarrowbandScenario, MeetsEveryFateOften) {
+    FrameFates::Counts frames{};
+    MessageFates::Counts messages{};
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        const RandomScenario scenario = test::make_narrowband_scenario(seed);
+        ScenarioRun run(scenario);
+        run.network.run_until(scenario.talk.until);
+        for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
+            add(frames, run.network.frame_fates().counts(kind, false));
+        }
+        for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
+            add(messages, run.network.message_fates().counts(kind));
+        }
+    }
+    for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
+        EXPECT_GE(frames[fate], 30U) << frame_fate_names[fate];
+    }
+    for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
+        if (static_cast<MessageFate>(fate) != MessageFate::out_of_range) {  // of perfect channels only
+            EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];
+        }
+    }
+}
+
 TEST(RandomScenario, MeetsEveryFateOften) {
     FrameFates::Counts frames{};
     MessageFates::Counts messages{};
@@ -141,13 +178,16 @@ TEST(RandomScenario, MeetsEveryFateOften) {
         EXPECT_GE(frames[fate], 30U) << frame_fate_names[fate];
     }
     for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
-        if (static_cast<MessageFate>(fate) != MessageFate::out_of_range) {  // of perfect channels only
+        // Of perfect channels and of 802.15.4 only.
+        if (static_cast<MessageFate>(fate) != MessageFate::out_of_range &&
+            static_cast<MessageFate>(fate) != MessageFate::access_failure) {
             EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];
         }
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Batches, RandomScenarios, testing::Range<std::uint64_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Batches, NarrowbandScenarios, testing::Range<std::uint64_t>(0, 10));
 INSTANTIATE_TEST_SUITE_P(Batches, FarFlungScenarios, testing::Range<std::uint64_t>(0, 10));
 
 }  // namespace

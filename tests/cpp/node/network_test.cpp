@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/error.hpp"
+#include "support/narrowband_scenario.hpp"
 #include "support/random_scenario.hpp"
 #include "support/recorder.hpp"
 
@@ -81,6 +82,69 @@ TEST(Network, ARefusedNodeLeavesNoTrace) {
     network.run_until(s(1));
     EXPECT_EQ(sender.node.id(), 0);
     EXPECT_EQ(receiver.packets.size(), 1U);
+}
+
+NodeConfig device(Position position = {}) {
+    NodeConfig config("sensor", std::string(ieee802154_interface));
+    config.initial_position = position;
+    config.mobility.telemetry_interval_s = 0;
+    return config;
+}
+
+TEST(Network, NodesOfBothInterfacesNeitherHearNorDisturbEachOther) {
+    Network network(MediumConfig(), 1);
+    Recorder& station = test::add_recorder(network, silent_node());
+    Recorder& sensor = test::add_recorder(network, device({10, 0, 0}));
+    Recorder& other_station = test::add_recorder(network, silent_node({20, 0, 0}));
+    Recorder& other_sensor = test::add_recorder(network, device({30, 0, 0}));
+    station.on_initialize = sensor.on_initialize = [](Recorder& self) {
+        for (int i = 0; i < 20; ++i) self.broadcast(self.node.name());
+    };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(other_station.packet_texts(), std::vector<std::string>(20, "node"));
+    EXPECT_EQ(other_sensor.packet_texts(), std::vector<std::string>(20, "sensor"));
+    EXPECT_TRUE(station.packets.empty() && sensor.packets.empty());
+    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false),
+              40U);  // only those in the sender's band
+}
+
+TEST(Network, AMessageToANodeOfAnotherBandIsGivenUp) {
+    Network network(MediumConfig(), 1);
+    Recorder& sensor = test::add_recorder(network, device());
+    network.add_node(silent_node());
+    sensor.on_initialize = [](Recorder& self) { self.send(1, "anybody there?"); };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(network.message_fates().counts(
+                  MessageKind::unicast)[static_cast<std::size_t>(MessageFate::retry_limit)],
+              1U);
+}
+
+TEST(Network, InterfacesOfTwoKindsCannotShareACentreFrequency) {
+    Network network(MediumConfig(), 1);
+    network.add_node(silent_node());
+    NodeConfig config = device();
+    config.radio.carrier_hz = 2.412e9;
+    try {
+        network.add_node(config);
+        FAIL();
+    } catch (const ConfigError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "radio.carrier_hz = 2412000000 Hz: expected another one for sensor with its "
+                  "Ieee802154NarrowbandInterface, as a node with an Ieee80211Interface is at this one");
+    }
+    EXPECT_EQ(network.node_count(), 1);
+}
+
+TEST(Network, APerfectChannelTakesNodesOfBothInterfaces) {
+    Network network(MediumConfig("UnitDiskRadioMedium"), 1);
+    Recorder& station = test::add_recorder(network, silent_node());
+    Recorder& sensor = test::add_recorder(network, device());
+    sensor.on_initialize = [](Recorder& self) { self.send(0, "hello"); };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(station.packet_texts(), std::vector<std::string>{"hello"});
 }
 
 TEST(Network, InitializesAndFinishesInTheOrderOfIds) {
@@ -194,6 +258,10 @@ constexpr std::array all_frame_kinds{FrameKind::broadcast, FrameKind::unicast, F
 
 class Balance : public testing::TestWithParam<std::uint64_t> {
 protected:
+    // One of 802.11 stations, one with 802.15.4 devices.
+    static std::array<RandomScenario, 2> scenarios() {
+        return {test::make_random_scenario(GetParam()), test::make_narrowband_scenario(GetParam())};
+    }
     static void expect_balance(const Network& network) {
         for (const FrameKind kind : all_frame_kinds) {
             for (const bool overheard : {false, true}) {
@@ -235,30 +303,32 @@ protected:
 };
 
 TEST_P(Balance, HoldsAtEveryMomentOfARun) {
-    const RandomScenario scenario = test::make_random_scenario(GetParam());
-    ScenarioRun run(scenario);
-    for (int step = 1; step <= 20; ++step) {
-        run.network.run_until(SimTime::from_ps(scenario.talk.until.ps() / 20 * step));
-        expect_balance(run.network);
-        expect_nodes_add_up(run.network);
+    for (const RandomScenario& scenario : scenarios()) {
+        ScenarioRun run(scenario);
+        for (int step = 1; step <= 20; ++step) {
+            run.network.run_until(SimTime::from_ps(scenario.talk.until.ps() / 20 * step));
+            expect_balance(run.network);
+            expect_nodes_add_up(run.network);
+        }
     }
 }
 
 TEST_P(Balance, NothingIsLeftWhenTheAirIsDrained) {
-    const RandomScenario scenario = test::make_random_scenario(GetParam());
-    ScenarioRun run(scenario);
-    run.network.run_until(long_after(scenario));
-    expect_balance(run.network);
-    for (const FrameKind kind : all_frame_kinds) {
-        for (const bool overheard : {false, true}) {
-            EXPECT_EQ(run.network.frame_fates().counts(
-                          kind, overheard)[static_cast<std::size_t>(FrameFate::in_air)],
+    for (const RandomScenario& scenario : scenarios()) {
+        ScenarioRun run(scenario);
+        run.network.run_until(long_after(scenario));
+        expect_balance(run.network);
+        for (const FrameKind kind : all_frame_kinds) {
+            for (const bool overheard : {false, true}) {
+                EXPECT_EQ(run.network.frame_fates().counts(
+                              kind, overheard)[static_cast<std::size_t>(FrameFate::in_air)],
+                          0U);
+            }
+        }
+        for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
+            EXPECT_EQ(run.network.message_fates().counts(kind)[static_cast<std::size_t>(MessageFate::queued)],
                       0U);
         }
-    }
-    for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
-        EXPECT_EQ(run.network.message_fates().counts(kind)[static_cast<std::size_t>(MessageFate::queued)],
-                  0U);
     }
 }
 

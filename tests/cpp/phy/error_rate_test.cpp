@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -201,7 +202,7 @@ TEST(NistErrorModel, HeaderAloneCanFailAFrame) {
 
 TEST(ErrorModel, TableHasAllNamesOfTheConfiguration) {
     for (const std::string_view name : error_model_names) {
-        EXPECT_EQ(error_model(name).success_probability(mode(24), infinity, 100), 1) << name;
+        EXPECT_NO_THROW(error_model(name)) << name;
     }
 }
 

@@ -20,7 +20,7 @@ constexpr const char* full_disk = "/dev/full";
 
 TEST(PcapWriter, AFileOfOnePacket) {
     const TemporaryFile file;
-    PcapWriter writer(file.path());
+    PcapWriter writer(file.path(), LinkType::radiotap);
     writer.write(SimTime::from_seconds(2) + SimTime::from_ps(258'999), Octets{0xaa, 0xbb, 0xcc});
     writer.close();
     EXPECT_EQ(file.content(),
@@ -36,20 +36,20 @@ TEST(PcapWriter, AFileOfOnePacket) {
 
 TEST(PcapWriter, TheDestructorCompletesTheFile) {
     const TemporaryFile file;
-    PcapWriter(file.path()).write(SimTime{}, Octets(100));
+    PcapWriter(file.path(), LinkType::radiotap).write(SimTime{}, Octets(100));
     EXPECT_EQ(file.content().size(), 24U + 16U + 100U);
 }
 
 TEST(PcapWriter, AnEarlierFileIsReplaced) {
     const TemporaryFile file;
-    PcapWriter(file.path()).write(SimTime{}, Octets(100));
-    PcapWriter(file.path()).close();
+    PcapWriter(file.path(), LinkType::radiotap).write(SimTime{}, Octets(100));
+    PcapWriter(file.path(), LinkType::radiotap).close();
     EXPECT_EQ(file.content().size(), 24U);
 }
 
 TEST(PcapWriter, APathThatCannotBeOpenedIsAnError) {
     try {
-        PcapWriter writer("no/such/folder/a.pcap");
+        PcapWriter writer("no/such/folder/a.pcap", LinkType::radiotap);
         FAIL();
     } catch (const ConfigError& error) {
         EXPECT_EQ(std::string(error.what()),
@@ -61,7 +61,7 @@ TEST(PcapWriter, AFullDiskIsAnErrorAtOnce) {
     if (!std::filesystem::exists(full_disk)) {
         GTEST_SKIP() << "there is no " << full_disk;
     }
-    EXPECT_THROW(PcapWriter writer(full_disk), ConfigError);
+    EXPECT_THROW(PcapWriter writer(full_disk, LinkType::radiotap), ConfigError);
 }
 
 // While it lives, no file of this process grows beyond a limit.
@@ -86,7 +86,7 @@ private:
 
 TEST(PcapWriter, WhatDoesNotFitAnyMoreIsReportedInTheEnd) {
     const TemporaryFile file;
-    PcapWriter writer(file.path());
+    PcapWriter writer(file.path(), LinkType::radiotap);
     const FileSizeLimit limit(1'000'000);
     for (int packet = 0; packet < 20; ++packet) {
         writer.write(SimTime{}, Octets(100'000));
@@ -102,7 +102,7 @@ TEST(PcapWriter, WhatDoesNotFitAnyMoreIsReportedInTheEnd) {
 
 TEST(PcapWriter, ClosingTwiceIsFine) {
     const TemporaryFile file;
-    PcapWriter writer(file.path());
+    PcapWriter writer(file.path(), LinkType::radiotap);
     writer.close();
     EXPECT_NO_THROW(writer.close());
 }

@@ -1,0 +1,15 @@
+// The kinds of network interface: what `*.<node>.wlan[*].typename` may say. Chooses the MAC, and the defaults of the
+// radio.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace netsim {
+
+inline constexpr std::string_view ieee80211_interface = "Ieee80211Interface";
+inline constexpr std::string_view ieee802154_interface = "Ieee802154NarrowbandInterface";
+
+inline constexpr std::array interface_type_names{ieee80211_interface, ieee802154_interface};
+
+}  // namespace netsim

@@ -1,0 +1,213 @@
+#include "netsim/mac/csma_ca_802154.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "netsim/error.hpp"
+#include "netsim/mac/frame_802154.hpp"
+#include "netsim/phy/oqpsk_mode.hpp"
+
+namespace netsim {
+
+namespace {
+
+MessageKind message_kind(const Frame& frame) {
+    return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
+}
+
+}  // namespace
+
+CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
+                           MessageFates& fates, LinkListener& listener)
+    : simulator_(simulator),
+      radio_(radio),
+      config_(config),
+      unit_backoff_(SimTime::from_seconds(config.unit_backoff_s)),
+      cca_(SimTime::from_seconds(config.cca_s)),
+      turnaround_(SimTime::from_seconds(config.turnaround_s)),
+      sifs_(SimTime::from_seconds(config.sifs_s)),
+      ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
+      fates_(fates),
+      listener_(listener),
+      draws_(seed, static_cast<std::uint32_t>(radio.id()), Purpose::csma_backoff),
+      queue_(config.queue_capacity) {
+    radio_.set_listener(*this);
+}
+
+void CsmaCa802154::send(NodeId destination, Payload payload) {
+    constexpr int longest_bytes = narrowband_mtu_bytes - datagram_bytes(0);
+    if (payload->size() > longest_bytes) {
+        throw SimulationError(
+            "a message of " + std::to_string(payload->size()) + " bytes does not fit: the longest is " +
+            std::to_string(longest_bytes) + " bytes (an 802.15.4 frame of " +
+            std::to_string(narrowband_longest_psdu_bytes) + " bytes less MAC, IPv4 and UDP headers)");
+    }
+    Frame frame;
+    frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
+    frame.transmitter = radio_.id();
+    frame.receiver = destination;
+    frame.sequence = next_sequence_++;
+    frame.psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
+    frame.payload = std::move(payload);
+    if (destination != broadcast_id && config_.use_acks) {
+        frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
+    }
+    const MessageKind kind = message_kind(frame);
+    fates_.accept(kind);
+    if (!queue_.push(std::make_shared<const Frame>(std::move(frame)))) {
+        fates_.book(kind, MessageFate::queue_overflow);
+        return;
+    }
+    if (state_ == State::idle) {
+        go_on();
+    }
+}
+
+void CsmaCa802154::go_on() {
+    const bool resumes = std::exchange(interrupted_, false);
+    if (!in_progress_ && queue_.empty()) {
+        state_ = State::idle;
+        return;
+    }
+    if (!resumes) {
+        failed_assessments_ = 0;
+    }
+    back_off();
+}
+
+// The ends of the wait and of the assessment are the last events of their instants, so that they know all of these.
+void CsmaCa802154::back_off() {
+    state_ = State::backing_off;
+    timer_ =
+        simulator_.schedule_after(unit_backoff_ * backoff_periods(), [this] { assess(); }, Priority::last);
+}
+
+int CsmaCa802154::backoff_periods() {
+    const auto draw_below = [this](int count) {
+        return static_cast<int>(draws_.uniform_int(static_cast<std::uint32_t>(count)));
+    };
+    if (config_.backoff_method == "exponential") {
+        return draw_below(1 << std::min(config_.min_be + failed_assessments_, config_.max_be));
+    }
+    const bool grows = config_.backoff_method == "linear";
+    return 1 + draw_below(config_.contention_window + (grows ? failed_assessments_ : 0));
+}
+
+void CsmaCa802154::assess() {
+    state_ = State::assessing;
+    heard_ = radio_.is_channel_busy();
+    timer_ = simulator_.schedule_after(cca_, [this] { assessed(); }, Priority::last);
+}
+
+void CsmaCa802154::channel_busy_changed(bool busy) {
+    heard_ |= busy;
+}
+
+void CsmaCa802154::assessed() {
+    if (radio_.is_channel_busy() || (config_.cca_whole_window && heard_)) {
+        channel_is_busy();
+        return;
+    }
+    if (!in_progress_) {
+        in_progress_ = queue_.pop();
+    }
+    state_ = State::turning;
+    radio_.turn_to_transmit();
+    timer_ = simulator_.schedule_after(turnaround_, [this] {
+        state_ = State::sending;
+        transmit(in_progress_);
+    });
+}
+
+void CsmaCa802154::channel_is_busy() {
+    if (++failed_assessments_ <= config_.max_backoffs) {
+        back_off();
+        return;
+    }
+    if (!in_progress_) {
+        in_progress_ = queue_.pop();
+    }
+    finish(MessageFate::access_failure);
+}
+
+void CsmaCa802154::transmit(std::shared_ptr<const Frame> frame) {
+    const FrameLabel label{frame->kind, frame->receiver};
+    const int psdu_bytes = frame->psdu_bytes;
+    radio_.transmit(std::move(frame), label, psdu_bytes, oqpsk_250_kbps, oqpsk_250_kbps.duration(psdu_bytes));
+}
+
+void CsmaCa802154::transmission_ended() {
+    if (state_ == State::sending_ack) {
+        go_on();
+        return;
+    }
+    NETSIM_ASSERT(state_ == State::sending);
+    if (in_progress_->receiver == broadcast_id || !config_.use_acks) {
+        finish(MessageFate::sent);
+        return;
+    }
+    state_ = State::awaiting_ack;
+    timer_ = simulator_.schedule_after(ack_wait_, [this] { ack_timed_out(); });
+}
+
+void CsmaCa802154::ack_timed_out() {
+    if (retries_ >= config_.max_frame_retries) {
+        finish(MessageFate::retry_limit);
+        return;
+    }
+    if (++retries_ == 1) {
+        Frame again = *in_progress_;
+        again.retry = true;
+        in_progress_ = std::make_shared<const Frame>(std::move(again));
+    }
+    go_on();
+}
+
+void CsmaCa802154::finish(MessageFate fate) {
+    fates_.book(message_kind(*in_progress_), fate);
+    in_progress_.reset();
+    retries_ = 0;
+    go_on();
+}
+
+void CsmaCa802154::frame_received(const Transmission& transmission) {
+    const Frame& frame = *transmission.frame;
+    if (frame.kind == FrameKind::broadcast) {
+        listener_.message_received(frame.transmitter, frame.payload);
+    } else if (frame.receiver != radio_.id()) {
+        return;
+    } else if (frame.kind == FrameKind::unicast) {
+        unicast_received(frame);
+    } else if (frame.kind == FrameKind::ack && state_ == State::awaiting_ack &&
+               frame.transmitter == in_progress_->receiver && frame.sequence == in_progress_->sequence) {
+        simulator_.cancel(timer_);
+        finish(MessageFate::acknowledged);
+    }
+}
+
+void CsmaCa802154::unicast_received(const Frame& frame) {
+    if (config_.use_acks && state_ != State::awaiting_ack) {
+        acknowledge(frame);
+    }
+    if (!duplicates_.is_duplicate(frame)) {
+        listener_.message_received(frame.transmitter, frame.payload);
+    }
+}
+
+void CsmaCa802154::acknowledge(const Frame& frame) {
+    if (state_ != State::idle) {
+        NETSIM_ASSERT(state_ == State::backing_off || state_ == State::assessing);
+        simulator_.cancel(timer_);
+        interrupted_ = true;
+    }
+    state_ = State::waiting_sifs;
+    ack_ = std::make_shared<const Frame>(make_narrowband_ack(frame));
+    radio_.turn_to_transmit();
+    timer_ = simulator_.schedule_after(sifs_, [this] {
+        state_ = State::sending_ack;
+        transmit(std::exchange(ack_, nullptr));
+    });
+}
+
+}  // namespace netsim

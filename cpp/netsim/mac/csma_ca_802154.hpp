@@ -1,0 +1,105 @@
+// An 802.15.4 device in a network without beacons: unslotted CSMA/CA.
+//
+// Sends the frames of its queue one by one: waits at random, listens for a moment, turns its radio around and
+// transmits; if an ACK is asked for, waits for it and repeats the frame if none comes. Answers with an ACK of its own,
+// and drops duplicates.
+//
+//   IDLE --frame in the queue--> BACKING_OFF --time is up--> ASSESSING --free--> TURNING --turnaround--> SENDING
+//    ^                            ^   ^                        |  |                                     |     |
+//    |                            |   +-- busy: wait again <---+  +-- busy too often: given up --+      |     |
+//    |                            |                                                              |      |     |
+//    |                            |            end of a broadcast, or of a frame without ACK: done <----+     |
+//    |                            |                                                              |            |
+//    |                            +-- time-out: repeat -- AWAITING_ACK <----- end of a frame with ACK --------+
+//    |                                                      |                                    |
+//    |                                                      +-- ACK: done, or given up ----------+
+//    |                                                                                           |
+//    +--------------------- queue empty (otherwise: BACKING_OFF for the next frame) <------------+
+//
+// A unicast frame that comes in IDLE, BACKING_OFF or ASSESSING is answered: WAITING_SIFS --> SENDING_ACK, and then the
+// own frame waits anew, without losing count of its failed assessments. One that comes in AWAITING_ACK is taken
+// without an answer. From ASSESSING on, until a frame or an ACK has been sent, the radio is deaf.
+//
+// Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments); the choices where the standard
+// leaves room are those of INET 4.5. Two differ from INET: a frame is given up after its last assessment also if it was
+// never on the air before, where INET starts afresh; and cca_whole_window is ours.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "netsim/config/csma_config.hpp"
+#include "netsim/kernel/random.hpp"
+#include "netsim/mac/duplicate_filter.hpp"
+#include "netsim/mac/link.hpp"
+#include "netsim/mac/tx_queue.hpp"
+#include "netsim/phy/radio.hpp"
+#include "netsim/trace/message_fates.hpp"
+
+namespace netsim {
+
+class CsmaCa802154 final : public Link, private RadioListener {
+public:
+    CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
+                 MessageFates& fates, LinkListener& listener);
+    CsmaCa802154(const CsmaCa802154&) = delete;
+    CsmaCa802154& operator=(const CsmaCa802154&) = delete;
+
+    void send(NodeId destination, Payload payload) override;
+    std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
+
+private:
+    enum class State {
+        idle,
+        backing_off,
+        assessing,
+        turning,
+        sending,
+        awaiting_ack,
+        waiting_sifs,
+        sending_ack,
+    };
+
+    void channel_busy_changed(bool busy) override;
+    void frame_received(const Transmission& transmission) override;
+    void frame_corrupted() override {}
+    void transmission_ended() override;
+
+    void go_on();
+    void back_off();
+    int backoff_periods();
+    void assess();
+    void assessed();
+    void channel_is_busy();
+    void transmit(std::shared_ptr<const Frame> frame);
+    void ack_timed_out();
+    void finish(MessageFate fate);
+    void unicast_received(const Frame& frame);
+    void acknowledge(const Frame& frame);
+
+    Simulator& simulator_;
+    Radio& radio_;
+    CsmaConfig config_;
+    SimTime unit_backoff_;
+    SimTime cca_;
+    SimTime turnaround_;
+    SimTime sifs_;
+    SimTime ack_wait_;
+    MessageFates& fates_;
+    LinkListener& listener_;
+    RandomStream draws_;
+
+    TxQueue queue_;
+    DuplicateFilter duplicates_;
+    State state_ = State::idle;
+    EventHandle timer_;                         // of the state
+    std::shared_ptr<const Frame> in_progress_;  // was on the air, or is about to be
+    std::shared_ptr<const Frame> ack_;          // that is about to be sent
+    int failed_assessments_ = 0;                // of the present attempt
+    int retries_ = 0;                           // of the frame in progress
+    bool interrupted_ = false;                  // the present attempt, to send an ACK
+    bool heard_ = false;                        // something, during the assessment
+    std::uint32_t next_sequence_ = 0;
+};
+
+}  // namespace netsim

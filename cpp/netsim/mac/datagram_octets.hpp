@@ -1,0 +1,19 @@
+// The octets of the IP datagram in a data frame: only capture files need them, the engine works with sizes.
+//
+// Node n is 10.x.x.x, the x being the three octets of n, and a broadcast goes to 255.255.255.255; both ends of a message
+// use UDP port 50000.
+//
+// Source: RFC 791 (IPv4); RFC 768 (UDP).
+#pragma once
+
+#include "netsim/mac/frame.hpp"
+#include "netsim/trace/octets.hpp"
+
+namespace netsim {
+
+inline constexpr unsigned udp_port = 50'000;
+
+// Appends IPv4 header, UDP header and payload of a data frame.
+void append_datagram(Octets& octets, const Frame& frame);
+
+}  // namespace netsim

@@ -1,0 +1,35 @@
+#include "netsim/phy/oqpsk_error_rate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "netsim/error.hpp"
+#include "netsim/phy/oqpsk_mode.hpp"
+
+namespace netsim {
+
+double OqpskErrorModel::bit_error_rate(double snir) {
+    NETSIM_ASSERT(snir >= 0);
+    // From here on the sum, which k = 2 rules, is below 1e-16: over the bits of the longest frame it changes no digit.
+    constexpr double negligible_from = 4;
+    if (snir > negligible_from) {
+        return 0;
+    }
+    constexpr int order = 16;
+    double choose = order;  // (16 choose k)
+    double sum = 0;
+    for (int k = 2; k <= order; ++k) {
+        choose = choose * (order + 1 - k) / k;
+        const double term = choose * std::exp(20 * snir * (1.0 / k - 1));
+        sum += k % 2 == 0 ? term : -term;
+    }
+    return std::clamp(8.0 / 15 / 16 * sum, 0.0, 0.5);
+}
+
+double OqpskErrorModel::success_probability(const Mode& mode, double snir, int psdu_bytes) const {
+    NETSIM_ASSERT(mode.family == ModeFamily::oqpsk);
+    const auto bits = static_cast<double>(oqpsk_header_bits + mode.data_bits(psdu_bytes));
+    return std::exp(bits * std::log1p(-bit_error_rate(snir)));
+}
+
+}  // namespace netsim

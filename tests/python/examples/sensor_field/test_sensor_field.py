@@ -1,0 +1,50 @@
+"""configs/sensor_field.ini does what it says."""
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+import gradysim.prototype.run
+from gradysim.config import load_scenarios
+from gradysim.integrated.run import run
+from gradysim.results.run_result import RunResult
+
+FILE = Path(__file__).parents[4] / "configs" / "sensor_field.ini"
+SENSORS = 20
+
+
+def result_of(config: str, *overrides: str) -> RunResult:
+    (scenario,) = load_scenarios(FILE, config, overrides=["sim-time-limit = 60s", *overrides])
+    return run(scenario)
+
+
+def ground_station(result: RunResult) -> dict[str, object]:
+    (node,) = [node for node in result.nodes if node.name == "groundStation"]
+    return dict(node.tracked_variables)
+
+
+@pytest.mark.parametrize("config", ["Spread", "WithUavs"])
+def test_nearly_all_spread_reports_arrive(config: str) -> None:
+    result = result_of(config)
+    messages = result.fates["messages"]["unicast"]
+    assert sum(messages.values()) >= SENSORS * 6
+    assert ground_station(result)["sensors_heard"] == SENSORS
+    assert messages["acknowledged"] >= 0.99 * sum(messages.values())
+
+
+def test_synchronised_sensors_find_the_channel_busy() -> None:
+    messages = result_of("Synchronised").fates["messages"]["unicast"]
+    assert messages["channel_access_failure"] > 0.1 * sum(messages.values())
+
+
+def test_a_report_that_is_too_long_is_refused() -> None:
+    with pytest.raises(Exception, match="a message of 91 bytes does not fit: the longest is 90 bytes"):
+        result_of("Spread", "*.sensors[*].protocol.payload_bytes = 91")
+
+
+def test_it_runs_in_prototype_mode() -> None:
+    (scenario,) = load_scenarios(FILE, "Spread", overrides=["sim-time-limit = 60s"])
+    result = gradysim.prototype.run.run(scenario)
+    assert ground_station(result)["sensors_heard"] == SENSORS
