@@ -5,11 +5,13 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include "netsim/config/antenna_config.hpp"
 #include "netsim/config/csma_config.hpp"
 #include "netsim/config/mac_config.hpp"
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/mobility_config.hpp"
 #include "netsim/config/node_config.hpp"
+#include "netsim/config/obstacle_config.hpp"
 #include "netsim/config/radio_config.hpp"
 #include "proxy_protocol/bindings.hpp"
 
@@ -18,7 +20,31 @@ using namespace netsim;
 
 namespace proxy_protocol {
 
+namespace {
+
+// One angle of an orientation, as a field of its own.
+template <typename Config>
+void bind_angle(py::class_<Config>& config, const char* name, EulerAngles Config::* angles,
+                double EulerAngles::* angle) {
+    config.def_property(
+        name, [=](const Config& self) { return self.*angles.*angle; },
+        [=](Config& self, double value) { self.*angles.*angle = value; });
+}
+
+}  // namespace
+
 void bind_config(py::module_& module) {
+    py::class_<ObstacleConfig>(module, "ObstacleConfig")
+        .def(py::init<>())
+        .def_readwrite("name", &ObstacleConfig::name)
+        .def_readwrite("rings", &ObstacleConfig::rings)
+        .def_readwrite("base_m", &ObstacleConfig::base_m)
+        .def_readwrite("top_m", &ObstacleConfig::top_m)
+        .def_readwrite("material", &ObstacleConfig::material)
+        .def_readwrite("relative_permittivity", &ObstacleConfig::relative_permittivity)
+        .def_readwrite("conductivity_spm", &ObstacleConfig::conductivity_spm)
+        .def("validate", &ObstacleConfig::validate);
+
     py::class_<MediumConfig>(module, "MediumConfig")
         .def(py::init<std::string>(), py::arg("typename") = "Ieee80211ScalarRadioMedium")
         .def_readonly("typename", &MediumConfig::type_name)  // sets the other defaults, so only at the start
@@ -37,7 +63,25 @@ void bind_config(py::module_& module) {
         .def_readwrite("coherence_time_s", &MediumConfig::coherence_time_s)
         .def_readwrite("background_noise_w", &MediumConfig::background_noise_w)
         .def_readwrite("propagation", &MediumConfig::propagation)
+        .def_readwrite("obstacle_loss", &MediumConfig::obstacle_loss)
+        .def_readwrite("enable_dielectric_loss", &MediumConfig::enable_dielectric_loss)
+        .def_readwrite("enable_reflection_loss", &MediumConfig::enable_reflection_loss)
+        .def_readwrite("obstacles", &MediumConfig::obstacles)
         .def("validate", &MediumConfig::validate);
+
+    py::class_<AntennaConfig> antenna(module, "AntennaConfig");
+    antenna.def(py::init<>())
+        .def_readwrite("typename", &AntennaConfig::type_name)
+        .def_readwrite("gain", &AntennaConfig::gain)
+        .def_readwrite("max_gain", &AntennaConfig::max_gain)
+        .def_readwrite("min_gain", &AntennaConfig::min_gain)
+        .def_readwrite("beam_width_rad", &AntennaConfig::beam_width_rad)
+        .def_readwrite("wire_axis", &AntennaConfig::wire_axis)
+        .def_readwrite("length_m", &AntennaConfig::length_m)
+        .def("validate", &AntennaConfig::validate, py::arg("carrier_hz"));
+    bind_angle(antenna, "offset_heading_rad", &AntennaConfig::offset, &EulerAngles::heading_rad);
+    bind_angle(antenna, "offset_elevation_rad", &AntennaConfig::offset, &EulerAngles::elevation_rad);
+    bind_angle(antenna, "offset_bank_rad", &AntennaConfig::offset, &EulerAngles::bank_rad);
 
     py::class_<RadioConfig>(module, "RadioConfig")
         .def(py::init<std::string_view>(), py::arg("interface") = ieee80211_interface)
@@ -97,12 +141,18 @@ void bind_config(py::module_& module) {
         .def_readwrite("queue_capacity", &CsmaConfig::queue_capacity)
         .def("validate", &CsmaConfig::validate);
 
-    py::class_<MobilityConfig>(module, "MobilityConfig")
-        .def(py::init<>())
+    py::class_<MobilityConfig> mobility(module, "MobilityConfig");
+    mobility.def(py::init<>())
         .def_readwrite("typename", &MobilityConfig::type_name)
         .def_readwrite("speed_mps", &MobilityConfig::speed_mps)
         .def_readwrite("telemetry_interval_s", &MobilityConfig::telemetry_interval_s)
+        .def_readwrite("face_forward", &MobilityConfig::face_forward)
         .def("validate", &MobilityConfig::validate);
+    bind_angle(mobility, "initial_heading_rad", &MobilityConfig::initial_orientation,
+               &EulerAngles::heading_rad);
+    bind_angle(mobility, "initial_elevation_rad", &MobilityConfig::initial_orientation,
+               &EulerAngles::elevation_rad);
+    bind_angle(mobility, "initial_bank_rad", &MobilityConfig::initial_orientation, &EulerAngles::bank_rad);
 
     py::class_<NodeConfig>(module, "NodeConfig")
         .def(py::init<std::string, std::string>(), py::arg("name"),

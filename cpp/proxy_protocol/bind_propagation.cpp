@@ -1,4 +1,4 @@
-// The engine's propagation, for link budgets and verification.
+// The engine's propagation and antennas, for link budgets and verification.
 #include <array>
 #include <cstdint>
 
@@ -7,6 +7,7 @@
 
 #include "netsim/error.hpp"
 #include "netsim/medium/propagation.hpp"
+#include "netsim/phy/antenna.hpp"
 #include "proxy_protocol/bindings.hpp"
 
 namespace py = pybind11;
@@ -40,6 +41,15 @@ double gain(const Propagation& propagation, const std::array<double, 3>& from_po
 }  // namespace
 
 void bind_propagation(py::module_& module) {
+    module.def(
+        "antenna_gain",
+        [](const AntennaConfig& config, double carrier_hz, const std::array<double, 3>& direction) {
+            config.validate(carrier_hz);
+            const auto pattern = make_antenna(config, carrier_hz);
+            return pattern ? pattern->gain({direction[0], direction[1], direction[2]}) : 1.0;
+        },
+        py::arg("config"), py::arg("carrier_hz"), py::arg("direction"));
+
     py::class_<Propagation>(module, "Propagation")
         .def(py::init(&make_propagation), py::arg("config"), py::arg("seed"))
         .def("gain", &gain, py::arg("from_position"), py::arg("to_position"), py::arg("carrier_hz"),

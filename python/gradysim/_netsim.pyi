@@ -1,6 +1,6 @@
 """The compiled engine. Names, arguments and meaning are those of the C++ sources in cpp/netsim."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 class ConfigError(ValueError):
@@ -29,8 +29,17 @@ class MediumConfig:
     coherence_time_s: float
     background_noise_w: float
     propagation: str
+    obstacle_loss: str
+    enable_dielectric_loss: bool
+    enable_reflection_loss: bool
+    obstacles: list[ObstacleConfig]
+    """Comes and goes as a copy: a change of the list, or in it, has to be assigned."""
+
     def __init__(self, typename: str = ...) -> None: ...
     def validate(self) -> None: ...
+
+def antenna_gain(config: AntennaConfig, carrier_hz: float, direction: tuple[float, float, float]) -> float:
+    """Linear gain towards `direction`, of any length but 0, seen from the antenna."""
 
 class Propagation:
     """What is left of a transmission on its way: path loss and fading, as the engine calculates them."""
@@ -56,6 +65,29 @@ class Propagation:
     def most_gain_beyond(self, distance_m: float, carrier_hz: float) -> float:
         """What no gain exceeds at that distance and beyond."""
 
+class ObstacleConfig:
+    name: str
+    rings: Sequence[Sequence[tuple[float, float]]]
+    base_m: float
+    top_m: float
+    material: str
+    relative_permittivity: float
+    conductivity_spm: float
+    def validate(self) -> None: ...
+
+class AntennaConfig:
+    typename: str
+    gain: float
+    max_gain: float
+    min_gain: float
+    beam_width_rad: float
+    wire_axis: str
+    length_m: float
+    offset_heading_rad: float
+    offset_elevation_rad: float
+    offset_bank_rad: float
+    def validate(self, carrier_hz: float) -> None: ...
+
 class RadioConfig:
     """The interface chooses the defaults."""
 
@@ -67,7 +99,7 @@ class RadioConfig:
     energy_detection_w: float
     snir_threshold: float
     error_model: str
-    antenna: str
+    antenna: AntennaConfig
     def __init__(self, interface: str = ...) -> None: ...
 
 class MacConfig:
@@ -115,6 +147,10 @@ class MobilityConfig:
     typename: str
     speed_mps: float
     telemetry_interval_s: float
+    face_forward: bool
+    initial_heading_rad: float
+    initial_elevation_rad: float
+    initial_bank_rad: float
 
 class NodeConfig:
     """The interface chooses the MAC and the defaults of the radio, so it is given at the start and stays."""

@@ -26,7 +26,7 @@ void RadioConfig::validate() const {
     check_greater("radio.energy_detection_w", energy_detection_w, 0, "W");
     check_at_least("radio.snir_threshold", snir_threshold, 0, "");
     check_name("radio.error_model", error_model, error_model_names);
-    check_name("radio.antenna", antenna, antenna_names);
+    antenna.validate(carrier_hz);
 }
 
 }  // namespace netsim

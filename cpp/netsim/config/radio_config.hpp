@@ -8,13 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "netsim/config/antenna_config.hpp"
 #include "netsim/config/interface_type.hpp"
 
 namespace netsim {
 
 inline constexpr std::array<std::string_view, 2> error_model_names{"Ieee80211NistErrorModel",
                                                                    "Ieee802154ErrorModel"};
-inline constexpr std::array<std::string_view, 1> antenna_names{"IsotropicAntenna"};
 
 struct RadioConfig {
     // Sets the defaults of the radio of that interface. Throws ConfigError if it is none of interface_type_names.
@@ -33,7 +33,7 @@ struct RadioConfig {
     double snir_threshold = 2.5118864315095801;
 
     std::string error_model = "Ieee80211NistErrorModel";  // one of error_model_names; 802.15.4: the other
-    std::string antenna = "IsotropicAntenna";             // one of antenna_names
+    AntennaConfig antenna;
 
     // Throws ConfigError for the first field out of its range: "radio.tx_power_w = -1 W: expected …".
     void validate() const;

@@ -35,6 +35,7 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
 NodeId Medium::attach(const Receiver& receiver) {
     const auto node = static_cast<NodeId>(attached_.size());
     attached_.push_back(Attached{receiver});
+    antennas_.add(receiver.antenna, *receiver.trajectory);
     odometer_.watch(*receiver.trajectory, simulator_.now());
     // Less than the difference by what the sum with the noise may be rounded.
     const double energy_w =
@@ -55,7 +56,8 @@ NodeId Medium::attach(const Receiver& receiver) {
     audience->least_w = std::min(audience->least_w, least_w);
     audience->least_energy_w = std::min(audience->least_energy_w, energy_w);
     audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
-    audience->tx_power_w = -1;
+    audience->most_antenna_gain = std::max(audience->most_antenna_gain, receiver.antenna.max_gain());
+    audience->most_power_w = -1;
     audience->members.add(node, *receiver.trajectory);
     return node;
 }
@@ -140,14 +142,14 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             }
             const Receiver& receiver = attached_[node].receiver;
             const double distance_m = std::sqrt(squared_m2);
-            const double power_w = sent.power_w * propagation_.gain(sent, node, place, distance_m);
-            if (power_w >= receiver.sensitivity_w) {
+            const double received_w = power_w(sent, node, place, distance_m);
+            if (received_w >= receiver.sensitivity_w) {
                 ++noticed_copies;
                 addressee_notices |= node == sent.label.destination;
             }
-            if (is_told_alone(receiver, power_w)) {
+            if (is_told_alone(receiver, received_w)) {
                 fetch(receiver);
-                entry.heard.push_back(Heard{now + propagation_delay(distance_m), node, power_w});
+                entry.heard.push_back(Heard{now + propagation_delay(distance_m), node, received_w});
             }
         });
     }
@@ -176,20 +178,23 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
 }
 
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
-    if (audience.tx_power_w != transmission.power_w || audience.carrier_hz != transmission.band.carrier_hz) {
-        audience.tx_power_w = transmission.power_w;
+    const double most_w = most_power_w(transmission, audience);
+    if (audience.most_power_w != most_w || audience.carrier_hz != transmission.band.carrier_hz) {
+        audience.most_power_w = most_w;
         audience.carrier_hz = transmission.band.carrier_hz;
-        audience.reach_m = reach_of_power_m(transmission, audience.least_w);
+        audience.reach_m = reach_of_power_m(transmission, audience, audience.least_w);
     }
     return audience.reach_m;
 }
 
-double Medium::reach_of_power_m(const Transmission& transmission, double power_w) const {
+double Medium::reach_of_power_m(const Transmission& transmission, const Audience& audience,
+                                double power_w) const {
     // Out of reach is said only with a margin for rounding; who is in doubt gets the exact calculation.
     constexpr double margin = 1 + 1e-9;
-    return power_w > 0
-               ? propagation_.reach_m(power_w / transmission.power_w, transmission.band.carrier_hz) * margin
-               : std::numeric_limits<double>::infinity();
+    return power_w > 0 ? propagation_.reach_m(power_w / most_power_w(transmission, audience),
+                                              transmission.band.carrier_hz) *
+                             margin
+                       : std::numeric_limits<double>::infinity();
 }
 
 Arrival Medium::arrival_at(const Transmission& transmission, NodeId node) const {
@@ -197,7 +202,7 @@ Arrival Medium::arrival_at(const Transmission& transmission, NodeId node) const 
     const double distance_m = distance(transmission.origin, there);
     const SimTime start = transmission.start + propagation_delay(distance_m);
     return Arrival{&transmission, start, start + transmission.duration,
-                   transmission.power_w * propagation_.gain(transmission, node, there, distance_m)};
+                   power_w(transmission, node, there, distance_m)};
 }
 
 // The events of an arrival have their places in the order of equal times since its transmission began: the

@@ -13,6 +13,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
+#include "netsim/medium/antennas.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/neighbours.hpp"
 #include "netsim/medium/odometer.hpp"
@@ -40,6 +41,7 @@ struct Receiver {
     Band band;
     double sensitivity_w = 0;       // the least power it can lock on to
     double energy_detection_w = 0;  // noise and signals together that make its channel busy
+    MountedAntenna antenna{};       // isotropic
 };
 
 // Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold
@@ -80,7 +82,8 @@ private:
         double least_w = 0;         // below that, none of them notices a transmission that is alone
         double least_energy_w = 0;  // below that, the sum of several is not noticed either
         double most_energy_w = 0;   // from that on, the noise or one transmission is enough for all of them
-        double tx_power_w = -1;     // of the last reach worked out
+        double most_antenna_gain = 0;
+        double most_power_w = -1;  // of the last reach worked out
         double carrier_hz = 0;
         double reach_m = 0;
         Neighbours members;
@@ -112,9 +115,21 @@ private:
     Arrival arrival_at(const Transmission& transmission, NodeId node) const;
     void tell_everybody(OnAir& entry);
     void tell_those_it_matters_to(OnAir& entry);
+    // At `node`, at `place` when the transmission starts.
+    double power_w(const Transmission& sent, NodeId node, const Position& place, double distance_m) const {
+        const double sent_w = sent.power_w * propagation_.gain(sent, node, place, distance_m);
+        return antennas_.all_isotropic() ? sent_w : sent_w * antennas_.gain(sent, node, place);
+    }
+    // With the best that both antennas can do; the way takes its share of that.
+    double most_power_w(const Transmission& sent, const Audience& audience) const {
+        return antennas_.all_isotropic()
+                   ? sent.power_w
+                   : sent.power_w * antennas_.max_gain(sent.sender) * audience.most_antenna_gain;
+    }
     // Beyond that, a transmission without others beside it cannot matter to the audience.
     double reach_m(Audience& audience, const Transmission& transmission) const;
-    double reach_of_power_m(const Transmission& transmission, double power_w) const;
+    // Beyond that, nobody of the audience gets that power.
+    double reach_of_power_m(const Transmission& transmission, const Audience& audience, double power_w) const;
     void schedule_arrivals(OnAir& entry);
     void schedule_next_start(OnAir& entry);
     void schedule_next_end(OnAir& entry);
@@ -139,6 +154,7 @@ private:
     FrameFates& fates_;
     Fingerprint& fingerprint_;
     Propagation propagation_;
+    Antennas antennas_;
     double background_noise_w_;
     Hearing hearing_;
     std::vector<Attached> attached_;

@@ -55,13 +55,12 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) 
             }
             const Receiver& receiver = attached.receiver;
             // Up to rounding, that is, for which there is a margin on both sides.
-            const double power_w =
+            const double received_w =
                 moved_m > 0 || !odometer_.all_stand()
                     ? arrival_at(strongest, node).power_w
-                    : strongest.power_w *
-                          propagation_.gain(strongest, node, place, distance(strongest.origin, place));
-            if (is_loud(receiver, power_w * (1 - 1e-9)) ||
-                (background_noise_w_ + power_w + search.others_w) * (1 + 1e-9) <
+                    : power_w(strongest, node, place, distance(strongest.origin, place));
+            if (is_loud(receiver, received_w * (1 - 1e-9)) ||
+                (background_noise_w_ + received_w + search.others_w) * (1 + 1e-9) <
                     receiver.energy_detection_w) {
                 return;
             }
@@ -80,7 +79,7 @@ void Medium::narrow(Search& search, const Audience& audience) {
     const double level_w = audience.least_energy_w * less;
     const double share_w = level_w / static_cast<double>(searches_.size());
     search.others_w = infinite;
-    search.radius_m = share_w > 0 ? reach_of_power_m(here, share_w) : infinite;
+    search.radius_m = share_w > 0 ? reach_of_power_m(here, audience, share_w) : infinite;
     if (!(search.radius_m < infinite)) {
         return;
     }
@@ -97,20 +96,20 @@ void Medium::narrow(Search& search, const Audience& audience) {
             const Transmission& there = searches_[i].on_air->transmission;
             if (&there != &here) {
                 const double least_m = std::max(between_m_[i] - within_m, 0.0);
-                sum_w += std::min(
-                    most_w, there.power_w * propagation_.most_gain_beyond(least_m, there.band.carrier_hz));
+                sum_w += std::min(most_w, most_power_w(there, audience) *
+                                              propagation_.most_gain_beyond(least_m, there.band.carrier_hz));
             }
         }
         return sum_w;
     };
-    const double loud_m = reach_of_power_m(here, audience.least_energy_w);
+    const double loud_m = reach_of_power_m(here, audience, audience.least_energy_w);
     // Each ring is optional, so their number may be limited: with extreme powers there could be thousands.
     constexpr int most_rings = 100;
     for (int ring = 0; ring < most_rings && search.radius_m > loud_m; ++ring) {
         constexpr double step = 0.75;
         const double inner_m = std::max(step * search.radius_m, loud_m);
-        const double most_w =
-            here.power_w * propagation_.most_gain_beyond(inner_m * less, here.band.carrier_hz);
+        const double most_w = most_power_w(here, audience) *
+                              propagation_.most_gain_beyond(inner_m * less, here.band.carrier_hz);
         if (most_w + others_w(search.radius_m, most_w, level_w) >= level_w) {
             break;
         }

@@ -1,6 +1,7 @@
 // What is left of a transmission on its way from one end of a link to the other: power and time.
 //
-// The gain is the product of all that changes the power: path loss, with or without a ground, and fading. The medium
+// The gain is the product of what happens on the way: path loss, with or without a ground, fading, and obstacles; the
+// antennas at its ends are not of it (antennas.hpp). The medium
 // asks for it for every pair of radios, and it has to search the places around a sender for those whom it reaches: for
 // that there are bounds, which no gain ever exceeds.
 #pragma once
@@ -10,6 +11,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/medium/fading.hpp"
+#include "netsim/medium/obstacles.hpp"
 #include "netsim/medium/path_loss.hpp"
 #include "netsim/medium/transmission.hpp"
 #include "netsim/medium/two_ray.hpp"
@@ -49,6 +51,7 @@ private:
     PathLoss path_loss_;  // of the two-ray models: their bound
     TwoRay two_ray_;
     Fading fading_;
+    Obstacles obstacles_;
     bool is_power_law_;   // and nothing else: most networks
     double most_factor_;  // the largest possible gain over that of the path loss
 };

@@ -13,6 +13,17 @@ const Trajectory::Leg& Trajectory::past_leg_at(SimTime time) const {
     return *leg;
 }
 
+const Trajectory::Leg& Trajectory::leg_begun_before(SimTime time) const {
+    if (past_.empty()) {
+        return current_;
+    }
+    auto leg = past_.rbegin();
+    while (time <= leg->start && leg + 1 != past_.rend()) {
+        ++leg;
+    }
+    return *leg;
+}
+
 void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
     const Position origin = position_at(now);
     const double length_m = distance(origin, target);

@@ -33,10 +33,10 @@ public:
         return position_on(time >= current_.start ? current_ : past_leg_at(time), time);
     }
 
-    // The direction of the motion at that time, of any length; of the latest one before, while it stands; 0, as long as
-    // it has not moved.
+    // The direction of the motion just before that time, of any length; of the latest one before, while it stands; 0, as
+    // long as it has not moved. Just before: so that commands of that very instant do not change what was said already.
     Position course_at(SimTime time) const {
-        return (time >= current_.start ? current_ : past_leg_at(time)).course;
+        return (time > current_.start ? current_ : leg_begun_before(time)).course;
     }
 
     // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is.
@@ -71,6 +71,7 @@ private:
         return distance(leg.origin, leg.target) / (leg.arrival - leg.start).seconds();
     }
     const Leg& past_leg_at(SimTime time) const;
+    const Leg& leg_begun_before(SimTime time) const;
     void add(Leg leg);
 
     Leg current_;            // from its start on

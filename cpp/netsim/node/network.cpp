@@ -51,7 +51,7 @@ std::unique_ptr<Link> Network::make_link(const NodeConfig& config, Node& node) {
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.interface_type);
     Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_,
-                                        frame_fates_, fingerprint_);
+                                        frame_fates_, fingerprint_, node.attitude());
     if (config.interface_type == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,

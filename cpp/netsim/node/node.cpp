@@ -19,6 +19,7 @@ Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint6
       id_(id),
       name_(config.name),
       mobility_(make_mobility(config.mobility, config.initial_position)),
+      attitude_(config.mobility),
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
 
 void Node::initialize() {

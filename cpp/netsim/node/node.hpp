@@ -11,6 +11,7 @@
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/link.hpp"
+#include "netsim/mobility/attitude.hpp"
 #include "netsim/mobility/mobility.hpp"
 #include "netsim/node/protocol.hpp"
 #include "netsim/node/timers.hpp"
@@ -29,6 +30,7 @@ public:
     const std::string& name() const { return name_; }
     Position position() const { return mobility_->trajectory().position_at(simulator_.now()); }
     const Trajectory& trajectory() const { return mobility_->trajectory(); }
+    const Attitude& attitude() const { return attitude_; }
 
     // Wiring, before the run. The interface reports to `link_listener()`.
     LinkListener& link_listener() { return *this; }
@@ -69,6 +71,7 @@ private:
     std::string name_;
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Mobility> mobility_;
+    Attitude attitude_;
     std::unique_ptr<Link> link_;
     std::unique_ptr<Protocol> protocol_;
     Timers timers_;

@@ -4,19 +4,23 @@
 #include <utility>
 
 #include "netsim/error.hpp"
+#include "netsim/phy/antenna.hpp"
 
 namespace netsim {
 
 Radio::Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, const Trajectory& trajectory,
-             std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint)
+             std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint, const Attitude& attitude)
     : simulator_(simulator),
       medium_(medium),
       config_(config),
       error_model_(error_model(config.error_model)),
+      antenna_(make_antenna(config.antenna, config.carrier_hz)),
       fates_(fates),
       fingerprint_(fingerprint),
-      id_(medium.attach(Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz},
-                                 config.sensitivity_w, config.energy_detection_w})),
+      id_(medium.attach(
+          Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz}, config.sensitivity_w,
+                   config.energy_detection_w,
+                   MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)}})),
       reception_draws_(seed, static_cast<std::uint32_t>(id_), Purpose::reception) {}
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,

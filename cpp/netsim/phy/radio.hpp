@@ -14,6 +14,7 @@
 
 #include "netsim/config/radio_config.hpp"
 #include "netsim/kernel/random.hpp"
+#include "netsim/medium/antenna_pattern.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/phy/error_rate.hpp"
 #include "netsim/phy/modes.hpp"
@@ -37,7 +38,7 @@ protected:
 class Radio final : public MediumListener {
 public:
     Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, const Trajectory& trajectory,
-          std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint);
+          std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint, const Attitude& attitude = {});
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
 
@@ -77,6 +78,7 @@ private:
     Medium& medium_;
     RadioConfig config_;
     const ErrorModel& error_model_;
+    std::unique_ptr<const AntennaPattern> antenna_;  // null: isotropic
     FrameFates& fates_;
     Fingerprint& fingerprint_;
     RadioListener* listener_ = nullptr;

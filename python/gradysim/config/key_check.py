@@ -6,6 +6,7 @@ group is better reported than the missing class that follows from it.
 
 from collections.abc import Iterator, Mapping
 
+from gradysim.config.environment_keys import OBSTACLE_KEYS, obstacle_path
 from gradysim.config.error import ConfigError
 from gradysim.config.groups import Group
 from gradysim.config.key_suggestion import unknown_name_text, unknown_parameter_text
@@ -23,8 +24,6 @@ from gradysim.config.pattern import Pattern
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.reader import Entry
 from gradysim.protocol.interface import IProtocol
-
-_NETWORK_RESTS = [tuple(key.path.split(".", 1)) for key in NETWORK_KEYS]
 
 
 def check_option(entry: Entry) -> None:
@@ -60,17 +59,28 @@ def check_names(lookup: Lookup, groups: list[Group]) -> None:
             raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
 
 
-def check_parameters(lookup: Lookup, groups: list[Group], classes: Mapping[str, type[IProtocol]]) -> None:
-    """Raise ConfigError for the first key that names no parameter; `classes` are those of the nodes."""
-    check = _ParameterCheck(lookup.network, groups, classes)
+def check_parameters(
+    lookup: Lookup, groups: list[Group], classes: Mapping[str, type[IProtocol]], obstacles: int
+) -> None:
+    """Raise ConfigError for the first key that names no parameter.
+
+    `classes` are those of the nodes; `obstacles` is the number of those that have keys.
+    """
+    check = _ParameterCheck(lookup.network, groups, classes, obstacles)
     for found in _in_order_of_text(lookup):
         if not check.matches(found):
             raise ConfigError(check.error_text(found), found.entry.source)
 
 
 class _ParameterCheck:
-    def __init__(self, network: str, groups: list[Group], classes: Mapping[str, type[IProtocol]]) -> None:
+    def __init__(
+        self, network: str, groups: list[Group], classes: Mapping[str, type[IProtocol]], obstacles: int
+    ) -> None:
         self._network = network
+        self._network_paths = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
+        self._network_paths += [
+            obstacle_path(key, index) for index in range(obstacles) for key in OBSTACLE_KEYS
+        ]
         self._groups = groups
         self._classes = classes
         self._rests = {cls: _rests_of(cls) for cls in dict.fromkeys(classes.values())}
@@ -83,7 +93,8 @@ class _ParameterCheck:
             return any(found.pattern.matches(path) for path in self._paths_like(found))
         if rest is None:
             return any(name.matches(group.size_key) for group in self._groups)
-        if any(name.matches(module) and rest.matches(below) for module, below in _NETWORK_RESTS):
+        below = [path.split(".", 1) for path in self._network_paths if found.may_end_in(path)]
+        if any(name.matches(module) and rest.matches(end) for module, end in below):
             return True
         if rest.matches(GROUP_SIZE.path) and any(name.matches(group.name) for group in self._groups):
             return True
@@ -118,7 +129,7 @@ class _ParameterCheck:
 
     def _paths_like(self, found: Found) -> Iterator[str]:
         """All paths but those that the end of the key excludes."""
-        yield from (f"{self._network}.{key.path}" for key in NETWORK_KEYS)
+        yield from (f"{self._network}.{path}" for path in self._network_paths)
         for group in self._groups:
             yield f"{self._network}.{group.size_key}"
             yield f"{self._network}.{group.name}.{GROUP_SIZE.path}"

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
+from gradysim.config.key import Key
 from gradysim.config.keys import (
     GROUP_SIZE,
     NETWORK_KEYS,
@@ -11,7 +12,6 @@ from gradysim.config.keys import (
     OPTION_KEYS,
     PROTOCOL_KEYS,
     PROTOCOL_PARAMETER,
-    Key,
 )
 from gradysim.config.native_protocol import NativeProtocol
 from gradysim.config.protocol_parameters import parameters_of

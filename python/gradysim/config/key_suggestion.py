@@ -46,7 +46,10 @@ def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Seque
     names_node = found.parts is not None and found.parts[1].text.partition("[")[0] not in NETWORK_MODULES
     if rest is not None and names_node and rest.text.startswith(_PROTOCOL) and classes:
         return _unknown_protocol_parameter_text(key, rest, classes)
-    return f"`{key}` matches no parameter; expected the name of one{_hint(found, groups, classes)}"
+    expected = "the name of one"
+    if rest is not None and not names_node and rest.text.startswith("obstacle["):
+        expected = "one of an obstacle that `*.environment.numObstacles` counts"
+    return f"`{key}` matches no parameter; expected {expected}{_hint(found, groups, classes)}"
 
 
 def _hint(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:

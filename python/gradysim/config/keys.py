@@ -4,13 +4,15 @@ The names are INET's and OMNeT++'s. Ranges of radio and MAC values are the engin
 unit and no model could mean is refused here. To add a key, add a line.
 """
 
-from dataclasses import dataclass
-
+from gradysim.config.antenna_keys import ANTENNA_KEYS
+from gradysim.config.environment_keys import ENVIRONMENT_KEYS
+from gradysim.config.key import Key
 from gradysim.config.kinds import (
     Kind,
     boolean,
     channel_of_2_4_ghz,
     choice,
+    coordinate,
     integer,
     number,
     power_ratio,
@@ -20,53 +22,11 @@ from gradysim.config.kinds import (
     whole_bytes,
 )
 
-
-@dataclass(frozen=True)
-class Key:
-    """One parameter.
-
-    Attributes:
-        path: Below the node, or below the network for NETWORK_KEYS.
-        target: "struct.field" that the value is for. Of two keys with one target, the first match wins.
-        kind: What the value has to be.
-        meaning: For people: a line of a list of all keys.
-        default: As it would be written, for what no struct has a default for; "" where a struct has one.
-    """
-
-    path: str
-    target: str
-    kind: Kind
-    meaning: str
-    default: str = ""
-
-    @property
-    def written(self) -> str:
-        """The path as people write it in a pattern."""
-        return self.path.replace("wlan[0]", "wlan[*]")
-
-    @property
-    def struct(self) -> str:
-        """The first part of the target."""
-        return self.target.partition(".")[0]
-
-    @property
-    def field(self) -> str:
-        """The second part of the target."""
-        return self.target.partition(".")[2]
-
-
 _RADIO = "wlan[0].radio"
 _MAC = "wlan[0].mac"
 _DCF = f"{_MAC}.dcf"
 _MAX_SIM_TIME_S = 9_223_372.0
 """The engine's clock counts picoseconds in 64 bits."""
-
-LARGEST_COORDINATE_M = 10_000_000
-"""The engine's bound, which holds in both modes."""
-
-
-def _coordinate() -> Kind:
-    return quantity("m", at_least=-LARGEST_COORDINATE_M, at_most=LARGEST_COORDINATE_M)
 
 
 PROTOCOL_CLASS = Key(
@@ -99,42 +59,42 @@ NODE_KEYS: tuple[Key, ...] = (
     Key(
         "mobility.initialX",
         "position.initial_x",
-        _coordinate(),
+        coordinate(),
         "Where it starts, x; of initialX and lineStartX/lineStepX the one that is written first is in force",
         default="0m",
     ),
     Key(
         "mobility.initialY",
         "position.initial_y",
-        _coordinate(),
+        coordinate(),
         "The same for y",
         default="0m",
     ),
     Key(
         "mobility.initialZ",
         "position.initial_z",
-        _coordinate(),
+        coordinate(),
         "The same for z: height",
         default="0m",
     ),
     Key(
         "mobility.lineStartX",
         "position.line_start_x",
-        _coordinate(),
+        coordinate(),
         "Nodes in a line: x of the node with index 0",
         default="0m",
     ),
     Key(
         "mobility.lineStartY",
         "position.line_start_y",
-        _coordinate(),
+        coordinate(),
         "The same for y",
         default="0m",
     ),
     Key(
         "mobility.lineStartZ",
         "position.line_start_z",
-        _coordinate(),
+        coordinate(),
         "The same for z",
         default="0m",
     ),
@@ -170,6 +130,30 @@ NODE_KEYS: tuple[Key, ...] = (
         "mobility.telemetry_interval_s",
         quantity("s", at_least=0, shown="ms"),
         "Time between two calls of handle_telemetry; 0s for none",
+    ),
+    Key(
+        "mobility.initialHeading",
+        "mobility.initial_heading_rad",
+        quantity("rad", shown="deg"),
+        "How it is turned at the start: from x towards y",
+    ),
+    Key(
+        "mobility.initialElevation",
+        "mobility.initial_elevation_rad",
+        quantity("rad", shown="deg"),
+        "The same upwards",
+    ),
+    Key(
+        "mobility.initialBank",
+        "mobility.initial_bank_rad",
+        quantity("rad", shown="deg"),
+        "The same about its own x axis, from y towards z",
+    ),
+    Key(
+        "mobility.faceForward",
+        "mobility.face_forward",
+        boolean(),
+        "Whether heading and elevation follow the direction of flight",
     ),
     Key(
         "wlan[0].typename",
@@ -453,12 +437,7 @@ NODE_KEYS: tuple[Key, ...] = (
         choice("Ieee80211NistErrorModel", "Ieee802154ErrorModel"),
         "How noise becomes lost frames",
     ),
-    Key(
-        f"{_RADIO}.antenna.typename",
-        "radio.antenna",
-        choice("IsotropicAntenna"),
-        "Where the antenna sends to: all directions alike",
-    ),
+    *ANTENNA_KEYS,
 )
 
 NETWORK_KEYS: tuple[Key, ...] = (
@@ -567,6 +546,7 @@ NETWORK_KEYS: tuple[Key, ...] = (
         choice("ConstantSpeedPropagation"),
         "How frames travel: with the speed of light",
     ),
+    *ENVIRONMENT_KEYS,
     Key(
         "communicationMedium.transmissionRange",
         "communication_medium.transmission_range_m",

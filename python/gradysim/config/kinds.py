@@ -17,6 +17,9 @@ Scalar = float | int | str | bool
 
 MAX_INTEGER = 2**31 - 1
 
+LARGEST_COORDINATE_M = 10_000_000
+"""The engine's bound, which holds in both modes."""
+
 
 @dataclass(frozen=True, eq=False)
 class Kind:
@@ -65,6 +68,11 @@ def quantity(
             f"{value:g}{unit}" if value == special else _in_unit(float(value), unit, shown or unit)
         ),
     )
+
+
+def coordinate() -> Kind:
+    """A coordinate within the scene, in metres."""
+    return quantity("m", at_least=-LARGEST_COORDINATE_M, at_most=LARGEST_COORDINATE_M)
 
 
 def number(at_least: float | None = None, above: float | None = None, at_most: float | None = None) -> Kind:

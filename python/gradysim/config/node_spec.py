@@ -27,6 +27,7 @@ class NodeSpec:
         protocol_sources: Where the parameters were written, and under "" what chose the protocol.
         csma: Fields of CsmaConfig that were set.
         node: Fields of NodeConfig itself that were set.
+        antenna: Fields of AntennaConfig that were set.
     """
 
     id: int
@@ -42,3 +43,4 @@ class NodeSpec:
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
     csma: Mapping[str, Setting] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
+    antenna: Mapping[str, Setting] = field(default_factory=dict)

@@ -9,15 +9,9 @@ from dataclasses import dataclass
 
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.groups import Group
-from gradysim.config.keys import (
-    LARGEST_COORDINATE_M,
-    NODE_KEYS,
-    PROTOCOL_CLASS,
-    PROTOCOL_KEYS,
-    PROTOCOL_TYPENAME,
-    Key,
-)
-from gradysim.config.kinds import Kind
+from gradysim.config.key import Key
+from gradysim.config.keys import NODE_KEYS, PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
+from gradysim.config.kinds import LARGEST_COORDINATE_M, Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.native_protocol import native_protocol
 from gradysim.config.nearest import nearest
@@ -47,6 +41,7 @@ class _Shared:
     mac: Mapping[str, Setting]
     csma: Mapping[str, Setting]
     node: Mapping[str, Setting]
+    antenna: Mapping[str, Setting]
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +104,7 @@ def build_nodes(
                     protocol_sources=shared.protocol_sources,
                     csma=shared.csma,
                     node=shared.node,
+                    antenna=shared.antenna,
                 )
             )
     return tuple(nodes)
@@ -158,7 +154,7 @@ class _NodeBuilder:
         sources = {name: setting.source for name, setting in protocol_settings.items()}
         structs = {
             struct: read_struct(struct, found, self._settings)
-            for struct in ("mobility", "radio", "mac", "csma", "node")
+            for struct in ("mobility", "radio", "mac", "csma", "node", "antenna")
         }
         position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
         values = {

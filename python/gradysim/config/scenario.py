@@ -12,6 +12,8 @@ from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.nodes import build_nodes, load_protocols, read_struct
+from gradysim.config.obstacle_spec import ObstacleSpec
+from gradysim.config.obstacles import obstacle_count, read_obstacles
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
 from gradysim.config.run_numbers import select_runs
@@ -57,6 +59,7 @@ class Scenario:
         medium: Fields of MediumConfig that were set; the others keep their defaults.
         communication_medium: Prototype mode's medium.
         reference_coordinates: Latitude in degrees, longitude in degrees and altitude in metres of the origin.
+        obstacles: What stands between the nodes.
     """
 
     file: Path
@@ -69,6 +72,7 @@ class Scenario:
     medium: Mapping[str, Setting]
     communication_medium: CommunicationMediumSpec
     reference_coordinates: tuple[float, float, float]
+    obstacles: tuple[ObstacleSpec, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,6 +83,7 @@ class _Network:
     medium: Mapping[str, Setting]
     communication_medium: CommunicationMediumSpec
     reference_coordinates: tuple[float, float, float]
+    obstacles: tuple[ObstacleSpec, ...]
 
 
 def load_scenarios(
@@ -166,6 +171,7 @@ def _scenario(
         medium=network.medium,
         communication_medium=network.communication_medium,
         reference_coordinates=network.reference_coordinates,
+        obstacles=network.obstacles,
     )
 
 
@@ -201,7 +207,8 @@ def _network(
             raise ConfigError(error.message + instead, error.source) from None
         raise
     protocols = load_protocols(lookup, groups, settings, loader)
-    check_parameters(lookup, groups, {name: protocol.cls for name, protocol in protocols.items()})
+    classes = {name: protocol.cls for name, protocol in protocols.items()}
+    check_parameters(lookup, groups, classes, obstacle_count(lookup, settings))
     if not protocols:
         raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
 
@@ -221,4 +228,11 @@ def _network(
             **{field: float(setting.value) for field, setting in communication.items()}
         ),
         reference_coordinates=(latitude, longitude, altitude),
+        obstacles=read_obstacles(
+            lookup,
+            settings,
+            (latitude, longitude, altitude)
+            if {"latitude_deg", "longitude_deg"} <= reference.keys()
+            else None,
+        ),
     )

@@ -17,6 +17,7 @@ def engine_defaults() -> Structs:
             "": netsim.RadioConfig(),
             "802.15.4": netsim.RadioConfig("Ieee802154NarrowbandInterface"),
         },
+        "antenna": {"": netsim.AntennaConfig()},
         "mac": {"": netsim.MacConfig()},
         "csma": {"": netsim.CsmaConfig()},
         "mobility": {"": netsim.MobilityConfig()},

@@ -8,13 +8,14 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
+from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 
 if TYPE_CHECKING:
-    from gradysim._netsim import MediumConfig, Network, Node, NodeConfig
+    from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
@@ -55,7 +56,25 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
     with errors_at(scenario.medium):
         config: MediumConfig = netsim.MediumConfig() if chosen is None else netsim.MediumConfig(chosen.value)
         set_fields(config, settings)
+        config.obstacles = [obstacle_config(spec) for spec in scenario.obstacles]
         config.validate()
+    return config
+
+
+def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
+    """Return the checked configuration of one obstacle."""
+    config: ObstacleConfig = load_netsim().ObstacleConfig()
+    config.name = spec.name
+    config.rings = spec.rings
+    config.base_m = spec.base_m
+    config.top_m = spec.top_m
+    config.material = spec.material
+    config.relative_permittivity = spec.relative_permittivity
+    config.conductivity_spm = spec.conductivity_spm
+    try:
+        config.validate()
+    except ValueError as error:
+        raise ConfigError.at(spec.source, f"{spec.name}: {error}") from error
     return config
 
 
@@ -70,6 +89,7 @@ def node_config(spec: NodeSpec) -> "NodeConfig":
     set_fields(config.mac, spec.mac)
     set_fields(config.csma, spec.csma)
     set_fields(config.mobility, spec.mobility)
+    set_fields(config.radio.antenna, spec.antenna)
     config.initial_position = spec.initial_position
     with errors_at(_all_settings(spec)):
         config.validate()
@@ -77,7 +97,7 @@ def node_config(spec: NodeSpec) -> "NodeConfig":
 
 
 def _all_settings(spec: NodeSpec) -> dict[str, Setting]:
-    return {**spec.node, **spec.radio, **spec.mac, **spec.csma, **spec.mobility}
+    return {**spec.node, **spec.radio, **spec.mac, **spec.csma, **spec.mobility, **spec.antenna}
 
 
 def set_fields(config: object, settings: Mapping[str, Setting]) -> None:

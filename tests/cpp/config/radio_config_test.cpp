@@ -67,8 +67,7 @@ TEST(RadioConfig, ValidateNamesTheField) {
               "radio.error_model = \"Nist\": expected one of Ieee80211NistErrorModel, Ieee802154ErrorModel; "
               "did you "
               "mean Ieee80211NistErrorModel?");
-    EXPECT_EQ(text_with<std::string>(&RadioConfig::antenna, "Dipole"),
-              "radio.antenna = \"Dipole\": expected IsotropicAntenna");
+    EXPECT_EQ(text_with(&RadioConfig::antenna, {.gain = -1}), "antenna.gain = -1: expected at least 0");
 }
 
 TEST(RadioConfig, ASilentRadioIsAllowed) {

@@ -11,10 +11,12 @@
 namespace netsim {
 namespace {
 
-const Ring square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+Ring square() {
+    return {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+}
 
 Prism house() {
-    return Prism({square}, 0, 5);
+    return Prism({square()}, 0, 5);
 }
 
 std::vector<Stretch> stretches(const Prism& prism, const Position& a, const Position& b) {
@@ -157,7 +159,7 @@ TEST(Prism, NoSegmentCrossesNothing) {
 }
 
 TEST(Prism, ACourtyardIsOutside) {
-    const Prism block({square, {{3, 3}, {3, 7}, {7, 7}, {7, 3}}}, 0, 5);
+    const Prism block({square(), {{3, 3}, {3, 7}, {7, 7}, {7, 3}}}, 0, 5);
     const auto found = stretches(block, {-5, 5, 2}, {15, 5, 2});
     ASSERT_EQ(found.size(), 2U);
     EXPECT_NEAR(found[0].length_m, 3, 1e-12);
@@ -174,8 +176,8 @@ TEST(Prism, AnLMayBeCrossedTwice) {
 
 struct Body {
     std::vector<Ring> rings;
-    double base_m;
-    double top_m;
+    double base_m = 0;
+    double top_m = 0;
 };
 
 // A star of random radii around a random place, not convex as a rule, sometimes with a courtyard.

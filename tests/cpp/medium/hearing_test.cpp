@@ -13,6 +13,7 @@
 #include "support/narrowband_scenario.hpp"
 #include "support/random_path_loss.hpp"
 #include "support/random_scenario.hpp"
+#include "support/random_surroundings.hpp"
 
 namespace netsim {
 namespace {
@@ -100,6 +101,21 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss)
     }
 }
 
+TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
+    constexpr std::uint64_t scenarios = 200;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        RandomScenario scenario =
+            test::with_random_surroundings(test::make_random_scenario(GetParam() * scenarios + i));
+        if (i % 4 == 0) {
+            scenario = test::with_random_path_loss(scenario);
+        }
+        expect_same_course(scenario);
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
@@ -117,6 +133,17 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLos
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_path_loss(test::make_far_flung_scenario(GetParam() * scenarios + i)));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
+    constexpr std::uint64_t scenarios = 10;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(
+            test::with_random_surroundings(test::make_far_flung_scenario(GetParam() * scenarios + i)));
         if (HasFatalFailure()) {
             return;
         }

@@ -99,6 +99,26 @@ TEST(Propagation, FadingIsAFactorOnFreeSpace) {
                 1e-12);
 }
 
+TEST(Propagation, ObstaclesAreAFactorOnIt) {
+    MediumConfig config;
+    config.path_loss = "TwoRayInterference";
+    const Position place{100, 0, 2};
+    const Transmission sent = sent_from({0, 0, 2});
+    const double in_sight = Propagation(config, 1).gain(sent, 1, place, 100);
+    ObstacleConfig wall;
+    wall.rings = {{{40, -10}, {40.2, -10}, {40.2, 10}, {40, 10}}};
+    wall.top_m = 5;
+    config.obstacles = {wall};
+    EXPECT_EQ(Propagation(config, 1).gain(sent, 1, place, 100), in_sight);
+    config.obstacle_loss = "DielectricObstacleLoss";
+    const double share = Obstacles(config).gain(sent.origin, place, sent.band.carrier_hz);
+    EXPECT_LT(share, 0.1);
+    EXPECT_GT(share, 0.01);
+    EXPECT_DOUBLE_EQ(Propagation(config, 1).gain(sent, 1, place, 100), in_sight * share);
+    config.obstacle_loss = "IdealObstacleLoss";
+    EXPECT_EQ(Propagation(config, 1).gain(sent, 1, place, 100), 0);
+}
+
 TEST(Propagation, DelayIsThatOfLight) {
     EXPECT_EQ(propagation_delay(299.792458), SimTime::from_us(1));
     EXPECT_GE(most_propagation_delay(299.792458), SimTime::from_us(1));

@@ -40,7 +40,8 @@ TEST(Attitude, FacesForward) {
     trajectory.go_to(s(1), {30, 0, 40}, 10);
     const Attitude attitude(config(true, quarter));
     expect_nose(attitude, trajectory, 0.5, {0, 1, 0});  // it has not moved
-    expect_nose(attitude, trajectory, 1, {0.6, 0, 0.8});
+    expect_nose(attitude, trajectory, 1, {0, 1, 0});
+    expect_nose(attitude, trajectory, 1.001, {0.6, 0, 0.8});
     expect_nose(attitude, trajectory, 5, {0.6, 0, 0.8});
 }
 
@@ -64,6 +65,18 @@ TEST(Attitude, IsKnownForTheLastSecond) {
     trajectory.stop(s(5.2));
     expect_nose(attitude, trajectory, 4.9, {0, 1, 0});
     expect_nose(attitude, trajectory, 5.1, {0, -1, 0});
+}
+
+TEST(Attitude, CommandsDoNotChangeTheInstantInWhichTheyAreGiven) {
+    Trajectory trajectory({0, 0, 0});
+    const Attitude attitude(config(true, 0));
+    trajectory.go_to(s(0), {0, 10, 0}, 1);
+    expect_nose(attitude, trajectory, 5, {0, 1, 0});
+    trajectory.go_to(s(5), {100, 5, 0}, 1);
+    expect_nose(attitude, trajectory, 5, {0, 1, 0});
+    trajectory.go_to(s(6), {100, 500, 0}, 1);
+    expect_nose(attitude, trajectory, 5, {0, 1, 0});
+    expect_nose(attitude, trajectory, 6, {1, 0, 0});
 }
 
 TEST(Attitude, OfCommandsInOneInstantTheLastCounts) {

@@ -1,3 +1,4 @@
+from math import pi
 from typing import Any
 
 import pytest
@@ -123,11 +124,16 @@ def test_only_what_was_written_is_set(folder: Any) -> None:
         ),
         (
             "**.antenna.typename",
-            '"IsotropicAntenna"',
-            "radio",
+            '"DipoleAntenna"',
             "antenna",
-            "IsotropicAntenna",
+            "typename",
+            "DipoleAntenna",
         ),
+        ("wlan[*].radio.antenna.maxGain", "10dB", "antenna", "max_gain", 10.0),
+        ("wlan[0].radio.antenna.beamWidth", "90deg", "antenna", "beam_width_rad", pi / 2),
+        ("wlan[*].radio.antenna.offsetElevation", "-90deg", "antenna", "offset_elevation_rad", -pi / 2),
+        ("mobility.initialHeading", "180deg", "mobility", "initial_heading_rad", pi),
+        ("mobility.faceForward", "true", "mobility", "face_forward", True),
     ],
 )
 def test_keys_reach_their_fields(

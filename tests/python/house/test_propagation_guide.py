@@ -13,7 +13,12 @@ def test_its_lines_run(
     pytest.importorskip("gradysim._netsim")
     from gradysim.integrated.run import run
 
-    for block in code_blocks("docs/guides/propagation.md", "ini"):
-        scenario = make_scenario("class Tested(Talker): pass", *block.strip().splitlines())
-        assert set(scenario.medium) >= {"path_loss", "k_db"}
+    fading, antennas, obstacles = (
+        make_scenario("class Tested(Talker): pass", *block.strip().splitlines())
+        for block in code_blocks("docs/guides/propagation.md", "ini")
+    )
+    assert set(fading.medium) >= {"path_loss", "k_db"}
+    assert antennas.nodes[0].antenna["typename"].value == "ParabolicAntenna"
+    assert len(obstacles.obstacles) == 2
+    for scenario in (fading, antennas, obstacles):
         assert run(scenario).fates["messages"]["broadcast"]["sent"] > 0

@@ -1,0 +1,33 @@
+"""One obstacle of a scenario, as the engine is given it."""
+
+from dataclasses import dataclass
+
+from gradysim.config.source import Source
+
+Ring = tuple[tuple[float, float], ...]
+"""Corners of a closed line, (x, y) in metres; the last one is joined to the first."""
+
+
+@dataclass(frozen=True)
+class ObstacleSpec:
+    """A body with vertical walls.
+
+    Attributes:
+        name: For people, in messages: "obstacle[0]", or file and feature.
+        rings: The footprint; rings within others are courtyards.
+        base_m: z of the floor in metres.
+        top_m: z of the roof in metres.
+        source: Where it was written, or where its file was named.
+        material: Of the engine's table.
+        relative_permittivity: Instead of the material's; -1 for that.
+        conductivity_spm: The same in S/m.
+    """
+
+    name: str
+    rings: tuple[Ring, ...]
+    base_m: float
+    top_m: float
+    source: Source
+    material: str = "concrete"
+    relative_permittivity: float = -1.0
+    conductivity_spm: float = -1.0

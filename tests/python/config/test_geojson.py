@@ -1,0 +1,109 @@
+"""Obstacles from GeoJSON files."""
+
+import json
+from typing import Any
+
+import pytest
+
+SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
+YARD = [[3, 3], [3, 7], [7, 7], [7, 3], [3, 3]]
+LOCAL = {"type": "name", "properties": {"name": "local"}}
+LINE = '*.environment.obstacles = "town.geojson"\n'
+ON_EARTH = "*.coordinateSystem.sceneLatitude = -15deg\n*.coordinateSystem.sceneLongitude = -48deg\n"
+
+
+def feature(
+    kind: str = "Polygon", coordinates: object = (SQUARE,), **properties: object
+) -> dict[str, object]:
+    return {
+        "type": "Feature",
+        "properties": properties or {"height": 12},
+        "geometry": {"type": kind, "coordinates": coordinates},
+    }
+
+
+def town(*features: object, **members: object) -> str:
+    return json.dumps({"type": "FeatureCollection", "features": features, "crs": LOCAL, **members})
+
+
+def test_a_polygon_with_a_courtyard(folder: Any) -> None:
+    folder.write(
+        "town.geojson", town(feature(coordinates=[SQUARE, YARD], height=12, base=3, material="brick"))
+    )
+    (obstacle,) = folder.load(LINE).obstacles
+    assert obstacle.rings == (
+        ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)),
+        ((3.0, 3.0), (3.0, 7.0), (7.0, 7.0), (7.0, 3.0)),
+    )
+    assert (obstacle.base_m, obstacle.top_m, obstacle.material) == (3.0, 15.0, "brick")
+    assert (obstacle.name, obstacle.source.line) == ("town.geojson, feature 0", 6)
+
+
+def test_each_polygon_of_several_is_an_obstacle(folder: Any) -> None:
+    folder.write(
+        "town.geojson", town(feature(), feature("MultiPolygon", [[SQUARE], [YARD]], height="7.5", name="B"))
+    )
+    obstacles = folder.load(LINE).obstacles
+    assert [obstacle.top_m for obstacle in obstacles] == [12.0, 7.5, 7.5]
+    assert obstacles[1].name == 'town.geojson, feature 1 ("B")'
+
+
+def test_longitude_and_latitude_are_placed_by_the_reference(folder: Any) -> None:
+    ring = [[-48, -15], [-48, -14.999], [-47.999, -14.999], [-48, -15]]
+    folder.write("town.geojson", town(feature(coordinates=[ring]), crs=None))
+    (obstacle,) = folder.load(LINE + ON_EARTH).obstacles
+    north_m, east_m = 111.194927, 107.406000
+    xs, ys = zip(*obstacle.rings[0], strict=True)
+    assert xs == pytest.approx((0, north_m, north_m), abs=1e-3)
+    assert ys == pytest.approx((0, 0, east_m), abs=1e-3)
+
+
+def test_a_material_of_its_own(folder: Any) -> None:
+    folder.write("town.geojson", town(feature(height=3, relativePermittivity=4, conductivity="0.1")))
+    (obstacle,) = folder.load(LINE).obstacles
+    assert (obstacle.relative_permittivity, obstacle.conductivity_spm) == (4.0, 0.1)
+
+
+def test_they_follow_those_of_the_ini_file(folder: Any) -> None:
+    folder.write("town.geojson", town(feature()))
+    own = "*.environment.numObstacles = 1\n*.environment.obstacle[0].minZ = 0m\n"
+    own += '*.environment.obstacle[0].maxZ = 9m\n*.environment.obstacle[0].typename = "prism"\n'
+    own += '*.environment.obstacle[0].points = "0 0 1 0 1 1"\n'
+    assert [obstacle.top_m for obstacle in folder.load(own + LINE).obstacles] == [9.0, 12.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{", "line 1 is no JSON"),
+        ("[]", "it is no JSON object"),
+        ('{"type": "Topology"}', "its type is 'Topology'; expected a FeatureCollection"),
+        (town("x"), "feature 0 is no object of type Feature"),
+        (town(feature(), crs=None), "nothing says where the scene is"),
+        (town(feature("Point", [0, 0])), "feature 0: its geometry is of type 'Point'; expected Polygon"),
+        (town(feature(name="Hall")), 'feature 0 ("Hall"): it has no height'),
+        (town(feature(), feature(height="high")), "feature 1: its height is 'high'; expected a number"),
+        (town(feature(height=-2)), "its height is -2; expected metres, more than 0"),
+        (town(feature(height=True)), "its height is True; expected a number"),
+        (town(feature(height=1, material=7)), "its material is 7; expected a name"),
+        (town(feature(coordinates=[])), "it has a polygon without rings"),
+        (town(feature(coordinates=[SQUARE[:4]])), "it has a ring that is not closed"),
+        (town(feature(coordinates=[[[0, 0], ["x", 1], [1, 1], [0, 0]]])), "['x', 1] is no position"),
+        (town(feature(coordinates=[[[0, 0], [2e7, 1], [1, 1], [0, 0]]])), "is too far away"),
+    ],
+)
+def test_mistakes_name_file_and_feature(folder: Any, text: str, message: str) -> None:
+    folder.write("town.geojson", text)
+    error = folder.error(LINE)
+    assert error.startswith("test.ini:6:")
+    assert "town.geojson" in error
+    assert message in error
+
+
+def test_degrees_out_of_range_are_told(folder: Any) -> None:
+    folder.write("town.geojson", town(feature(coordinates=[[[0, 0], [0, 95], [1, 1], [0, 0]]]), crs=None))
+    assert "[0, 95] is no longitude and latitude in degrees" in folder.error(LINE + ON_EARTH)
+
+
+def test_a_missing_file_is_told(folder: Any) -> None:
+    assert "town.geojson: cannot read it: No such file" in folder.error(LINE)

@@ -1,0 +1,83 @@
+"""Antennas and obstacles from an .ini file to what is received: configs/town."""
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+
+from gradysim.config import ConfigError, load_scenarios
+from gradysim.integrated.network import medium_config, node_config
+from gradysim.integrated.run import run
+
+TOWN = Path(__file__).parents[3] / "configs" / "town" / "town.ini"
+SENT = 200
+
+
+def received(config: str, *overrides: str) -> list[int]:
+    """Frames at each drone."""
+    result = run(load_scenarios(TOWN, config, "0", overrides)[0])
+    drones = [node for node in result.nodes if node.name.startswith("drones[")]
+    return [int(str(node.tracked_variables["received"])) for node in drones]
+
+
+def test_over_an_open_field_all_hear_all() -> None:
+    assert received("OpenField") == [SENT] * 8
+
+
+def test_whoever_is_behind_a_house_hears_nothing() -> None:
+    assert received("Blocked") == [0, 0, 0, SENT, SENT, SENT, SENT, SENT]
+
+
+def test_glass_lets_enough_through_and_concrete_nothing() -> None:
+    assert received("Concrete")[:3] == [0, 0, SENT]
+
+
+def test_an_antenna_that_looks_along_the_street() -> None:
+    north = received("SectorAntenna")
+    assert north[6] == SENT
+    assert north[7] == 0  # above the station, outside of the beam
+    assert received("SectorAntenna", "*.station.mobility.initialHeading=180deg")[6] == 0
+
+
+def test_the_engine_is_given_what_the_file_says() -> None:
+    scenario = load_scenarios(TOWN, "SectorAntenna", "0")[0]
+    obstacles = medium_config(scenario).obstacles
+    assert [obstacle.name.partition('"')[2] for obstacle in obstacles] == [
+        'West block")',
+        'North-west block")',
+        'Two halls")',
+        'Two halls")',
+        'Glass pavilion")',
+    ]
+    antenna = node_config(scenario.nodes[0]).radio.antenna
+    assert (antenna.typename, antenna.max_gain) == ("ParabolicAntenna", pytest.approx(10**1.5))
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("*.station.wlan[*].radio.antenna.beamWidth=360deg", "antenna.beam_width_rad"),
+        ("*.station.wlan[*].radio.antenna.minGain=20dB", "antenna.min_gain"),
+        ("*.station.wlan[*].radio.antenna.length=13cm", "antenna.length_m = 0.13 m: expected from 0 m"),
+    ],
+)
+def test_values_outside_of_the_engines_range_are_told(override: str, message: str) -> None:
+    scenario = load_scenarios(TOWN, "SectorAntenna", "0", [override])[0]
+    with pytest.raises(ConfigError, match="--set") as caught:
+        node_config(scenario.nodes[0])
+    assert message in str(caught.value)
+
+
+def test_what_the_engine_refuses_of_a_feature_names_the_feature(tmp_path: Path) -> None:
+    for file in TOWN.parent.iterdir():
+        text = (
+            file.read_text()
+            .replace('"brick"', '"bricks"')
+            .replace("../../examples", str(TOWN.parents[2] / "examples"))
+        )
+        (tmp_path / file.name).write_text(text)
+    scenario = load_scenarios(tmp_path / TOWN.name, "Blocked", "0")[0]
+    with pytest.raises(ConfigError, match="did you mean brick") as caught:
+        medium_config(scenario)
+    assert 'town.geojson, feature 1 ("North-west block")' in str(caught.value)
