@@ -30,6 +30,32 @@ bool is_shown(const Network& network, FrameKind kind) {
     return (kind != FrameKind::rts && kind != FrameKind::cts) || network.frame_fates().frames(kind) > 0;
 }
 
+// Likewise fates of options of the receiver, in runs in which no copy met them.
+bool is_shown(const Network& network, FrameFate fate) {
+    if (!is_of_an_option(fate)) {
+        return true;
+    }
+    for (std::size_t kind = 0; kind < frame_kind_count; ++kind) {
+        for (const bool overheard : {false, true}) {
+            if (network.frame_fates().counts(static_cast<FrameKind>(kind),
+                                             overheard)[static_cast<std::size_t>(fate)] > 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+py::dict shown_counts(const Network& network, const FrameFates::Counts& counts) {
+    py::dict result;
+    for (std::size_t index = 0; index < frame_fate_count; ++index) {
+        if (is_shown(network, static_cast<FrameFate>(index))) {
+            result[frame_fate_names[index]] = counts[index];
+        }
+    }
+    return result;
+}
+
 py::dict frame_fates(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
@@ -38,10 +64,10 @@ py::dict frame_fates(const Network& network) {
             continue;
         }
         const std::string name = frame_kind_names[index];
-        result[py::str(name)] = named_counts(network.frame_fates().counts(kind, false), frame_fate_names);
+        result[py::str(name)] = shown_counts(network, network.frame_fates().counts(kind, false));
         if (kind != FrameKind::broadcast) {
             result[py::str(name + " overheard")] =
-                named_counts(network.frame_fates().counts(kind, true), frame_fate_names);
+                shown_counts(network, network.frame_fates().counts(kind, true));
         }
     }
     return result;
@@ -52,8 +78,8 @@ py::dict frame_fates_at(const Network& network, NodeId receiver) {
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
         const auto kind = static_cast<FrameKind>(index);
         if (is_shown(network, kind)) {
-            result[frame_kind_names[index]] = named_counts(
-                network.frame_fates().counts_at(network.node(receiver).id(), kind), frame_fate_names);
+            result[frame_kind_names[index]] =
+                shown_counts(network, network.frame_fates().counts_at(network.node(receiver).id(), kind));
         }
     }
     return result;

@@ -27,6 +27,8 @@ class MediumConfig:
     k_db: float
     shape_factor: float
     coherence_time_s: float
+    background_noise: str
+    temperature_k: float
     background_noise_w: float
     propagation: str
     obstacle_loss: str
@@ -101,6 +103,16 @@ class RadioConfig:
     error_model: str
     antenna: AntennaConfig
     def __init__(self, interface: str = ...) -> None: ...
+    noise_figure: float
+    snir_mode: str
+    ber_table_file: str
+    preamble_detection: str
+    preamble_threshold: float
+    preamble_minimum_power_w: float
+    preamble_duration_s: float
+    frame_capture: str
+    capture_margin: float
+    capture_window_s: float
 
 class MacConfig:
     op_mode: str
@@ -115,6 +127,7 @@ class MacConfig:
     queue_capacity: int
     mtu_bytes: int
     backoff_optimization: bool
+    skip_backoff_if_idle: bool
     own_frames_set_nav: bool
     rate_control: str
     initial_rate_bps: float

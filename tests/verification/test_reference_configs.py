@@ -18,7 +18,8 @@ from gradysim.results.run_result import RunResult
 FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 BASES = {"Sensitivity", "Noise"}
 FILES = {
-    *("beacons", "flood", "hidden", "link", "narrowband", "rate_control", "saturation", "sir"),
+    *("beacons", "capture", "flood", "hidden", "jittered", "link", "narrowband", "rate_control"),
+    *("saturation", "sir"),
     "synchronised",
 }
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}

@@ -43,6 +43,8 @@ void MediumConfig::validate() const {
                           " s: expected from 1e-06 s to 1000000 s, 0 s (new for each transmission) or -1 s "
                           "(that of the model)");
     }
+    check_name("medium.background_noise", background_noise, background_noise_names);
+    check_at_least("medium.temperature_k", temperature_k, 0, "K");
     check_at_least("medium.background_noise_w", background_noise_w, 0, "W");
     check_name("medium.propagation", propagation, propagation_names);
     check_name("medium.obstacle_loss", obstacle_loss, obstacle_loss_names);

@@ -27,6 +27,9 @@ inline constexpr std::array<std::string_view, 8> path_loss_names{
 inline constexpr std::array<std::string_view, 2> polarization_names{"horizontal", "vertical"};
 inline constexpr std::array<std::string_view, 3> obstacle_loss_names{"", "IdealObstacleLoss",
                                                                      "DielectricObstacleLoss"};
+inline constexpr std::string_view thermal_noise = "ThermalNoise";
+inline constexpr std::array<std::string_view, 2> background_noise_names{"IsotropicScalarBackgroundNoise",
+                                                                        thermal_noise};
 inline constexpr std::array<std::string_view, 1> propagation_names{"ConstantSpeedPropagation"};
 
 struct MediumConfig {
@@ -52,7 +55,10 @@ struct MediumConfig {
     // own, as in INET; -1: that of the model; else 1e-6 … 1e6 s.
     double coherence_time_s = -1;
 
-    double background_noise_w = 1e-14;  // -110 dBm; ≥ 0; 802.15.4: -96.616 dBm; in every band, not scaled
+    std::string background_noise = "IsotropicScalarBackgroundNoise";  // one of background_noise_names
+    double temperature_k = 290;                                       // thermal noise: ≥ 0
+    double background_noise_w =
+        1e-14;  // isotropic: -110 dBm; ≥ 0; 802.15.4: -96.616 dBm; in every band, not scaled
 
     std::string propagation = "ConstantSpeedPropagation";  // one of propagation_names; at the speed of light
 

@@ -9,7 +9,10 @@ namespace {
 // A model of another modulation could only make up an answer.
 void check_error_model(const std::string& interface_type, const std::string& error_model) {
     const std::string fitting = RadioConfig(interface_type).error_model;
-    if (error_model != fitting) {
+    const bool fits = interface_type == ieee80211_interface
+                          ? error_model == fitting || error_model == ber_table_error_model
+                          : error_model == fitting;
+    if (!fits) {
         throw ConfigError("radio.error_model = \"" + error_model + "\": expected \"" + fitting +
                           "\", the one for a node with an " + interface_type);
     }

@@ -27,6 +27,15 @@ void RadioConfig::validate() const {
     check_at_least("radio.snir_threshold", snir_threshold, 0, "");
     check_name("radio.error_model", error_model, error_model_names);
     antenna.validate(carrier_hz);
+    check_at_least("radio.noise_figure", noise_figure, 1, "");
+    check_name("radio.snir_mode", snir_mode, snir_mode_names);
+    check_name("radio.preamble_detection", preamble_detection, preamble_detection_names);
+    check_at_least("radio.preamble_threshold", preamble_threshold, 0, "");
+    check_at_least("radio.preamble_minimum_power_w", preamble_minimum_power_w, 0, "W");
+    check_between("radio.preamble_duration_s", preamble_duration_s, 1e-12, 1, "s");
+    check_name("radio.frame_capture", frame_capture, frame_capture_names);
+    check_at_least("radio.capture_margin", capture_margin, 1, "");
+    check_between("radio.capture_window_s", capture_window_s, 0, 1, "s");
 }
 
 }  // namespace netsim

@@ -13,8 +13,13 @@
 
 namespace netsim {
 
-inline constexpr std::array<std::string_view, 2> error_model_names{"Ieee80211NistErrorModel",
-                                                                   "Ieee802154ErrorModel"};
+inline constexpr std::string_view ber_table_error_model = "Ieee80211BerTableErrorModel";
+inline constexpr std::array<std::string_view, 3> error_model_names{
+    "Ieee80211NistErrorModel", ber_table_error_model, "Ieee802154ErrorModel"};
+inline constexpr std::string_view snir_by_chunks = "chunks";
+inline constexpr std::array<std::string_view, 2> snir_mode_names{"min", snir_by_chunks};
+inline constexpr std::array<std::string_view, 2> preamble_detection_names{"", "ThresholdPreambleDetection"};
+inline constexpr std::array<std::string_view, 2> frame_capture_names{"", "SimpleFrameCapture"};
 
 struct RadioConfig {
     // Sets the defaults of the radio of that interface. Throws ConfigError if it is none of interface_type_names.
@@ -34,6 +39,20 @@ struct RadioConfig {
 
     std::string error_model = "Ieee80211NistErrorModel";  // one of error_model_names; 802.15.4: the other
     AntennaConfig antenna;
+
+    // What the receiver adds to thermal noise (MediumConfig::background_noise), a linear ratio; ≥ 1; 7 dB.
+    double noise_figure = 5.0118723362727229;
+    std::string snir_mode = "min";  // one of snir_mode_names: phy/reception.hpp
+    std::string ber_table_file;     // of the error model of that name only: phy/ber_table.hpp
+
+    std::string preamble_detection;                            // one of preamble_detection_names; "": none
+    double preamble_threshold = 2.5118864315095801;            // linear ratio ≥ 0; 4 dB
+    double preamble_minimum_power_w = 6.3095734448019329e-12;  // ≥ 0; -82 dBm
+    double preamble_duration_s = 4e-6;                         // > 0, at most a second
+
+    std::string frame_capture;                   // one of frame_capture_names; "": none
+    double capture_margin = 3.1622776601683795;  // linear ratio ≥ 1; 5 dB
+    double capture_window_s = 16e-6;             // ≥ 0, at most a second
 
     // Throws ConfigError for the first field out of its range: "radio.tx_power_w = -1 W: expected …".
     void validate() const;

@@ -26,6 +26,17 @@ void Contention::start(int contention_window) {
     schedule_grant(backoff_optimization_ ? std::max(free_since_, idle_since_) : simulator_.now());
 }
 
+void Contention::start_without_backoff_if_free(int contention_window) {
+    if (busy_) {
+        start(contention_window);
+        return;
+    }
+    NETSIM_ASSERT(state_ == State::idle);
+    slots_left_ = 0;
+    state_ = State::waiting;
+    schedule_grant(simulator_.now());
+}
+
 void Contention::channel_busy_changed(bool busy) {
     busy_ = busy;
     if (!busy) {

@@ -38,6 +38,9 @@ public:
 
     // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
     void start(int contention_window);
+    // The same without a backoff if the channel is free now: DIFS from now on, however long it has been free. Should it
+    // become busy meanwhile, DIFS after that.
+    void start_without_backoff_if_free(int contention_window);
     bool in_progress() const { return state_ != State::idle; }
 
     // The channel became busy (by the radio's word or the NAV's) or free. Told in every state, at changes only.

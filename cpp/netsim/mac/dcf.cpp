@@ -49,6 +49,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       rts_threshold_bytes_(config.rts_threshold_bytes),
       mtu_bytes_(config.mtu_bytes),
       own_frames_set_nav_(config.own_frames_set_nav),
+      skip_backoff_if_idle_(config.skip_backoff_if_idle),
       rate_control_(make_rate_control(config, seed, radio.id())),
       has_adaptive_rate_(!config.rate_control.empty()),
       frames_by_mode_(modes_.modes().size()),
@@ -98,7 +99,11 @@ void Dcf::send(NodeId destination, Payload payload) {
         return;
     }
     if (exchange_ == Exchange::none) {
-        contend_for_next();
+        if (skip_backoff_if_idle_ && !contention_.in_progress()) {
+            contention_.start_without_backoff_if_free(retry_.contention_window());
+        } else {
+            contend_for_next();
+        }
     }
 }
 

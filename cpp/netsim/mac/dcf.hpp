@@ -99,6 +99,7 @@ private:
     int rts_threshold_bytes_;
     int mtu_bytes_;
     bool own_frames_set_nav_;
+    bool skip_backoff_if_idle_;
     std::unique_ptr<RateControl> rate_control_;
     bool has_adaptive_rate_;
     std::vector<std::uint64_t>

@@ -29,7 +29,7 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       fates_(fates),
       fingerprint_(fingerprint),
       propagation_(config, seed),
-      background_noise_w_(config.background_noise_w),
+      background_noise_(config),
       hearing_(hearing) {}
 
 NodeId Medium::attach(const Receiver& receiver) {
@@ -39,7 +39,7 @@ NodeId Medium::attach(const Receiver& receiver) {
     odometer_.watch(*receiver.trajectory, simulator_.now());
     // Less than the difference by what the sum with the noise may be rounded.
     const double energy_w =
-        receiver.energy_detection_w - background_noise_w_ - 1e-15 * receiver.energy_detection_w;
+        receiver.energy_detection_w - receiver.noise_w - 1e-15 * receiver.energy_detection_w;
     const double least_w = std::min(receiver.sensitivity_w, energy_w);
     const int keenness = least_w > 0 ? std::ilogb(least_w) / 2 : std::numeric_limits<int>::min();
     auto audience = std::find_if(audiences_.begin(), audiences_.end(), [&](const Audience& other) {
@@ -273,16 +273,17 @@ void Medium::begin(NodeId node, const OnAir& on_air, const Arrival& arrival) {
         });
 }
 
-InterferenceSum& Medium::interference_with(NodeId receiver, const Arrival& arrival) {
-    interference_.begin(arrival.start, arrival.end);
+InterferenceSum& Medium::interference_with(NodeId receiver, const Arrival& arrival, SimTime start,
+                                           SimTime end) {
+    interference_.begin(start, end);
     if (on_air_.size() <= 1) {
         return interference_;
     }
     const Receiver& here = attached_[receiver].receiver;
     for (const std::unique_ptr<OnAir>& other : on_air_) {
         const Transmission& sent = other->transmission;
-        if (&sent == arrival.transmission || sent.sender == receiver || other->last_end <= arrival.start ||
-            sent.start >= arrival.end || !sent.band.fits_in(here.band)) {
+        if (&sent == arrival.transmission || sent.sender == receiver || other->last_end <= start ||
+            sent.start >= end || !sent.band.fits_in(here.band)) {
             continue;
         }
         interference_.add(arrival_at(sent, receiver));

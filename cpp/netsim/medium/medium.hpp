@@ -14,6 +14,7 @@
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/medium/antennas.hpp"
+#include "netsim/medium/background_noise.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/neighbours.hpp"
 #include "netsim/medium/odometer.hpp"
@@ -42,6 +43,7 @@ struct Receiver {
     double sensitivity_w = 0;       // the least power it can lock on to
     double energy_detection_w = 0;  // noise and signals together that make its channel busy
     MountedAntenna antenna{};       // isotropic
+    double noise_w = 0;             // in its band when nobody sends
 };
 
 // Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold
@@ -61,10 +63,11 @@ public:
     // `transmission`'s id, start and origin are filled in here.
     void transmit(Transmission transmission);
 
-    // What disturbs `arrival` at `receiver`. Only while the arrival is ending; valid until the next call.
-    InterferenceSum& interference_with(NodeId receiver, const Arrival& arrival);
+    // What disturbs `arrival` at `receiver` from `start` until just before `end`. Only until the arrival has ended, and
+    // for times until now; valid until the next call.
+    InterferenceSum& interference_with(NodeId receiver, const Arrival& arrival, SimTime start, SimTime end);
 
-    double background_noise_w() const { return background_noise_w_; }
+    const BackgroundNoise& background_noise() const { return background_noise_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
     // check.
     std::size_t remembered_count() const { return on_air_.size(); }
@@ -146,7 +149,7 @@ private:
         return power_w >= receiver.sensitivity_w || is_loud(receiver, power_w);
     }
     bool is_loud(const Receiver& receiver, double power_w) const {
-        return background_noise_w_ + power_w >= receiver.energy_detection_w;
+        return receiver.noise_w + power_w >= receiver.energy_detection_w;
     }
     void forget_the_past();
 
@@ -155,7 +158,7 @@ private:
     Fingerprint& fingerprint_;
     Propagation propagation_;
     Antennas antennas_;
-    double background_noise_w_;
+    BackgroundNoise background_noise_;
     Hearing hearing_;
     std::vector<Attached> attached_;
     std::deque<Audience> audiences_;

@@ -60,7 +60,7 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) 
                     ? arrival_at(strongest, node).power_w
                     : power_w(strongest, node, place, distance(strongest.origin, place));
             if (is_loud(receiver, received_w * (1 - 1e-9)) ||
-                (background_noise_w_ + received_w + search.others_w) * (1 + 1e-9) <
+                (receiver.noise_w + received_w + search.others_w) * (1 + 1e-9) <
                     receiver.energy_detection_w) {
                 return;
             }
@@ -127,7 +127,7 @@ void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest) {
     if (is_loud(receiver, arrival.power_w)) {
         return;
     }
-    double sum_w = background_noise_w_ + arrival.power_w;
+    double sum_w = receiver.noise_w + arrival.power_w;
     together_.clear();
     if (!is_told_alone(receiver, arrival.power_w)) {
         together_.emplace_back(&newest, arrival);

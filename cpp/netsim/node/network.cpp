@@ -29,8 +29,11 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
     check_with_medium(config);
+    if (!perfect_channel_) {
+        make_error_model(config.radio);  // before anything is built, so that a refused node leaves no trace
+    }
     if (!perfect_channel_ && config.interface_type == ieee80211_interface) {
-        Dcf::check(config.mac);  // before anything is built, so that a refused node leaves no trace
+        Dcf::check(config.mac);
     }
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_);
     node.set_node_count(&node_count_);
@@ -65,16 +68,18 @@ void Network::check_with_medium(const NodeConfig& config) const {
     const RadioConfig& radio = config.radio;
     if (perfect_channel_) {
         check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
-    } else if (radio.energy_detection_w <= medium_.background_noise_w()) {
+        return;
+    }
+    const double noise_w = medium_.background_noise().power_w(radio.bandwidth_hz, radio.noise_figure);
+    if (radio.energy_detection_w <= noise_w) {
         throw ConfigError("radio.energy_detection_w = " + text_of(radio.energy_detection_w) +
-                          " W: expected more than the background noise of " +
-                          text_of(medium_.background_noise_w()) +
+                          " W: expected more than the background noise of " + text_of(noise_w) +
                           " W, which would keep the channel busy for ever");
     }
     // No channel of the one has the centre of a channel of the other: who sets it so has mistaken something, and
     // neither could make anything of what it locks on to.
     const auto there = interface_types_.find(radio.carrier_hz);
-    if (!perfect_channel_ && there != interface_types_.end() && there->second != config.interface_type) {
+    if (there != interface_types_.end() && there->second != config.interface_type) {
         throw ConfigError("radio.carrier_hz = " + text_of(radio.carrier_hz) +
                           " Hz: expected another one for " + config.name + " with its " +
                           config.interface_type + ", as a node with an " + there->second + " is at this one");

@@ -9,6 +9,7 @@
 #include "netsim/config/check.hpp"
 #include "netsim/config/radio_config.hpp"
 #include "netsim/error.hpp"
+#include "netsim/phy/ber_table.hpp"
 #include "netsim/phy/oqpsk_error_rate.hpp"
 
 namespace netsim {
@@ -139,15 +140,21 @@ double NistErrorModel::bit_error_rate(const Mode& mode, double snir) {
 }
 
 double NistErrorModel::success_probability(const Mode& mode, double snir, int psdu_bytes) const {
-    NETSIM_ASSERT(snir >= 0);
-    const bool is_ofdm = mode.family == ModeFamily::ofdm;
-    const double header_bits = is_ofdm ? 24 : 48;
-    const double header_bit_error =
-        is_ofdm ? coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir) : dsss_1_bit_error(snir);
-    const double log_of_both =
-        log_success(header_bit_error, header_bits) +
-        log_success(bit_error_rate(mode, snir), static_cast<double>(mode.data_bits(psdu_bytes)));
+    const double log_of_both = log_header_success(mode, snir) + log_data_success(mode, snir, psdu_bytes);
     return log_of_both == 0 ? 1 : std::exp(log_of_both);
+}
+
+double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
+    NETSIM_ASSERT(snir >= 0);
+    constexpr double ofdm_bits = 24;
+    constexpr double dsss_bits = 48;
+    return mode.family == ModeFamily::ofdm
+               ? log_success(coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir), ofdm_bits)
+               : log_success(dsss_1_bit_error(snir), dsss_bits);
+}
+
+double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {
+    return log_success(bit_error_rate(mode, snir), static_cast<double>(mode.data_bits(psdu_bytes)));
 }
 
 const ErrorModel& error_model(std::string_view name) {
@@ -158,6 +165,13 @@ const ErrorModel& error_model(std::string_view name) {
         return oqpsk;
     }
     return nist;
+}
+
+std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config) {
+    if (config.error_model == ber_table_error_model) {
+        return std::make_shared<const BerTableErrorModel>(config.ber_table_file);
+    }
+    return {std::shared_ptr<const ErrorModel>(), &error_model(config.error_model)};  // owned by nobody
 }
 
 }  // namespace netsim

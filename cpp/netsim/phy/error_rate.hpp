@@ -1,6 +1,7 @@
 // The chance that a frame survives noise and interference.
 //
-// Used by the radio at the end of a reception, with the least SNIR that the frame saw.
+// Used by the radio at the end of a reception, with the least SNIR that the frame saw, or at the ends of its parts with
+// the SNIR of each stretch of time (phy/reception.hpp). Error rates by a table: phy/ber_table.hpp.
 //
 // NIST model, s the linear SNIR: G. Pei and T. R. Henderson, "Validation of OFDM error rate model in ns-3",
 // 2010.
@@ -17,8 +18,11 @@
 // bandwidth to bitrate (22 at 1 Mbps) where this one, like INET, takes s times 2.
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <string_view>
 
+#include "netsim/config/radio_config.hpp"
 #include "netsim/phy/modes.hpp"
 
 namespace netsim {
@@ -29,18 +33,28 @@ public:
 
     // In [0, 1]. `snir` is a linear ratio ≥ 0, may be infinite; `psdu_bytes` ≥ 0.
     virtual double success_probability(const Mode& mode, double snir, int psdu_bytes) const = 0;
+
+    // Natural logarithms, ≤ 0, of the chances of the PHY header and of the rest: their sum is that of the above. A share
+    // of a part survives with the share of its logarithm. A model that knows no header has all in the data.
+    virtual double log_header_success(const Mode& /*mode*/, double /*snir*/) const { return 0; }
+    virtual double log_data_success(const Mode& mode, double snir, int psdu_bytes) const {
+        return std::log(success_probability(mode, snir, psdu_bytes));
+    }
 };
 
 class NistErrorModel final : public ErrorModel {
 public:
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
+    double log_header_success(const Mode& mode, double snir) const override;
+    double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
 
     // Of one data bit after decoding, in [0, 1].
     static double bit_error_rate(const Mode& mode, double snir);
 };
 
-// The table of models (RadioConfig::error_model); the models are stateless constants. Throws ConfigError for
-// another name.
+// The models that are constants, by RadioConfig::error_model. Throws ConfigError for another name.
 const ErrorModel& error_model(std::string_view name);
+// Any model, with the file that it may need. Throws ConfigError for an unknown name and for what is wrong in the file.
+std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config);
 
 }  // namespace netsim

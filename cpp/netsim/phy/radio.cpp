@@ -13,14 +13,19 @@ Radio::Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, co
     : simulator_(simulator),
       medium_(medium),
       config_(config),
-      error_model_(error_model(config.error_model)),
+      noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
+      error_model_(make_error_model(config)),
+      reception_{*error_model_, config.snir_threshold, noise_w_},
+      by_chunks_(config.snir_mode == snir_by_chunks),
+      preamble_detection_(config),
+      frame_capture_(config),
       antenna_(make_antenna(config.antenna, config.carrier_hz)),
       fates_(fates),
       fingerprint_(fingerprint),
-      id_(medium.attach(
-          Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz}, config.sensitivity_w,
-                   config.energy_detection_w,
-                   MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)}})),
+      id_(medium.attach(Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz},
+                                 config.sensitivity_w, config.energy_detection_w,
+                                 MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)},
+                                 noise_w_})),
       reception_draws_(seed, static_cast<std::uint32_t>(id_), Purpose::reception) {}
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -54,7 +59,9 @@ void Radio::turn_to_transmit() {
 }
 
 void Radio::give_up_reception() {
+    drop_candidates(FrameFate::receiver_transmitting);
     if (locked_ != nullptr) {
+        simulator_.cancel(header_end_);
         book(*std::exchange(locked_, nullptr), FrameFate::receiver_transmitting);
     }
 }
@@ -70,12 +77,82 @@ void Radio::arrival_started(const Arrival& arrival) {
     if (arrival.power_w >= config_.sensitivity_w) {
         if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
-        } else if (locked_ != nullptr) {
-            book(*arrival.transmission, FrameFate::receiver_locked);
+        } else if (locked_ == nullptr) {
+            begin_reception(arrival);
+        } else if (frame_capture_.captures(locked_arrival_, arrival)) {
+            simulator_.cancel(header_end_);
+            book(*std::exchange(locked_, nullptr), FrameFate::captured);
+            listener_->frame_corrupted();
+            begin_reception(arrival);
         } else {
-            locked_ = arrival.transmission;
+            book(*arrival.transmission, FrameFate::receiver_locked);
         }
     }
+    update_busy();
+}
+
+void Radio::begin_reception(const Arrival& arrival) {
+    if (!preamble_detection_.is_on()) {
+        lock_on(arrival);
+        return;
+    }
+    candidates_.push_back({arrival, simulator_.schedule_after(preamble_detection_.duration(),
+                                                              [this, transmission = arrival.transmission] {
+                                                                  end_detection(transmission);
+                                                              })});
+}
+
+void Radio::end_detection(const Transmission* transmission) {
+    const auto ended = candidate_of(transmission);
+    NETSIM_ASSERT(ended != candidates_.end());
+    const Arrival arrival = ended->arrival;
+    candidates_.erase(ended);
+    const bool is_strongest = std::ranges::none_of(
+        candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
+    const auto snir = [&] {
+        const auto& steps = interference_in(arrival, {arrival.start, simulator_.now()}).steps();
+        return arrival.power_w / (noise_w_ + steps.back().power_w);
+    };
+    if (!is_strongest || !preamble_detection_.detects(arrival.power_w, snir())) {
+        book(*transmission, FrameFate::preamble_undetected);
+        update_busy();
+        return;
+    }
+    drop_candidates(FrameFate::receiver_locked);
+    lock_on(arrival);
+    update_busy();
+}
+
+std::vector<Radio::Candidate>::iterator Radio::candidate_of(const Transmission* transmission) {
+    return std::ranges::find(candidates_, transmission,
+                             [](const Candidate& candidate) { return candidate.arrival.transmission; });
+}
+
+void Radio::drop_candidates(FrameFate fate) {
+    for (const Candidate& candidate : candidates_) {
+        simulator_.cancel(candidate.detection);
+        book(*candidate.arrival.transmission, fate);
+    }
+    candidates_.clear();
+}
+
+void Radio::lock_on(const Arrival& arrival) {
+    locked_ = arrival.transmission;
+    locked_arrival_ = arrival;
+    if (by_chunks_) {
+        const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator_.now());
+        header_end_ = simulator_.schedule_at(end, [this] { end_header(); });
+    }
+}
+
+void Radio::end_header() {
+    if (header_survives()) {
+        return;
+    }
+    const Transmission& lost = *std::exchange(locked_, nullptr);
+    remember(lost, FrameFate::header_error);
+    book(lost, FrameFate::header_error);
+    listener_->frame_corrupted();
     update_busy();
 }
 
@@ -86,49 +163,76 @@ void Radio::arrival_ended(const Arrival& arrival) {
     NETSIM_ASSERT(ended != present_.end());
     present_.erase(ended);
     if (locked_ == arrival.transmission) {
-        locked_ = nullptr;
-        const Interference& interference = medium_.interference_with(id_, arrival).worst();
-        FrameFate fate = FrameFate::delivered;
-        const bool decoded = decide(arrival, interference, fate);
-        if (observer_ != nullptr) {
-            observer_->received(arrival, medium_.background_noise_w(), decoded);
-        }
-        if (decoded) {
-            book(*arrival.transmission, fate);
-            listener_->frame_received(*arrival.transmission);
-        } else {
-            if (fate == FrameFate::interference) {
-                fates_.book_interference(id_, arrival.transmission->label, interference.interferers);
-            } else {
-                book(*arrival.transmission, fate);
-            }
-            listener_->frame_corrupted();
-        }
+        end_reception(arrival);
+    } else if (const auto unnoticed = candidate_of(arrival.transmission); unnoticed != candidates_.end()) {
+        simulator_.cancel(unnoticed->detection);
+        candidates_.erase(unnoticed);
+        book(*arrival.transmission, FrameFate::preamble_undetected);
     }
     update_busy();
 }
 
-bool Radio::decide(const Arrival& arrival, const Interference& interference, FrameFate& fate) {
-    // One draw decides for both cases, with interference and without: a frame counts as lost to noise if the same
-    // draw would have lost it on a channel without interference.
-    const double draw = reception_draws_.uniform();
-    const auto decoded_at = [&](double noise_w) {
-        const double snir = arrival.power_w / noise_w;
-        return snir > config_.snir_threshold &&
-               draw < error_model_.success_probability(*arrival.transmission->mode, snir,
-                                                       arrival.transmission->psdu_bytes);
-    };
-    const double noise_w = medium_.background_noise_w();
-    const bool disturbed = interference.max_power_w > 0;
-    const bool decoded = decoded_at(noise_w + interference.max_power_w);
-    if (decoded) {
-        fate = FrameFate::delivered;
-    } else {
-        fate = disturbed && decoded_at(noise_w) ? FrameFate::interference : FrameFate::noise;
+void Radio::end_reception(const Arrival& arrival) {
+    const Transmission& transmission = *std::exchange(locked_, nullptr);
+    const Interference* culprits = nullptr;
+    const FrameFate fate = by_chunks_ ? decide_data(arrival, culprits) : decide_at_once(arrival, culprits);
+    const bool decoded = fate == FrameFate::delivered;
+    remember(transmission, fate);
+    if (observer_ != nullptr) {
+        observer_->received(arrival, noise_w_, decoded);
     }
-    fingerprint_.add((arrival.transmission->id << 8) ^ static_cast<std::uint64_t>(fate));
+    if (culprits != nullptr) {
+        fates_.book_interference(id_, transmission.label, culprits->interferers);
+    } else {
+        book(transmission, fate);
+    }
+    if (decoded) {
+        listener_->frame_received(transmission);
+    } else {
+        listener_->frame_corrupted();
+    }
+}
+
+// One draw decides for both cases, with interference and without: a frame counts as lost to noise if the same draw
+// would have lost it on a channel without interference.
+FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& culprits) {
+    const double draw = reception_draws_.uniform();
+    const Interference& interference = interference_in(arrival, {arrival.start, arrival.end}).worst();
+    if (draw < reception_.success(arrival, interference.max_power_w)) {
+        return FrameFate::delivered;
+    }
+    if (interference.max_power_w > 0 && draw < reception_.success(arrival, 0)) {
+        culprits = &interference;
+        return FrameFate::interference;
+    }
+    return FrameFate::noise;
+}
+
+FrameFate Radio::decide_data(const Arrival& arrival, const Interference*& culprits) {
+    if (simulator_.cancel(header_end_) && !header_survives()) {
+        return FrameFate::header_error;  // the frame ends with its header
+    }
+    const double draw = reception_draws_.uniform();
+    InterferenceSum& interference = interference_in(arrival, period_of(FramePart::data, arrival));
+    if (draw < reception_.success(FramePart::data, arrival, interference)) {
+        return FrameFate::delivered;
+    }
+    if (draw < reception_.success_undisturbed(FramePart::data, arrival)) {
+        culprits = &interference.worst();
+        return FrameFate::interference;
+    }
+    return FrameFate::noise;
+}
+
+bool Radio::header_survives() {
+    InterferenceSum& interference =
+        interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
+    return reception_draws_.uniform() < reception_.success(FramePart::header, locked_arrival_, interference);
+}
+
+void Radio::remember(const Transmission& transmission, FrameFate fate) {
+    fingerprint_.add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
     fingerprint_.add(static_cast<std::uint64_t>(id_));
-    return decoded;
 }
 
 void Radio::book(const Transmission& transmission, FrameFate fate) {
@@ -138,9 +242,11 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 void Radio::update_busy() {
     bool busy = transmitting_ || locked_ != nullptr;
     if (!busy && !present_.empty()) {
-        double energy_w = medium_.background_noise_w();
+        double energy_w = noise_w_;
         for (const Present& present : present_) {
-            energy_w += present.power_w;
+            if (!is_candidate(present.transmission)) {
+                energy_w += present.power_w;
+            }
         }
         busy = energy_w >= config_.energy_detection_w;
     }

@@ -7,6 +7,18 @@
 //
 // Half duplex: what starts while it transmits is never received, and starting to transmit gives up a reception.
 // There is no capture: locked on one frame, the radio takes all others for interference.
+//
+// That is the default. Options of the receiver put more between LISTENING and the end of a frame:
+//
+//                   arrival ≥ sensitivity                 preamble detected (phy/preamble_detection.hpp)
+//        LISTENING -----------------------> DETECTING ------------------------------------------------> LOCKED
+//          ^  ^  ^                           |  ^                                                      |  |  |
+//          |  |  +------ not detected -------+  +---- stronger arrival (phy/frame_capture.hpp) --------+  |  |
+//          |  +--------- PHY header lost, or the end of the arrival (SNIR by chunks: phy/reception.hpp) --+  |
+//          +------------ end of the arrival locked on -------------------------------------------------------+
+//
+// DETECTING does not make the channel busy, and the energy of a frame counts only from the end of its detection: sensing
+// takes as long. Without preamble detection, LOCKED takes its place in both arrows to it.
 #pragma once
 
 #include <memory>
@@ -17,8 +29,11 @@
 #include "netsim/medium/antenna_pattern.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/phy/error_rate.hpp"
+#include "netsim/phy/frame_capture.hpp"
 #include "netsim/phy/modes.hpp"
+#include "netsim/phy/preamble_detection.hpp"
 #include "netsim/phy/radio_observer.hpp"
+#include "netsim/phy/reception.hpp"
 
 namespace netsim {
 
@@ -27,7 +42,7 @@ class RadioListener {
 public:
     virtual void channel_busy_changed(bool busy) = 0;
     virtual void frame_received(const Transmission& transmission) = 0;
-    // A frame that the radio had locked on to could not be decoded.
+    // A frame that the radio had locked on to could not be decoded, or was given up for another one.
     virtual void frame_corrupted() = 0;
     virtual void transmission_ended() = 0;
 
@@ -68,16 +83,43 @@ private:
         double power_w;
     };
 
-    bool decide(const Arrival& arrival, const Interference& interference, FrameFate& fate);
-    void book(const Transmission& transmission, FrameFate fate);
+    struct Candidate {  // a frame whose beginning is being listened to
+        Arrival arrival;
+        EventHandle detection;
+    };
+
+    void begin_reception(const Arrival& arrival);
+    std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
+    bool is_candidate(const Transmission* transmission) {
+        return !candidates_.empty() && candidate_of(transmission) != candidates_.end();
+    }
+    void end_detection(const Transmission* transmission);
+    void drop_candidates(FrameFate fate);
+    void lock_on(const Arrival& arrival);
     void give_up_reception();
+    void end_header();
+    void end_reception(const Arrival& arrival);
+    // Both draw, and fill in interferers only if interference is to blame.
+    FrameFate decide_at_once(const Arrival& arrival, const Interference*& culprits);
+    FrameFate decide_data(const Arrival& arrival, const Interference*& culprits);
+    bool header_survives();
+    InterferenceSum& interference_in(const Arrival& arrival, Period period) {
+        return medium_.interference_with(id_, arrival, period.start, period.end);
+    }
+    void remember(const Transmission& transmission, FrameFate fate);
+    void book(const Transmission& transmission, FrameFate fate);
     void transmission_over();
     void update_busy();
 
     Simulator& simulator_;
     Medium& medium_;
     RadioConfig config_;
-    const ErrorModel& error_model_;
+    double noise_w_;
+    std::shared_ptr<const ErrorModel> error_model_;
+    ReceptionModel reception_;
+    bool by_chunks_;
+    PreambleDetection preamble_detection_;
+    FrameCapture frame_capture_;
     std::unique_ptr<const AntennaPattern> antenna_;  // null: isotropic
     FrameFates& fates_;
     Fingerprint& fingerprint_;
@@ -86,7 +128,10 @@ private:
     NodeId id_;
     RandomStream reception_draws_;
     std::vector<Present> present_;
+    std::vector<Candidate> candidates_;
     const Transmission* locked_ = nullptr;
+    Arrival locked_arrival_;  // if locked on
+    EventHandle header_end_;  // SNIR by chunks: pending until the header is decided
     bool transmitting_ = false;
     bool turned_ = false;  // to transmit, which it does not yet
     bool busy_ = false;

@@ -29,12 +29,20 @@ enum class FrameFate : std::uint8_t {
     interference,           // locked on, lost, and would have been decoded without interference
     receiver_transmitting,  // the receiver was transmitting when it came, or began to while it lasted
     receiver_locked,        // the receiver was locked on another frame when it came
-    in_air,                 // still on its way when the run ended
+    preamble_undetected,  // its beginning was too weak, in itself or beside others: ThresholdPreambleDetection
+    header_error,         // locked on, but its PHY header could not be decoded: SNIR by chunks
+    captured,             // locked on, given up for a stronger one: SimpleFrameCapture
+    in_air,               // still on its way when the run ended
 };
-constexpr std::size_t frame_fate_count = 7;
+constexpr std::size_t frame_fate_count = 10;
 constexpr std::array<const char*, frame_fate_count> frame_fate_names{
-    "delivered", "below_sensitivity", "noise", "interference", "receiver_transmitting", "receiver_locked",
-    "in_air"};
+    "delivered",       "below_sensitivity",   "noise",        "interference", "receiver_transmitting",
+    "receiver_locked", "preamble_undetected", "header_error", "captured",     "in_air"};
+// Of options that are off by default: results of runs without such copies need not speak of them.
+constexpr bool is_of_an_option(FrameFate fate) {
+    return fate == FrameFate::preamble_undetected || fate == FrameFate::header_error ||
+           fate == FrameFate::captured;
+}
 
 // What the ledger wants to know of a frame. Travels with its transmission.
 struct FrameLabel {

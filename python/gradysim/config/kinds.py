@@ -29,6 +29,7 @@ class Kind:
         expected: How messages name it, after "expected".
         convert: Checks a value and gives what is to be stored; raises BadValue.
         is_text: Whether a text is meant: on the command line it needs no quotes.
+        is_file: Whether that text is the name of a file, seen from the .ini file.
         unit: For a list of keys: the unit, or what it is instead ("whole number").
         show: Writes what is stored as it would stand in a file, in `unit`.
     """
@@ -36,6 +37,7 @@ class Kind:
     expected: str
     convert: Callable[[Value], Scalar]
     is_text: bool = False
+    is_file: bool = False
     unit: str = ""
     show: Callable[[Scalar], str] = str
 
@@ -164,6 +166,11 @@ def boolean() -> Kind:
 def text() -> Kind:
     """Any text in quotes."""
     return Kind('a text in quotes ("...")', _text_of, is_text=True, unit="text", show=_quoted)
+
+
+def file_name() -> Kind:
+    """The name of a file, in quotes, seen from the folder of the .ini file."""
+    return replace(text(), expected='the name of a file in quotes ("...")', is_file=True, unit="file")
 
 
 def choice(*names: str) -> Kind:

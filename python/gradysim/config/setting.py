@@ -40,7 +40,8 @@ class SettingReader:
 def read_scalar(entry: Entry, kind: Kind) -> Scalar:
     """The value of an entry. Raises ConfigError with its place if it is not of that kind."""
     try:
-        return kind.convert(_value_of(entry, kind))
+        value = kind.convert(_value_of(entry, kind))
+        return str(entry.source.file.parent / str(value)) if kind.is_file and value else value
     except BadValue as error:
         text = f"{error.problem}; expected {kind.expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error

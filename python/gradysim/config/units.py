@@ -30,6 +30,7 @@ class Dimension(Enum):
     VOLTAGE = "a voltage such as 12V"
     CURRENT = "a current such as 2A"
     MASS = "a mass such as 2kg"
+    TEMPERATURE = "a temperature such as 290K"
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,7 @@ _LINEAR: dict[Dimension, dict[str, Fraction | int | str]] = {
     Dimension.VOLTAGE: {"V": 1, "mV": "1e-3"},
     Dimension.CURRENT: {"A": 1, "mA": "1e-3", "uA": "1e-6"},
     Dimension.MASS: {"kg": 1, "g": "1e-3"},
+    Dimension.TEMPERATURE: {"K": 1},
 }  # fmt: skip
 
 UNITS: dict[str, Unit] = {

@@ -56,6 +56,12 @@ TEST(MediumConfig, ValidateNamesTheField) {
               "medium.l02_db = inf dB: expected a finite number");
     EXPECT_EQ(text_with(&MediumConfig::alpha1, 0.0), "medium.alpha1 = 0: expected more than 0");
     EXPECT_EQ(text_with(&MediumConfig::alpha2, 0.0), "medium.alpha2 = 0: expected more than 0");
+    EXPECT_EQ(text_with<std::string>(&MediumConfig::background_noise, "Thermal"),
+              "medium.background_noise = \"Thermal\": expected one of IsotropicScalarBackgroundNoise, "
+              "ThermalNoise; "
+              "did you mean ThermalNoise?");
+    EXPECT_EQ(text_with(&MediumConfig::temperature_k, -1.0),
+              "medium.temperature_k = -1 K: expected at least 0 K");
     EXPECT_EQ(text_with(&MediumConfig::background_noise_w, -1e-14),
               "medium.background_noise_w = -1e-14 W: expected at least 0 W");
     EXPECT_EQ(text_with<std::string>(&MediumConfig::path_loss, "TwoRay"),

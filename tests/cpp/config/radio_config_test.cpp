@@ -64,10 +64,40 @@ TEST(RadioConfig, ValidateNamesTheField) {
     EXPECT_EQ(text_with(&RadioConfig::snir_threshold, -1.0),
               "radio.snir_threshold = -1: expected at least 0");
     EXPECT_EQ(text_with<std::string>(&RadioConfig::error_model, "Nist"),
-              "radio.error_model = \"Nist\": expected one of Ieee80211NistErrorModel, Ieee802154ErrorModel; "
-              "did you "
-              "mean Ieee80211NistErrorModel?");
+              "radio.error_model = \"Nist\": expected one of Ieee80211NistErrorModel, "
+              "Ieee80211BerTableErrorModel, Ieee802154ErrorModel; did you mean Ieee80211NistErrorModel?");
     EXPECT_EQ(text_with(&RadioConfig::antenna, {.gain = -1}), "antenna.gain = -1: expected at least 0");
+}
+
+TEST(RadioConfig, ValidateNamesTheFieldOfAnOption) {
+    EXPECT_EQ(text_with(&RadioConfig::noise_figure, 0.5), "radio.noise_figure = 0.5: expected at least 1");
+    EXPECT_EQ(text_with<std::string>(&RadioConfig::snir_mode, "mean"),
+              "radio.snir_mode = \"mean\": expected one of min, chunks; did you mean min?");
+    EXPECT_EQ(text_with<std::string>(&RadioConfig::preamble_detection, "TresholdPreambleDetection"),
+              "radio.preamble_detection = \"TresholdPreambleDetection\": expected one of "
+              "ThresholdPreambleDetection; did you mean ThresholdPreambleDetection?");
+    EXPECT_EQ(text_with(&RadioConfig::preamble_threshold, -1.0),
+              "radio.preamble_threshold = -1: expected at least 0");
+    EXPECT_EQ(text_with(&RadioConfig::preamble_minimum_power_w, -1.0),
+              "radio.preamble_minimum_power_w = -1 W: expected at least 0 W");
+    EXPECT_EQ(text_with(&RadioConfig::preamble_duration_s, 0.0),
+              "radio.preamble_duration_s = 0 s: expected from 1e-12 s to 1 s");
+    EXPECT_EQ(text_with<std::string>(&RadioConfig::frame_capture, "SimpleCapture"),
+              "radio.frame_capture = \"SimpleCapture\": expected one of SimpleFrameCapture; "
+              "did you mean "
+              "SimpleFrameCapture?");
+    EXPECT_EQ(text_with(&RadioConfig::capture_margin, 0.5),
+              "radio.capture_margin = 0.5: expected at least 1");
+    EXPECT_EQ(text_with(&RadioConfig::capture_window_s, -1.0),
+              "radio.capture_window_s = -1 s: expected from 0 s to 1 s");
+}
+
+TEST(RadioConfig, OptionsInTheDecibelsThatPeopleKnow) {
+    const RadioConfig config;
+    EXPECT_DOUBLE_EQ(config.noise_figure, ratio_from_db(7));
+    EXPECT_DOUBLE_EQ(config.preamble_threshold, ratio_from_db(4));
+    EXPECT_NEAR(config.preamble_minimum_power_w / w_from_dbm(-82), 1, 1e-14);
+    EXPECT_DOUBLE_EQ(config.capture_margin, ratio_from_db(5));
 }
 
 TEST(RadioConfig, ASilentRadioIsAllowed) {

@@ -67,6 +67,29 @@ private:
     std::unique_ptr<Contention> contention_;
 };
 
+TEST_F(ContentionTest, WithoutABackoffOnAFreeChannelADifsFromTheStartIsWaited) {
+    contention();
+    simulator.schedule_at(us(5000), [this] { contention().start_without_backoff_if_free(1023); });
+    run();
+    EXPECT_EQ(grants, std::vector{us(5050)});
+}
+
+TEST_F(ContentionTest, WithoutABackoffADifsIsWaitedAgainAfterABusyChannel) {
+    contention();
+    simulator.schedule_at(us(5000), [this] { contention().start_without_backoff_if_free(1023); });
+    busy_at(us(5020), us(300));
+    run();
+    EXPECT_EQ(grants, std::vector{us(5370)});
+}
+
+TEST_F(ContentionTest, OnABusyChannelABackoffIsDrawnAllTheSame) {
+    contention();
+    busy_at(us(4900), us(300));
+    simulator.schedule_at(us(5000), [this] { contention().start_without_backoff_if_free(1023); });
+    run();
+    EXPECT_GT(grants.front(), us(5250));
+}
+
 TEST_F(ContentionTest, GrantsAtOnceOnAChannelThatWasIdleForLong) {
     contention();
     start_at(us(5000), 31);

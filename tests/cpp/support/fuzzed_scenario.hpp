@@ -115,6 +115,17 @@ private:
             config.radio.energy_detection_w = bytes_.number(config.radio.energy_detection_w);
             config.radio.snir_threshold = bytes_.number(config.radio.snir_threshold);
             config.radio.communication_range_m = bytes_.number(config.radio.communication_range_m);
+            if (bytes_.flag()) {
+                config.radio.snir_mode = bytes_.name(snir_mode_names);
+                config.radio.preamble_detection = bytes_.name(preamble_detection_names);
+                config.radio.preamble_threshold = bytes_.number(config.radio.preamble_threshold);
+                config.radio.preamble_minimum_power_w = bytes_.number(config.radio.preamble_minimum_power_w);
+                config.radio.preamble_duration_s = bytes_.number(config.radio.preamble_duration_s);
+                config.radio.frame_capture = bytes_.name(frame_capture_names);
+                config.radio.capture_margin = bytes_.number(config.radio.capture_margin);
+                config.radio.capture_window_s = bytes_.number(config.radio.capture_window_s);
+                config.mac.skip_backoff_if_idle = bytes_.flag();
+            }
             config.radio.carrier_hz += 5e6 * bytes_.below(3);
             config.mac.op_mode = bytes_.name(op_mode_names);
             config.mac.rts_threshold_bytes = bytes_.integer(config.mac.rts_threshold_bytes);

@@ -30,8 +30,19 @@ inline RandomScenario make_narrowband_scenario(std::uint64_t seed) {
         device.radio.tx_power_w *= node.radio.tx_power_w / usual.tx_power_w;
         device.radio.sensitivity_w *= node.radio.sensitivity_w / usual.sensitivity_w;
         device.radio.energy_detection_w *= node.radio.energy_detection_w / usual.energy_detection_w;
+        device.radio.noise_figure = node.radio.noise_figure;
         device.radio.energy_detection_w =
-            std::max(device.radio.energy_detection_w, 1.01 * scenario.medium.background_noise_w);
+            std::max(device.radio.energy_detection_w,
+                     1.01 * BackgroundNoise(scenario.medium)
+                                .power_w(device.radio.bandwidth_hz, device.radio.noise_figure));
+        device.radio.snir_mode = node.radio.snir_mode;
+        device.radio.preamble_detection = node.radio.preamble_detection;
+        device.radio.preamble_threshold = node.radio.preamble_threshold;
+        device.radio.preamble_minimum_power_w = node.radio.preamble_minimum_power_w;
+        device.radio.preamble_duration_s = node.radio.preamble_duration_s;
+        device.radio.frame_capture = node.radio.frame_capture;
+        device.radio.capture_margin = node.radio.capture_margin;
+        device.radio.capture_window_s = 20 * node.radio.capture_window_s;  // frames are longer as well
         device.radio.snir_threshold = ratio_from_db(snir_threshold_db);
         if (two_channels && chance(0.5)) {
             device.radio.carrier_hz = 2.455e9;

@@ -54,6 +54,15 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     // From a stream of its own, so that scenarios without RTS are what they were before there was RTS.
     RandomStream rts_draws(seed, 1, Purpose{1001});
     const bool with_rts = rts_draws.uniform() < 0.5;
+    // Likewise options of the receiver, each drawn for each node.
+    RandomStream option_draws(seed, 3, Purpose{1001});
+    const auto option = [&option_draws](double share) { return option_draws.uniform() < share; };
+    const bool with_options = option(0.5);
+    if (with_options && option(0.4)) {
+        scenario.medium.background_noise = thermal_noise;
+        scenario.medium.temperature_k = 400 * option_draws.uniform();
+    }
+    const BackgroundNoise noise(scenario.medium);
 
     const int count = fewest_nodes + static_cast<int>(draws.uniform_int(most_nodes - fewest_nodes + 1));
     for (int id = 0; id < count; ++id) {
@@ -68,14 +77,28 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         node.radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
         node.radio.energy_detection_w *=
             ratio_from_db(detection_offset_db + between(-detection_spread_db, detection_spread_db));
-        node.radio.energy_detection_w =
-            std::max(node.radio.energy_detection_w, 1.01 * scenario.medium.background_noise_w);
         if (two_channels && chance(0.5)) {
             node.radio.carrier_hz = 2.437e9;
         }
         if (two_bandwidths && chance(0.5)) {
             node.radio.bandwidth_hz = 20e6;
         }
+        if (with_options) {
+            node.mac.skip_backoff_if_idle = option(0.3);
+            node.radio.noise_figure = 1 + 9 * option_draws.uniform();
+            node.radio.snir_mode = option(0.5) ? "chunks" : "min";
+            node.radio.snir_threshold *= option(0.5) ? 1 : option_draws.uniform();
+            node.radio.preamble_detection = option(0.5) ? "ThresholdPreambleDetection" : "";
+            node.radio.preamble_threshold = ratio_from_db(-5 + 12 * option_draws.uniform());
+            node.radio.preamble_minimum_power_w *= ratio_from_db(-15 + 20 * option_draws.uniform());
+            node.radio.preamble_duration_s = option(0.8) ? 4e-6 : 300e-6 * (0.001 + option_draws.uniform());
+            node.radio.frame_capture = option(0.5) ? "SimpleFrameCapture" : "";
+            node.radio.capture_margin = ratio_from_db(10 * option_draws.uniform());
+            node.radio.capture_window_s = option(0.5) ? 16e-6 : 1e-3 * option_draws.uniform();
+        }
+        node.radio.energy_detection_w =
+            std::max(node.radio.energy_detection_w,
+                     1.01 * noise.power_w(node.radio.bandwidth_hz, node.radio.noise_figure));
         node.mac.op_mode = op_mode;
         node.mac.bitrate_bps = static_cast<double>(
             modes[draws.uniform_int(static_cast<std::uint32_t>(modes.size()))].bitrate_bps);

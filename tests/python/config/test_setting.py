@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.config.error import ConfigError
-from gradysim.config.kinds import choice, quantity
+from gradysim.config.kinds import choice, file_name, quantity
 from gradysim.config.reader import Entry
 from gradysim.config.setting import Setting, SettingReader, read_scalar
 from gradysim.config.source import Source
@@ -43,3 +43,10 @@ def test_texts_on_the_command_line_need_no_quotes() -> None:
 def test_texts_in_a_file_need_quotes() -> None:
     with pytest.raises(ConfigError, match="a text stands in quotes"):
         read_scalar(entry("b"), MODE)
+
+
+def test_files_are_seen_from_the_folder_of_the_ini_file() -> None:
+    source = Source(Path("configs/a.ini"), 7, "*.x.y", '"table.csv"')
+    assert read_scalar(Entry("*.x.y", '"table.csv"', source, "General"), file_name()) == "configs/table.csv"
+    assert read_scalar(Entry("*.x.y", '"/table.csv"', source, "General"), file_name()) == "/table.csv"
+    assert read_scalar(Entry("*.x.y", '""', source, "General"), file_name()) == ""

@@ -18,8 +18,10 @@ LIMIT_S = 2.5
 
 CASES = {  # file in configs: (configuration, reach in metres, more settings)
     "reference/beacons": ("Python100", 300, ()),
+    "reference/capture": ("General", 100, ()),
     "reference/flood": ("Python", 50, ()),
     "reference/hidden": ("General", 1000, ()),
+    "reference/jittered": ("General", 100, ()),
     "reference/link": ("Snr24", 45, ()),
     "reference/narrowband": ("Contention", 100, ()),
     "reference/rate_control": ("Fixed", 1000, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),

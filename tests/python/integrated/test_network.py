@@ -42,6 +42,39 @@ def test_settings_of_the_medium(make_scenario):
     assert medium_config(scenario).alpha == 3.0
 
 
+def test_thermal_noise(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '*.radioMedium.backgroundNoise.typename = "ThermalNoise"',
+        "*.radioMedium.backgroundNoise.temperature = 300K",
+    )
+    config = medium_config(scenario)
+    assert (config.background_noise, config.temperature_k) == ("ThermalNoise", 300.0)
+
+
+def test_noise_of_a_receiver_that_would_keep_its_channel_busy_is_an_error_there(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '*.radioMedium.backgroundNoise.typename = "ThermalNoise"',
+        "*.uavs[1].wlan[*].radio.receiver.energyDetection = -95dBm",
+    )
+    with pytest.raises(ConfigError, match="expected more than the background noise") as error:
+        check_scenario(scenario)
+    assert error.value.key == "*.uavs[1].wlan[*].radio.receiver.energyDetection"
+
+
+def test_a_malformed_table_of_error_rates_is_refused_at_its_line(make_scenario, tmp_path):
+    table = tmp_path / "table.csv"
+    table.write_text("bitrate_mbps,psdu_bytes,snir_db,success\n24,100,ten,0.5\n")
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        f'**.errorModel.berTableFile = "{table}"',
+    )
+    with pytest.raises(ConfigError, match=r'table.csv:2: "ten": expected a number'):
+        check_scenario(scenario)
+
+
 @pytest.mark.parametrize(
     "text",
     [

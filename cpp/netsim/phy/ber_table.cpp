@@ -1,0 +1,153 @@
+#include "netsim/phy/ber_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "netsim/config/check.hpp"
+#include "netsim/error.hpp"
+#include "netsim/units.hpp"
+
+namespace netsim {
+namespace {
+
+constexpr std::string_view first_line = "bitrate_mbps,psdu_bytes,snir_db,success";
+
+struct Row {
+    double bitrate_mbps = 0;
+    double psdu_bytes = 0;
+    double snir_db = 0;
+    double success = 0;
+};
+
+// Reads what is at a line of a file, and refuses what should not be there.
+class Line {
+public:
+    Line(const std::string& path, int number, std::string_view text)
+        : path_(path), number_(number), text_(text) {}
+
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw ConfigError(path_ + ":" + std::to_string(number_) + ": " + what);
+    }
+
+    Row row() const {
+        std::array<double, 4> values{};
+        std::string_view rest = text_;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const std::size_t comma = rest.find(',');
+            if ((comma == std::string_view::npos) != (i + 1 == values.size())) {
+                refuse("\"" + std::string(text_) + "\": expected four numbers, " + std::string(first_line));
+            }
+            const std::string_view field = rest.substr(0, comma);
+            const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), values[i]);
+            if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(values[i])) {
+                refuse("\"" + std::string(field) + "\": expected a number");
+            }
+            rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
+        }
+        const Row row{values[0], values[1], values[2], values[3]};
+        require(row.bitrate_mbps > 0 && row.bitrate_mbps < 1e6, "bitrate_mbps", row.bitrate_mbps,
+                "more than 0 Mbps");
+        require(row.psdu_bytes >= 1 && row.psdu_bytes <= 1e6 && std::trunc(row.psdu_bytes) == row.psdu_bytes,
+                "psdu_bytes", row.psdu_bytes, "a whole number of bytes from 1 on");
+        require(row.success >= 0 && row.success <= 1, "success", row.success, "from 0 to 1");
+        return row;
+    }
+
+private:
+    void require(bool holds, const char* name, double value, const char* expected) const {
+        if (!holds) {
+            refuse(std::string(name) + " = " + text_of(value) + ": expected " + expected);
+        }
+    }
+
+    const std::string& path_;
+    int number_;
+    std::string_view text_;
+};
+
+}  // namespace
+
+BerTableErrorModel::BerTableErrorModel(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) {
+        throw ConfigError("radio.ber_table_file = \"" + path + "\": expected a file that can be read");
+    }
+    bool is_first = true;
+    int number = 0;
+    for (std::string text; std::getline(file, text);) {
+        ++number;
+        if (!text.empty() && text.back() == '\r') {
+            text.pop_back();
+        }
+        if (text.empty() || text.front() == '#') {
+            continue;
+        }
+        const Line line(path, number, text);
+        if (std::exchange(is_first, false)) {
+            if (text != first_line) {
+                line.refuse("\"" + text + "\": expected the line " + std::string(first_line));
+            }
+            continue;
+        }
+        const Row row = line.row();
+        Curve& curve = rates_[std::llround(row.bitrate_mbps * 1e6)][static_cast<int>(row.psdu_bytes)];
+        if (!curve.empty() && row.snir_db <= curve.back().snir_db) {
+            line.refuse("snir_db = " + text_of(row.snir_db) + ": expected more than the " +
+                        text_of(curve.back().snir_db) + " before it, of the same bitrate and length");
+        }
+        curve.push_back({row.snir_db, row.success});
+    }
+    if (rates_.empty()) {
+        Line(path, number, {}).refuse("expected at least one line below " + std::string(first_line));
+    }
+}
+
+double BerTableErrorModel::success_probability(const Mode& mode, double snir, int psdu_bytes) const {
+    const double log_of_both = log_header_success(mode, snir) + log_data_success(mode, snir, psdu_bytes);
+    return log_of_both == 0 ? 1 : std::exp(log_of_both);
+}
+
+double BerTableErrorModel::log_header_success(const Mode& mode, double snir) const {
+    const bool is_ofdm = mode.family == ModeFamily::ofdm;
+    const auto curves = rates_.find(is_ofdm ? 6'000'000 : 1'000'000);
+    return curves == rates_.end() ? nist_.log_header_success(mode, snir)
+                                  : log_success(curves->second, snir, is_ofdm ? 3 : 6);
+}
+
+double BerTableErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {
+    const auto curves = rates_.find(mode.bitrate_bps);
+    return curves == rates_.end() ? nist_.log_data_success(mode, snir, psdu_bytes)
+                                  : log_success(curves->second, snir, psdu_bytes);
+}
+
+double BerTableErrorModel::log_success(const Curves& curves, double snir, double bytes) {
+    if (bytes <= 0) {
+        return 0;
+    }
+    const auto by_ratio = [bytes](const auto& curve) { return std::abs(std::log(curve.first / bytes)); };
+    const auto nearest = std::ranges::min_element(curves, {}, by_ratio);
+    const double success = success_at(nearest->second, db_from_ratio(snir));
+    return success > 0 ? std::log(success) * bytes / nearest->first
+                       : -std::numeric_limits<double>::infinity();
+}
+
+double BerTableErrorModel::success_at(const Curve& curve, double snir_db) {
+    const auto above = std::ranges::upper_bound(curve, snir_db, {}, &Point::snir_db);
+    if (above == curve.begin()) {
+        return curve.front().success;
+    }
+    if (above == curve.end()) {
+        return curve.back().success;
+    }
+    const auto below = above - 1;
+    const double share = (snir_db - below->snir_db) / (above->snir_db - below->snir_db);
+    return below->success + share * (above->success - below->success);
+}
+
+}  // namespace netsim

@@ -1,0 +1,45 @@
+// An error model that is given by a file: packet success over SNIR as somebody measured it.
+//
+// The file is CSV. Its first line is "bitrate_mbps,psdu_bytes,snir_db,success"; empty lines and those that begin with #
+// say nothing. The lines of one bitrate and length form a curve, in rising order of SNIR. Between two points the
+// success is interpolated linearly over the SNIR in dB, outside of them it stays that of the nearest. A PSDU of another
+// length n takes the curve whose length m is nearest by ratio, to the power of n/m.
+//
+// The PHY header counts as a PSDU of its own length at the rate it is sent with: 3 bytes at 6 Mbps (OFDM), 6 bytes at
+// 1 Mbps (DSSS and CCK). Bitrates of which the file has no curve follow the NIST model.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "netsim/phy/error_rate.hpp"
+
+namespace netsim {
+
+class BerTableErrorModel final : public ErrorModel {
+public:
+    // Throws ConfigError, with the line, for a file that cannot be read or is malformed.
+    explicit BerTableErrorModel(const std::string& path);
+
+    double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
+    double log_header_success(const Mode& mode, double snir) const override;
+    double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
+
+private:
+    struct Point {
+        double snir_db = 0;
+        double success = 0;
+    };
+    using Curve = std::vector<Point>;
+    using Curves = std::map<int, Curve>;  // by bytes
+
+    static double log_success(const Curves& curves, double snir, double bytes);
+    static double success_at(const Curve& curve, double snir_db);
+
+    std::map<std::int64_t, Curves> rates_;  // by bits per second
+    NistErrorModel nist_;
+};
+
+}  // namespace netsim

@@ -1,0 +1,31 @@
+// Whether a radio gives up the frame that it is locked on to for a stronger one that begins. Off by default.
+//
+// With it, a newcomer that comes no later than `window` after the start of the frame, and with more than `margin`
+// times its power, takes its place: for a while after a frame's start, a receiver can still train on another one.
+#pragma once
+
+#include "netsim/config/radio_config.hpp"
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/medium/transmission.hpp"
+
+namespace netsim {
+
+class FrameCapture {
+public:
+    explicit FrameCapture(const RadioConfig& config)
+        : is_on_(!config.frame_capture.empty()),
+          margin_(config.capture_margin),
+          window_(SimTime::from_seconds(config.capture_window_s)) {}
+
+    bool captures(const Arrival& locked, const Arrival& newcomer) const {
+        return is_on_ && newcomer.start - locked.start <= window_ &&
+               newcomer.power_w > locked.power_w * margin_;
+    }
+
+private:
+    bool is_on_;
+    double margin_;
+    SimTime window_;
+};
+
+}  // namespace netsim

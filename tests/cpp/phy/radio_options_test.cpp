@@ -1,0 +1,239 @@
+// The radio with preamble detection, frame capture and SNIR by chunks, each off by default.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netsim/phy/radio.hpp"
+#include "netsim/units.hpp"
+#include "support/air.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Air;
+using test::BareRadio;
+using test::light_microsecond_m;
+using test::RadioWord;
+
+constexpr double strong_w = 1e-10;
+
+constexpr SimTime us(std::int64_t microseconds) {
+    return SimTime::from_us(microseconds);
+}
+
+// A receiver whose frames come from a microsecond away; its channel is busy by energy only far above them.
+class RadioOptions : public testing::Test {
+protected:
+    RadioOptions() { config.energy_detection_w = 1; }
+
+    BareRadio& receiver() {
+        if (receiver_ == nullptr) {
+            receiver_ = &air.add_radio({0, 0, 0}, config);
+        }
+        return *receiver_;
+    }
+    // A frame of a sender of its own is at the receiver from `start` for `duration`.
+    NodeId arrives(double received_w, SimTime start, SimTime duration = us(200)) {
+        receiver();
+        constexpr Position directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+        BareRadio& sender =
+            air.add_radio(directions[senders_++] * light_microsecond_m,
+                          test::radio_of_power(test::power_for(received_w, light_microsecond_m)));
+        air.at(start - us(1), [&sender, duration] { sender.send(duration); });
+        return sender.id();
+    }
+    std::uint64_t count(FrameFate fate) { return air.broadcast_count_at(receiver(), fate); }
+
+    RadioConfig config;
+    Air air;
+
+private:
+    BareRadio* receiver_ = nullptr;
+    std::size_t senders_ = 0;
+};
+
+class RadioWithPreambleDetection : public RadioOptions {
+protected:
+    RadioWithPreambleDetection() { config.preamble_detection = "ThresholdPreambleDetection"; }
+};
+
+TEST_F(RadioWithPreambleDetection, ReceivesAFrameAlone) {
+    const NodeId sender = arrives(strong_w, us(100));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{sender});
+}
+
+TEST_F(RadioWithPreambleDetection, IsBusyFromTheDetectionOn) {
+    arrives(strong_w, us(100));
+    air.run();
+    EXPECT_EQ(receiver().log.times_of(RadioWord::busy), std::vector{us(104)});
+    EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(300)});
+}
+
+TEST_F(RadioWithPreambleDetection, EnergyTooIsSensedOnlyThen) {
+    config.energy_detection_w = strong_w / 2;
+    config.preamble_minimum_power_w = 2 * strong_w;
+    arrives(strong_w, us(100));
+    air.run();
+    EXPECT_EQ(receiver().log.times_of(RadioWord::busy), std::vector{us(104)});
+    EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(300)});
+}
+
+TEST_F(RadioWithPreambleDetection, AChannelBusyByEnergyStaysSo) {
+    config.energy_detection_w = strong_w / 2;
+    config.preamble_minimum_power_w = 2 * strong_w;
+    arrives(strong_w, us(100));
+    arrives(strong_w, us(200));
+    air.run();
+    EXPECT_EQ(receiver().log.times_of(RadioWord::busy), std::vector{us(104)});
+    EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(400)});
+}
+
+TEST_F(RadioWithPreambleDetection, TheMinimumPowerIsNeeded) {
+    config.preamble_minimum_power_w = 1.001 * strong_w;
+    arrives(strong_w, us(100));
+    air.run();
+    EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
+    EXPECT_TRUE(receiver().log.events.empty());
+}
+
+TEST_F(RadioWithPreambleDetection, TheThresholdIsNeededOverOthers) {
+    arrives(2.4 * strong_w, us(100));
+    arrives(strong_w, us(101));
+    air.run();
+    EXPECT_EQ(count(FrameFate::preamble_undetected), 2U);
+    EXPECT_TRUE(receiver().log.events.empty());
+}
+
+TEST_F(RadioWithPreambleDetection, OfTwoAtOnceTheStrongerIsReceived) {
+    arrives(strong_w, us(100));
+    const NodeId strong = arrives(100 * strong_w, us(103));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{strong});
+    EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
+}
+
+TEST_F(RadioWithPreambleDetection, WhatIsStillListenedToAtADetectionIsLost) {
+    const NodeId strong = arrives(100 * strong_w, us(100));
+    arrives(strong_w, us(103));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{strong});
+    EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
+}
+
+// The SNIR that counts is that at the end of the detection.
+TEST_F(RadioWithPreambleDetection, WhatEndsDuringItDoesNoHarm) {
+    config.sensitivity_w = 2 * strong_w;
+    arrives(3 * strong_w, us(100));
+    arrives(1.9 * strong_w, us(50), us(52));
+    air.run();
+    EXPECT_EQ(count(FrameFate::interference), 1U);  // detected, and lost only then
+}
+
+TEST_F(RadioWithPreambleDetection, AFrameShorterThanTheDetectionIsUndetected) {
+    config.preamble_duration_s = 1e-3;
+    arrives(strong_w, us(100));
+    air.run();
+    EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
+}
+
+TEST_F(RadioWithPreambleDetection, StartingToTransmitGivesItUp) {
+    arrives(strong_w, us(100));
+    arrives(strong_w, us(101));
+    air.at(us(102), [&] { receiver().send(us(50)); });
+    air.run();
+    EXPECT_EQ(count(FrameFate::receiver_transmitting), 2U);
+}
+
+class RadioWithFrameCapture : public RadioOptions {
+protected:
+    RadioWithFrameCapture() { config.frame_capture = "SimpleFrameCapture"; }
+};
+
+TEST_F(RadioWithFrameCapture, AStrongerFrameTakesThePlaceOfAnother) {
+    arrives(strong_w, us(100));
+    const NodeId strong = arrives(100 * strong_w, us(110));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{strong});
+    EXPECT_EQ(count(FrameFate::captured), 1U);
+    EXPECT_EQ(receiver().log.times_of(RadioWord::corrupted), std::vector{us(110)});
+    EXPECT_EQ(receiver().log.times_of(RadioWord::busy), std::vector{us(100)});
+}
+
+TEST_F(RadioWithFrameCapture, NotAfterTheWindow) {
+    arrives(strong_w, us(100));
+    arrives(100 * strong_w, us(117));
+    air.run();
+    EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
+    EXPECT_EQ(count(FrameFate::interference), 1U);
+}
+
+TEST_F(RadioWithFrameCapture, WithPreambleDetectionTheNewcomerHasToBeDetected) {
+    config.preamble_detection = "ThresholdPreambleDetection";
+    const NodeId strong = (arrives(strong_w, us(100)), arrives(100 * strong_w, us(110)));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{strong});
+    EXPECT_EQ(receiver().log.times_of(RadioWord::busy), (std::vector{us(104), us(114)}));
+}
+
+class RadioWithChunks : public RadioOptions {
+protected:
+    RadioWithChunks() { config.snir_mode = "chunks"; }
+};
+
+TEST_F(RadioWithChunks, ReceivesAFrameAlone) {
+    const NodeId sender = arrives(strong_w, us(100));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{sender});
+}
+
+TEST_F(RadioWithChunks, WithoutItsHeaderAFrameIsGivenUpAtOnce) {
+    arrives(strong_w, us(100));
+    arrives(100 * strong_w, us(116), us(4));
+    air.run();
+    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(receiver().log.times_of(RadioWord::corrupted), std::vector{us(120)});
+    EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(120)});
+}
+
+TEST_F(RadioWithChunks, InterferenceWithThePreambleAloneDoesNoHarm) {
+    const NodeId sender = arrives(strong_w, us(100));
+    arrives(100 * strong_w, us(101), us(15));
+    air.run();
+    EXPECT_EQ(receiver().log.received_from, std::vector{sender});
+}
+
+TEST_F(RadioWithChunks, InterferenceWithTheDataIsBlamed) {
+    arrives(strong_w, us(100));
+    const NodeId other = arrives(100 * strong_w, us(150), us(20));
+    air.run();
+    EXPECT_EQ(count(FrameFate::interference), 1U);
+    EXPECT_EQ(air.frame_fates.interferers_at(receiver().id()), (std::map<NodeId, std::uint64_t>{{other, 1}}));
+}
+
+TEST_F(RadioWithChunks, AFrameThatEndsWithItsHeaderIsDecided) {
+    arrives(strong_w, us(100), us(18));
+    air.run();
+    EXPECT_EQ(count(FrameFate::delivered), 1U);
+}
+
+TEST(RadioNoise, ThermalNoiseIsAPropertyOfTheReceiver) {
+    MediumConfig medium;
+    medium.background_noise = "ThermalNoise";
+    Air air(medium);
+    RadioConfig config;
+    config.snir_threshold = 1000;
+    config.sensitivity_w = 1e-14;
+    BareRadio& quiet = air.add_radio({0, 0, 0}, config);
+    config.noise_figure = 100;
+    BareRadio& noisy = air.add_radio({0, 0, 0}, config);
+    BareRadio& sender =
+        air.add_radio({100, 0, 0}, test::radio_of_power(test::power_for(w_from_dbm(-60), 100)));
+    air.at(us(10), [&] { sender.send(us(200)); });
+    air.run();
+    EXPECT_EQ(air.broadcast_count_at(quiet, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(noisy, FrameFate::noise), 1U);
+}
+
+}  // namespace
+}  // namespace netsim

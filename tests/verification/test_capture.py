@@ -1,0 +1,152 @@
+"""A strong and a weak frame overlap at a receiver that detects preambles: which one it gets, against ns-3."""
+
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from verification.finding import Finding
+from verification.nist import success_probability
+from verification.reference_data import Row, rows
+from verification.reference_run import run_reference, tracked
+from verification.sampling import fisher_p, least_p
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+STRONG_DBM = 10.0956
+STRONG_BYTES, WEAK_BYTES = 36, 37
+INTERVAL_S = 0.01
+MPDU_BYTES = 100
+OFFSETS_US = ("-30", "-18", "-10", "-5", "-3", "0", "3", "5", "18", "30")
+CERTAIN_DIFFERENCES_DB = ("0", "3", "6", "24", "30")
+
+
+@cache
+def measure(
+    config: str, bitrate_mbps: str, offset_us: str, diff_db: str, pairs: int, seed: int
+) -> tuple[int, int]:
+    """Strong and weak frames that the receiver got; the weak one comes `offset_us` after the strong one."""
+    end_s = 1 + pairs * INTERVAL_S
+    result = run_reference(
+        "capture",
+        config,
+        seed=seed,
+        overrides=[
+            f"**.wlan[*].bitrate = {bitrate_mbps}Mbps",
+            f"*.weak.wlan[*].radio.transmitter.power = {STRONG_DBM - float(diff_db)}dBm",
+            f"*.weak.protocol.first_send = 1s + {offset_us}us",
+            f"**.protocol.stop = {end_s - INTERVAL_S / 2}s",
+            f"sim-time-limit = {end_s}s",
+        ],
+    )
+    assert tracked(result, "sent") == [pairs, pairs]
+    (received,), (size,) = (tracked(result, name, "receiver") for name in ("received", "received_bytes"))
+    weak = size - STRONG_BYTES * received
+    assert WEAK_BYTES - STRONG_BYTES == 1
+    return received - weak, weak
+
+
+def config_of(row: Row, base: str = "") -> str:
+    """The configuration with or without frame capture."""
+    return base + ("FrameCapture" if row["frame_capture"] == "1" else "") or "General"
+
+
+def certain_rows() -> Iterator[Row]:
+    """24 and 54 Mbps, at differences where each frame is certain or hopeless in both error models."""
+    for rate in ("24", "54"):
+        certain = {
+            diff
+            for diff in CERTAIN_DIFFERENCES_DB
+            if not 1e-6 < success_probability(float(rate), 10 ** (float(diff) / 10), MPDU_BYTES) < 1 - 1e-6
+        }
+        for row in rows("ns3_capture", bitrate_mbps=rate):
+            if row["offset_us"] in OFFSETS_US and row["diff_db"] in certain:
+                yield row
+
+
+def test_certain_outcomes_are_those_of_ns3(
+    report: Callable[[Finding], None], picture: Callable[[str, Callable[[Path], None]], None]
+) -> None:
+    picture("capture.png", draw)
+    pairs = 10
+    table = list(certain_rows())
+    different = [
+        row
+        for row in table
+        if measure(config_of(row), row["bitrate_mbps"], row["offset_us"], row["diff_db"], pairs, seed=0)
+        != (pairs * float(row["strong_ratio"]), pairs * float(row["weak_ratio"]))
+    ]
+    report(
+        Finding(
+            "preamble detection and frame capture, 24 and 54 Mbps, against ns-3 where the error rates, which "
+            "differ, cannot matter",
+            f"{len(different)} of {len(table)} pairs of frames end otherwise",
+            "0",
+            "each frame of them is received always or never",
+            not different,
+        )
+    )
+
+
+def test_uncertain_outcomes_are_those_of_ns3(report: Callable[[Finding], None]) -> None:
+    pairs = 1000
+    table = [
+        row
+        for row in rows("ns3_capture", bitrate_mbps="6")
+        if row["offset_us"] in OFFSETS_US
+        and int(row["diff_db"]) <= 7
+        and (row["diff_db"], row["frame_capture"]) != ("5", "1")  # the margin itself: rounding decides
+    ]
+    p_values = []
+    for index, row in enumerate(table):
+        config = config_of(row, "MeasuredErrorRates")
+        ours = measure(config, "6", row["offset_us"], row["diff_db"], pairs, seed=index)
+        frames = int(row["frames"])
+        for count, ratio in zip(ours, (row["strong_ratio"], row["weak_ratio"]), strict=True):
+            p_values.append(fisher_p(count, pairs, round(float(ratio) * frames), frames))
+    limit = least_p(len(p_values))
+    report(
+        Finding(
+            "preamble detection and frame capture, 6 Mbps with ns-3's table of error rates, against ns-3",
+            f"least p-value {min(p_values):.2g} of {len(p_values)}",
+            f"p ≥ {limit:.2g} for each",
+            "sampling error at 99 % for all together (Fisher's exact test, Bonferroni; ns-3's 200 pairs "
+            "against our 1000): false alarms at most 1 %",
+            min(p_values) >= limit,
+        )
+    )
+
+
+def draw(path: Path) -> None:
+    from verification.figure import NS3, OURS, save
+
+    def panel(offset_us: str, frame_capture: int) -> "Callable[[Axes], None]":
+        def draw_panel(axes: "Axes") -> None:
+            table = rows("ns3_capture", bitrate_mbps=6, offset_us=offset_us, frame_capture=frame_capture)
+            table = [row for row in table if int(row["diff_db"]) <= 12]
+            config = config_of(table[0], "MeasuredErrorRates")
+            ours = [measure(config, "6", offset_us, row["diff_db"], 500, seed=0) for row in table]
+            differences = [int(row["diff_db"]) for row in table]
+            for which, column, style in ((0, "strong_ratio", "o"), (1, "weak_ratio", "s")):
+                name = column.partition("_")[0]
+                theirs = [float(row[column]) for row in table]
+                axes.plot(differences, theirs, style, color=NS3, ms=7, mfc="none", label=f"ns-3, {name}")
+                shares = [counts[which] / 500 for counts in ours]
+                axes.plot(differences, shares, style + "-", color=OURS, ms=3, lw=1, label=f"gradysim, {name}")
+            axes.set(xlabel="difference of powers (dB)", ylabel="share received", ylim=(-0.05, 1.05))
+            when = f"strong one {-int(offset_us)} µs later" if offset_us != "5" else "strong one 5 µs earlier"
+            axes.set_title(f"{when}, {'with' if frame_capture else 'without'} capture", fontsize=9)
+            axes.legend(fontsize=7)
+
+        return draw_panel
+
+    save(
+        path,
+        "Two frames of 100 B that overlap, 6 Mbps, with ns-3's table of error rates",
+        panel("5", 0),
+        panel("-3", 0),
+        panel("-10", 0),
+        panel("-10", 1),
+        columns=2,
+    )
