@@ -7,6 +7,7 @@ namespace proxy_protocol {
 
 void bind_config(pybind11::module_& module);
 void bind_propagation(pybind11::module_& module);
+void bind_link_budget(pybind11::module_& module);
 void bind_random(pybind11::module_& module);
 void bind_native_protocols(pybind11::module_& module);
 void bind_node(pybind11::module_& module);

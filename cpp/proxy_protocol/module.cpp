@@ -12,6 +12,7 @@ PYBIND11_MODULE(_netsim, module) {
     py::register_exception<netsim::SimulationError>(module, "SimulationError", PyExc_RuntimeError);
     proxy_protocol::bind_config(module);
     proxy_protocol::bind_propagation(module);
+    proxy_protocol::bind_link_budget(module);
     proxy_protocol::bind_random(module);
     proxy_protocol::bind_native_protocols(module);
     proxy_protocol::bind_node(module);

@@ -67,6 +67,33 @@ class Propagation:
     def most_gain_beyond(self, distance_m: float, carrier_hz: float) -> float:
         """What no gain exceeds at that distance and beyond."""
 
+class LinkBudget:
+    """The chances of one broadcast frame over a distance, with nobody else on the air.
+
+    Where the gain is random, the share is the mean over many states of the link. Antennas look at each other
+    with their largest gain, and no obstacle is between them.
+    """
+
+    def __init__(
+        self, medium: MediumConfig, sender: NodeConfig, receiver: NodeConfig, payload_bytes: int
+    ) -> None:
+        """For messages of that length; heights are the z of the initial positions.
+
+        ConfigError: a value out of range, a medium without path loss, different bands, a message too long.
+        """
+    def reception_ratio(self, distance_m: float, tx_power_w: float) -> float:
+        """The share of frames sent with that power that are decoded at that distance, 0 to 1."""
+    def tx_power_w_for(self, range_m: float, ratio: float) -> float:
+        """The least power at which at least that share is decoded; ConfigError: no power would do."""
+    def mean_gain(self, distance_m: float) -> float:
+        """Mean received power of 1 W."""
+    @property
+    def bitrate_bps(self) -> float: ...
+    @property
+    def psdu_bytes(self) -> int: ...
+    @property
+    def noise_w(self) -> float: ...
+
 class ObstacleConfig:
     name: str
     rings: Sequence[Sequence[tuple[float, float]]]

@@ -3,6 +3,7 @@
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim runs FILE.ini [-c CONFIG]
     gradysim keys [PATTERN] [--markdown]
+    gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
 Exit codes: 0 all is well; 1 a protocol failed; 2 a mistake in the arguments or in the .ini file;
 130 Ctrl-C. What only one command needs is imported inside it, so that `gradysim --help` answers at once.
@@ -191,6 +192,64 @@ def list_keys(
     else:
         print(key_table.plain_text(sections), end="")
     return OK
+
+
+@app.command(name="calibrate")
+def calibrate_power(
+    file: FileArgument,
+    /,
+    *,
+    config: ConfigOption = "General",
+    range_text: Annotated[str, Parameter(name="--range", help="The wanted range, such as 50m.")],
+    ratio: Annotated[float, Parameter(help="Share of the frames that is to be received there.")] = 0.5,
+    message: Annotated[str, Parameter(help="Length of the message in a frame.")] = "50B",
+    sender: Annotated[str | None, Parameter(help="Node that sends; by default the first one.")] = None,
+    receiver: Annotated[
+        str | None, Parameter(help="Node that receives; by default another one like the sender.")
+    ] = None,
+    picture: Annotated[
+        Path | None, Parameter(help="Draw reception over distance into this file (.png, .svg, .pdf).")
+    ] = None,
+    settings: SetOption = (),
+) -> int:
+    """Find the transmitter power for a wanted range under the models of a configuration."""
+    from gradysim.config.error import ConfigError
+    from gradysim.integrated.calibration import calibrate
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.report import calibration
+
+    try:
+        scenario = load(file, config, "0", settings)[0]
+        found = calibrate(
+            scenario,
+            range_m=quantity_option("--range", range_text, "m"),
+            ratio=ratio,
+            message_bytes=round(quantity_option("--message", message, "B")),
+            sender=sender,
+            receiver=receiver,
+        )
+        print(calibration.text(found))
+        if picture is not None:
+            calibration.draw(found, picture)
+            print(f"drawn in {picture}")
+    except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as mistake:
+        return say_mistake(mistake)
+    return OK
+
+
+def quantity_option(option: str, text: str, unit: str) -> float:
+    """Return the quantity that an option says, in `unit`. Raises ConfigError, which names the option."""
+    from gradysim.config.error import BadValue, ConfigError
+    from gradysim.config.expression import parse_value
+    from gradysim.config.kinds import quantity
+
+    kind = quantity(unit, at_least=0)
+    try:
+        return float(kind.convert(parse_value(text)))
+    except BadValue as error:
+        raise ConfigError(
+            f"{option} {text}: {error.problem}; expected {kind.expected}{error.suggestion}"
+        ) from error
 
 
 def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:

@@ -11,12 +11,6 @@ namespace netsim {
 
 namespace {
 
-const Mode& multicast_mode(const MacConfig& config, const ModeSet& modes) {
-    return config.multicast_bitrate_bps < 0
-               ? modes.mode_for_bitrate(config.bitrate_bps)
-               : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
-}
-
 const Mode& rts_mode(const MacConfig& config, const ModeSet& modes) {
     return modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps");
 }
@@ -43,7 +37,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       listener_(listener),
       modes_(mode_set(config.op_mode)),
       timing_(modes_),
-      multicast_mode_(multicast_mode(config, modes_)),
+      multicast_mode_(broadcast_mode(config)),
       rts_mode_(rts_mode(config, modes_)),
       retry_limits_{config.short_retry_limit, config.long_retry_limit},
       rts_threshold_bytes_(config.rts_threshold_bytes),
@@ -61,10 +55,17 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
     radio_.set_listener(*this);
 }
 
+const Mode& Dcf::broadcast_mode(const MacConfig& config) {
+    const ModeSet& modes = mode_set(config.op_mode);
+    return config.multicast_bitrate_bps < 0
+               ? modes.mode_for_bitrate(config.bitrate_bps)
+               : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
+}
+
 void Dcf::check(const MacConfig& config) {
     const ModeSet& modes = mode_set(config.op_mode);
     initial_mode(config);
-    multicast_mode(config, modes);
+    broadcast_mode(config);
     rts_mode(config, modes);
     if (cw_max(config, modes) < cw_min(config, modes)) {
         throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) +

@@ -51,6 +51,8 @@ public:
 
     // Throws ConfigError for what MacConfig::validate cannot know: bitrates and windows that the operation mode has not.
     static void check(const MacConfig& config);
+    // In which broadcast frames are sent. Throws ConfigError for a bitrate that the operation mode has not.
+    static const Mode& broadcast_mode(const MacConfig& config);
 
     void send(NodeId destination, Payload payload) override;
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }

@@ -44,6 +44,9 @@ public:
         return most_factor_ * path_loss_.most_gain_beyond(distance_m, carrier_hz);
     }
 
+    // Whether gains are drawn from a distribution.
+    bool is_random() const { return !fading_.is_none(); }
+
 private:
     double other_gain(const Transmission& sent, NodeId receiver, const Position& place,
                       double distance_m) const;

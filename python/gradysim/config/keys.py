@@ -418,7 +418,8 @@ NODE_KEYS: tuple[Key, ...] = (
         f"{_RADIO}.transmitter.communicationRange",
         "radio.communication_range_m",
         quantity("m", at_least=0),
-        "Radius of the circle; UnitDiskRadioMedium only",
+        "UnitDiskRadioMedium: radius of the circle. Other media: sets the power for which half of the"
+        " broadcast messages of 50 B arrive there; of it and transmitter.power the first line is in force",
     ),
     Key(
         f"{_RADIO}.receiver.sensitivity",

@@ -28,6 +28,8 @@ class NodeSpec:
         csma: Fields of CsmaConfig that were set.
         node: Fields of NodeConfig itself that were set.
         antenna: Fields of AntennaConfig that were set.
+        range_sets_power: Whether transmitter.communicationRange comes before transmitter.power: on a medium
+            where power decides, the power is to be that for the range.
     """
 
     id: int
@@ -44,3 +46,4 @@ class NodeSpec:
     csma: Mapping[str, Setting] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
     antenna: Mapping[str, Setting] = field(default_factory=dict)
+    range_sets_power: bool = False

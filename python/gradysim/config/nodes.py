@@ -42,6 +42,7 @@ class _Shared:
     csma: Mapping[str, Setting]
     node: Mapping[str, Setting]
     antenna: Mapping[str, Setting]
+    range_sets_power: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +106,7 @@ def build_nodes(
                     csma=shared.csma,
                     node=shared.node,
                     antenna=shared.antenna,
+                    range_sets_power=shared.range_sets_power,
                 )
             )
     return tuple(nodes)
@@ -163,7 +165,14 @@ class _NodeBuilder:
         }
         line = tuple(_axis_line(axis, position, values) for axis in _AXES)
         steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
-        return _Shared(parameters, {"": chosen_at, **sources}, line, steps, **structs)
+        return _Shared(
+            parameters,
+            {"": chosen_at, **sources},
+            line,
+            steps,
+            **structs,
+            range_sets_power=_range_comes_first(found),
+        )
 
 
 def read_struct(struct: str, found: Mapping[Key, Found], settings: SettingReader) -> dict[str, Setting]:
@@ -177,6 +186,13 @@ def read_struct(struct: str, found: Mapping[Key, Found], settings: SettingReader
         for field, (entry, key) in first.items()
         if not entry.is_default
     }
+
+
+def _range_comes_first(found: Mapping[Key, Found]) -> bool:
+    """Whether a range was given, and not after a power."""
+    orders = {key.field: entry.order for key, entry in found.items() if not entry.is_default}
+    at = orders.get("communication_range_m")
+    return at is not None and at <= orders.get("tx_power_w", at)
 
 
 def _axis_line(axis: str, found: Mapping[str, Found], values: Mapping[str, float]) -> tuple[float, float]:

@@ -13,6 +13,7 @@ from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
+from gradysim.integrated.power_for_range import PowersForRanges
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
@@ -26,7 +27,8 @@ def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     config = medium_config(scenario)
     with errors_at(scenario.medium):
         network: Network = load_netsim().Network(config, scenario.seed)
-    nodes = tuple(add_node(network, spec) for spec in scenario.nodes)
+    powers = PowersForRanges(config)
+    nodes = tuple(add_node(network, spec, powers) for spec in scenario.nodes)
     for spec, node in zip(scenario.nodes, nodes, strict=True):
         if is_native(spec):
             set_native_protocol(node, spec)
@@ -41,10 +43,12 @@ def check_scenario(scenario: Scenario) -> None:
     build_network(scenario)
 
 
-def add_node(network: "Network", spec: NodeSpec) -> "Node":
+def add_node(network: "Network", spec: NodeSpec, powers: PowersForRanges) -> "Node":
     """Add one node to `network`; what only the whole configuration shows to be wrong is found now."""
     config = node_config(spec)
     with errors_at(_all_settings(spec)):
+        if spec.range_sets_power:
+            powers.set_power(config, spec)
         return network.add_node(config)
 
 

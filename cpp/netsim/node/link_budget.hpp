@@ -1,0 +1,63 @@
+// The chances of one broadcast frame from one node to another over a distance, with nobody else on the air: what a run
+// shows on average, worked out with the run's own models of path loss, noise and errors. Used to find the transmitter
+// power for a wanted range.
+//
+// Where the gain is random, the share is the mean over many states of the link, the same ones at each call. Antennas
+// look at each other with their largest gain, and no obstacle is between them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "netsim/config/medium_config.hpp"
+#include "netsim/config/node_config.hpp"
+#include "netsim/medium/propagation.hpp"
+#include "netsim/phy/error_rate.hpp"
+#include "netsim/phy/modes.hpp"
+#include "netsim/phy/preamble_detection.hpp"
+#include "netsim/phy/reception.hpp"
+
+namespace netsim {
+
+class LinkBudget {
+public:
+    // For messages of `payload_bytes` ≥ 0. The heights of the nodes are the z of their initial positions. Throws
+    // ConfigError for a value out of its range, for a medium without path loss (UnitDiskRadioMedium), for nodes of
+    // different bands and for a message that does not fit into a frame.
+    LinkBudget(const MediumConfig& medium, const NodeConfig& sender, const NodeConfig& receiver,
+               int payload_bytes);
+
+    // The share of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0, from 0 to 1.
+    double reception_ratio(double distance_m, double tx_power_w) const;
+
+    // The least power in W at which at least the share `ratio` (0 < ratio < 1) is decoded at `range_m`. Throws
+    // ConfigError for numbers out of their range, and if no power would do.
+    double tx_power_w_for(double range_m, double ratio) const;
+
+    double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
+    int psdu_bytes() const { return psdu_bytes_; }
+    // The mean power that arrives of 1 W, and the noise that it meets.
+    double mean_gain(double distance_m) const;
+    double noise_w() const { return noise_w_; }
+
+private:
+    std::vector<double> gains(double distance_m) const;
+    double reception_ratio(const std::vector<double>& gains, double tx_power_w) const;
+
+    Propagation propagation_;
+    RadioConfig receiver_;
+    Band band_;
+    double sender_height_m_;
+    double receiver_height_m_;
+    double antenna_gain_ = 1;
+    double noise_w_;
+    std::shared_ptr<const ErrorModel> error_model_;
+    PreambleDetection preamble_detection_;
+    const Mode* mode_;
+    int psdu_bytes_;
+    int states_;  // of the link that are looked at
+};
+
+}  // namespace netsim

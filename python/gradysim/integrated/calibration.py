@@ -1,0 +1,106 @@
+"""From a wanted range to the transmitter power, under the models of a scenario."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gradysim.config.error import ConfigError
+from gradysim.config.nearest import did_you_mean
+from gradysim.config.scenario import NodeSpec, Scenario
+from gradysim.integrated.compiled_part import load_netsim
+from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.network import medium_config, node_config
+from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
+
+if TYPE_CHECKING:
+    from gradysim._netsim import LinkBudget
+
+CURVE_POINTS = 40
+CURVE_END = 2.0
+"""The curve goes on to so many times the range."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """The power for a range, and what it means.
+
+    Attributes:
+        sender: Name of the node that sends.
+        receiver: Name of the node that receives; the sender's, if another one like it does.
+        range_m: The wanted range.
+        ratio: Share of broadcast frames that are received at the range, more than 0 and less than 1.
+        message_bytes: Length of the message in each frame.
+        tx_power_w: The least transmitter power that does.
+        bitrate_bps: Of broadcast frames.
+        frame_bytes: The message with all headers.
+        snr_at_range: Mean received power over noise at the range, a linear ratio.
+        curve: Distances in m with the share received there, from 0 to 1.
+    """
+
+    sender: str
+    receiver: str
+    range_m: float
+    ratio: float
+    message_bytes: int
+    tx_power_w: float
+    bitrate_bps: float
+    frame_bytes: int
+    snr_at_range: float
+    curve: tuple[tuple[float, float], ...]
+
+
+def calibrate(
+    scenario: Scenario,
+    range_m: float,
+    *,
+    ratio: float = RATIO,
+    message_bytes: int = MESSAGE_BYTES,
+    sender: str | None = None,
+    receiver: str | None = None,
+) -> Calibration:
+    """Find the transmitter power with which the share `ratio` of broadcast frames is received at `range_m`.
+
+    Nobody else sends meanwhile; antennas look at each other, nothing is in between. `sender` and `receiver`
+    are names of nodes; by default the first node sends, to another one of its kind.
+
+    Raises:
+        ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.
+    """
+    from_node = _node_named(scenario.nodes, sender)
+    to_node = from_node if receiver is None else _node_named(scenario.nodes, receiver)
+    budget = link_budget(scenario, from_node, to_node, message_bytes)
+    with errors_at({}):
+        power_w = budget.tx_power_w_for(range_m, ratio)
+    distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
+    return Calibration(
+        sender=from_node.name,
+        receiver=to_node.name,
+        range_m=range_m,
+        ratio=ratio,
+        message_bytes=message_bytes,
+        tx_power_w=power_w,
+        bitrate_bps=budget.bitrate_bps,
+        frame_bytes=budget.psdu_bytes,
+        snr_at_range=power_w * budget.mean_gain(range_m) / budget.noise_w,
+        curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
+    )
+
+
+def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, message_bytes: int) -> "LinkBudget":
+    """Return the chances of a message from one node to another. Raises ConfigError."""
+    settings = {**scenario.medium, **sender.radio, **sender.mac}
+    with errors_at(settings):
+        budget: LinkBudget = load_netsim().LinkBudget(
+            medium_config(scenario), node_config(sender), node_config(receiver), message_bytes
+        )
+    return budget
+
+
+def _node_named(nodes: Sequence[NodeSpec], name: str | None) -> NodeSpec:
+    if name is None:
+        return nodes[0]
+    for node in nodes:
+        if node.name == name:
+            return node
+    names = [node.name for node in nodes]
+    raise ConfigError(f"there is no node `{name}`; expected one of the scenario's{did_you_mean(name, names)}")

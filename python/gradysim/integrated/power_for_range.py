@@ -1,0 +1,41 @@
+"""Transmitter powers of nodes that were given a range instead."""
+
+from typing import TYPE_CHECKING
+
+from gradysim.config.node_spec import NodeSpec
+from gradysim.integrated.compiled_part import load_netsim
+
+if TYPE_CHECKING:
+    from gradysim._netsim import MediumConfig, NodeConfig
+
+RATIO = 0.5
+MESSAGE_BYTES = 50
+"""What a range means if nothing else is said: half of the broadcast messages of that length arrive."""
+
+
+class PowersForRanges:
+    """Works out each power once, however many nodes have it; what `gradysim calibrate` prints."""
+
+    def __init__(self, medium: "MediumConfig") -> None:
+        """For nodes in that medium."""
+        self._medium = medium
+        self._has_powers = medium.typename != "UnitDiskRadioMedium"
+        self._known: dict[object, float] = {}
+
+    def set_power(self, config: "NodeConfig", spec: NodeSpec) -> None:
+        """Set the power with which a node like this one, at the same height, is at the end of the range.
+
+        On a medium where the range itself counts, nothing is set. Raises the engine's ConfigError if no power
+        would do.
+        """
+        if not self._has_powers:
+            return
+        # Nodes with the same lines in force share their mappings.
+        settings = (spec.radio, spec.mac, spec.node, spec.antenna)
+        key = (*map(id, settings), spec.initial_position[2])
+        power_w = self._known.get(key)
+        if power_w is None:
+            budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES)
+            power_w = budget.tx_power_w_for(config.radio.communication_range_m, RATIO)
+            self._known[key] = power_w
+        config.radio.tx_power_w = power_w

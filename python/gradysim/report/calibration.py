@@ -1,0 +1,53 @@
+"""A calibration for people: the power, the line for the .ini file, and reception over distance."""
+
+import math
+from pathlib import Path
+
+from gradysim.integrated.calibration import Calibration
+
+BAR_WIDTH = 40
+
+
+def text(calibration: Calibration) -> str:
+    """Return all of it as text."""
+    c = calibration
+    power_dbm = 10 * math.log10(c.tx_power_w * 1000)
+    snr_db = 10 * math.log10(c.snr_at_range)
+    to = "another one like it" if c.receiver == c.sender else c.receiver
+    lines = [
+        f"{c.sender} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
+        f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
+        f" {c.bitrate_bps / 1e6:g} Mbps;",
+        f"{snr_db:.2f} dB above the noise), with a power of {power_dbm:.3f} dBm:",
+        "",
+        f"    *.{c.sender}.wlan[*].radio.transmitter.power = {c.tx_power_w * 1000:.6g}mW",
+        "",
+        "distance   received",
+    ]
+    for distance_m, ratio in c.curve:
+        bar = "█" * round(ratio * BAR_WIDTH)
+        lines.append(f"{distance_m:6.5g} m  {100 * ratio:7.2f} %  {bar}".rstrip())
+    return "\n".join(lines)
+
+
+def draw(calibration: Calibration, path: Path) -> None:
+    """Draw reception over distance into a file whose ending says the format.
+
+    Raises:
+        ImportError: matplotlib is missing; the text says how to get it.
+        ValueError: The ending names no format.
+        OSError: The file cannot be written.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError("a picture needs matplotlib: pip install 'gradysim[plot]'") from error
+    c = calibration
+    figure = Figure(figsize=(6, 4), dpi=120, layout="constrained")
+    axes = figure.subplots()
+    axes.plot([0.0, *(d for d, _ in c.curve)], [c.curve[0][1], *(r for _, r in c.curve)])
+    axes.axvline(c.range_m, linestyle=":", color="gray")
+    axes.axhline(c.ratio, linestyle=":", color="gray")
+    axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
+    axes.set_title(f"{c.sender} to {c.receiver}, {c.tx_power_w * 1000:.4g} mW, {c.bitrate_bps / 1e6:g} Mbps")
+    figure.savefig(path)

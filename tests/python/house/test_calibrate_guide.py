@@ -1,0 +1,47 @@
+"""What docs/guides/calibrate.md shows is what the command prints."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.cli import main
+from gradysim.config.scenario import load_scenarios
+
+
+@pytest.fixture
+def guide(root: Path) -> str:
+    return (root / "docs/guides/calibrate.md").read_text(encoding="utf-8")
+
+
+def test_the_command_prints_what_it_shows(
+    root: Path, guide: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (command,) = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
+    (shown,) = re.findall(r"^```\n(uavs.*?)^```", guide, re.MULTILINE | re.DOTALL)
+    monkeypatch.chdir(root)
+    assert main(command.split()) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith(shown)
+    assert "   100 m     0.00 %" in printed
+
+
+def test_a_picture_is_drawn(root: Path, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="of the extra `plot`")
+    file = tmp_path / "curve.svg"
+    arguments = f"calibrate {root}/configs/zigzag.ini -c ZigZag5 --range 50m --picture {file}"
+    assert main(arguments.split()) == 0
+    assert "share of frames received" in file.read_text(encoding="utf-8")
+
+
+def test_a_mistake_is_told_with_its_option(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(f"calibrate {root}/configs/zigzag.ini -c ZigZag5 --range 50x".split()) == 2
+    assert "--range 50x" in capsys.readouterr().err
+
+
+def test_its_line_is_understood(root: Path, guide: str) -> None:
+    (line,) = re.findall(r"^```ini\n(.*)\n```", guide, re.MULTILINE)
+    scenario = load_scenarios(root / "configs/zigzag.ini", "ZigZag5", overrides=[line])[0]
+    assert all(node.range_sets_power for node in scenario.nodes)

@@ -1,0 +1,98 @@
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.config.error import ConfigError
+from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.integrated.calibration import calibrate
+from gradysim.integrated.network import node_config
+from gradysim.integrated.run import run
+
+ROOT = Path(__file__).parents[3]
+RANGE = "**.wlan[*].radio.transmitter.communicationRange = 150m"
+POWER = "**.wlan[*].radio.transmitter.power = 1mW"
+
+
+def link(*settings: str) -> Scenario:
+    """A sender of 2000 broadcasts, and ten sinks, from 100 m to 1 km."""
+    overrides = [*settings, "*.sender.protocol.interval = 5ms", "**.radio.receiver.sensitivity = -120dBm"]
+    overrides.append("*.receivers[*].protocol.count_from = 0s")
+    return load_scenarios(ROOT / "configs/fading.ini", "FreeSpace", overrides=overrides)[0]
+
+
+def received_at_150_m(*settings: str) -> float:
+    scenario = link("*.receivers.count = 1", "*.receivers[*].mobility.lineStartX = 147.3648m", *settings)
+    sent, received = (node.tracked_variables for node in run(scenario).nodes)
+    return float(received["received"]) / float(sent["sent"])
+
+
+def test_half_of_the_frames_arrive_at_the_range() -> None:
+    found = calibrate(link(), 150, message_bytes=100, receiver="receivers[0]")
+    power = f"**.wlan[*].radio.transmitter.power = {found.tx_power_w * 1000!r}mW"
+    assert received_at_150_m(power) == pytest.approx(0.5, abs=0.06)  # five standard errors of 2000 frames
+
+
+def test_the_curve_goes_on_to_twice_the_range_and_falls() -> None:
+    curve = calibrate(link(), 150).curve
+    assert curve[-1][0] == pytest.approx(300)
+    ratios = [ratio for _, ratio in curve]
+    assert ratios == sorted(ratios, reverse=True)
+    assert dict(curve)[150] == pytest.approx(0.5, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("settings", "is_for_range"), [((RANGE, POWER), True), ((POWER, RANGE), False), ((RANGE,), True)]
+)
+def test_of_range_and_power_the_first_line_is_in_force(settings: tuple[str, ...], is_for_range: bool) -> None:
+    scenario = link(*settings)
+    assert scenario.nodes[0].range_sets_power == is_for_range
+    expected_w = calibrate(scenario, 150).tx_power_w if is_for_range else 1e-3
+    power = f"**.wlan[*].radio.transmitter.power = {expected_w * 1000!r}mW"
+    assert run(scenario).fingerprint == run(link(power)).fingerprint
+
+
+def test_a_range_alone_sets_no_power_where_the_range_itself_counts() -> None:
+    medium = '*.radioMedium.typename = "UnitDiskRadioMedium"'
+    scenario = link(RANGE, medium)
+    assert node_config(scenario.nodes[0]).radio.communication_range_m == 150
+    sender, nearest = run(scenario).nodes[:2]
+    assert nearest.tracked_variables["received"] == sender.tracked_variables["sent"]
+
+
+def test_a_range_that_no_power_reaches_is_an_error_at_its_line() -> None:
+    deaf = '**.antenna.typename = "ConstantGainAntenna"', "**.antenna.gain = -300dB"
+    with pytest.raises(ConfigError, match="no power reaches 150 m"):
+        run(link(RANGE, *deaf))
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"sender": "reciever"}, "did you mean `receivers"),
+        ({"range_m": 0.0}, "range_m = 0 m: expected more than 0 m"),
+        ({"ratio": 1.0}, "ratio = 1: expected more than 0 and less than 1"),
+        ({"message_bytes": 3000}, "payload_bytes = 3000 B: expected from 0 B to 2276 B"),
+    ],
+)
+def test_a_mistake_is_named(options: dict[str, object], text: str) -> None:
+    with pytest.raises(ConfigError, match=text):
+        calibrate(link(), **{"range_m": 50.0, **options})  # type: ignore[arg-type]
+
+
+def test_a_medium_without_powers_is_refused() -> None:
+    with pytest.raises(ConfigError, match="expected a medium with a path loss"):
+        calibrate(link('*.radioMedium.typename = "UnitDiskRadioMedium"'), 50)
+
+
+def test_heights_count() -> None:
+    settings = ('*.radioMedium.pathLoss.typename = "TwoRayGroundReflection"',)
+    scenario = link(*settings)
+    low = replace(scenario.nodes[0], initial_position=(0.0, 0.0, 1.0))
+    flat = replace(scenario, nodes=(low, *scenario.nodes[1:]))
+    crossover_m = 4 * math.pi * 1.0 * 1.0 / (299_792_458 / 2.412e9)
+    factor = calibrate(flat, 800).tx_power_w / calibrate(scenario, 800).tx_power_w
+    assert factor == pytest.approx((800 / crossover_m) ** 2, rel=1e-6)
