@@ -42,8 +42,8 @@ public:
 private:
     struct Change {  // of the sum
         SimTime time;
-        bool is_start;
-        double power_w;
+        bool is_start = false;
+        double power_w = 0;
     };
 
     // Calls visitor(time, sum from then on), in order, once for each time at which something changes.
