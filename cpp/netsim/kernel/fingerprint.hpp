@@ -4,6 +4,7 @@
 // with the engine's internal events, so a faster engine keeps the fingerprint of a slower one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -15,22 +16,34 @@ public:
         hash_ = (hash_ ^ word) * 0x9E3779B97F4A7C15U;
         hash_ ^= hash_ >> 32;
     }
+    // The length in the lowest octet of the first word, then the characters from low to high: seven, then eight to a
+    // word. The last word is never full, but may be empty.
     void add_text(std::string_view text) {
-        std::uint64_t word = text.size();
-        unsigned shift = 8;
-        for (const char character : text) {
-            word ^= static_cast<std::uint64_t>(static_cast<unsigned char>(character)) << shift;
-            if ((shift += 8) == 64) {
-                add(word);
-                word = 0;
-                shift = 0;
-            }
+        constexpr std::size_t first = 7;
+        if (text.size() < first) {
+            add(word_of(text.data(), text.size()) << 8 ^ text.size());
+            return;
         }
-        add(word);
+        add(word_of(text.data(), first) << 8 ^ text.size());
+        const char* rest = text.data() + first;
+        const char* const end = text.data() + text.size();
+        for (; end - rest >= 8; rest += 8) {
+            add(word_of(rest, 8));
+        }
+        add(word_of(rest, static_cast<std::size_t>(end - rest)));
     }
     std::uint64_t value() const { return hash_; }
 
 private:
+    // Compilers make one load of it where `count` is a constant.
+    static std::uint64_t word_of(const char* characters, std::size_t count) {
+        std::uint64_t word = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            word |= static_cast<std::uint64_t>(static_cast<unsigned char>(characters[i])) << (8 * i);
+        }
+        return word;
+    }
+
     std::uint64_t hash_ = 0x243F6A8885A308D3U;
 };
 

@@ -12,6 +12,8 @@
 // neither can have sensed the other by then. A grant is the last event of its instant, so that it knows all of it.
 #pragma once
 
+#include <cstdint>
+
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/timing.hpp"
@@ -31,10 +33,10 @@ public:
     Contention(Simulator& simulator, const MacTiming& timing, bool backoff_optimization, RandomStream draws,
                ContentionListener& listener)
         : simulator_(simulator),
-          timing_(timing),
           backoff_optimization_(backoff_optimization),
-          draws_(draws),
-          listener_(listener) {}
+          listener_(listener),
+          timing_(timing),
+          draws_(draws) {}
 
     // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
     void start(int contention_window);
@@ -55,25 +57,26 @@ public:
     }
 
 private:
-    enum class State { idle, deferring, waiting };
+    enum class State : std::uint8_t { idle, deferring, waiting };
 
     void schedule_grant(SimTime idle_since);
     void granted();
 
+    // First what every frame that is heard touches: one cache line.
     Simulator& simulator_;
-    MacTiming timing_;
-    bool backoff_optimization_;
-    RandomStream draws_;
-    ContentionListener& listener_;
     State state_ = State::idle;
     bool busy_ = false;
+    bool broken_frame_ = false;  // since the channel became busy
+    bool backoff_optimization_;
     int slots_left_ = 0;
     SimTime free_since_ = SimTime::long_ago();
-    SimTime idle_since_ = SimTime::long_ago();
-    bool broken_frame_ = false;  // since the channel became busy
     SimTime eifs_until_ = SimTime::long_ago();
+    SimTime idle_since_ = SimTime::long_ago();
     SimTime grant_time_;
     EventHandle grant_;
+    ContentionListener& listener_;
+    MacTiming timing_;
+    RandomStream draws_;
 };
 
 }  // namespace netsim

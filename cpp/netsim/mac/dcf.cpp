@@ -33,8 +33,11 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
          LinkListener& listener)
     : simulator_(simulator),
       radio_(radio),
-      fates_(fates),
       listener_(listener),
+      own_frames_set_nav_(config.own_frames_set_nav),
+      contention_(simulator, MacTiming(mode_set(config.op_mode)), config.backoff_optimization,
+                  RandomStream(seed, static_cast<std::uint32_t>(radio.id()), Purpose::backoff), *this),
+      fates_(fates),
       modes_(mode_set(config.op_mode)),
       timing_(modes_),
       multicast_mode_(broadcast_mode(config)),
@@ -42,14 +45,11 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       retry_limits_{config.short_retry_limit, config.long_retry_limit},
       rts_threshold_bytes_(config.rts_threshold_bytes),
       mtu_bytes_(config.mtu_bytes),
-      own_frames_set_nav_(config.own_frames_set_nav),
       skip_backoff_if_idle_(config.skip_backoff_if_idle),
       rate_control_(make_rate_control(config, seed, radio.id())),
       has_adaptive_rate_(!config.rate_control.empty()),
-      frames_by_mode_(modes_.modes().size()),
+      frames_by_mode_(has_adaptive_rate_ ? modes_.modes().size() : 0),
       queue_(config.queue_capacity),
-      contention_(simulator, timing_, config.backoff_optimization,
-                  RandomStream(seed, static_cast<std::uint32_t>(radio.id()), Purpose::backoff), *this),
       data_mode_(&initial_mode(config)),
       retry_(retry_limits_, {cw_min(config, modes_), cw_max(config, modes_)}) {
     radio_.set_listener(*this);
@@ -155,7 +155,9 @@ void Dcf::send_in_progress() {
     if (in_progress_->receiver == broadcast_id) {
         transmit(in_progress_, multicast_mode_);
     } else {
-        ++frames_by_mode_[modes_.index_of(*data_mode_)];
+        if (has_adaptive_rate_) {
+            ++frames_by_mode_[modes_.index_of(*data_mode_)];
+        }
         transmit(in_progress_, *data_mode_);
     }
 }

@@ -42,7 +42,7 @@
 
 namespace netsim {
 
-class Dcf final : public Link, private RadioListener, private ContentionListener {
+class alignas(64) Dcf final : public Link, private RadioListener, private ContentionListener {
 public:
     Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint64_t seed, MessageFates& fates,
         LinkListener& listener);
@@ -59,8 +59,8 @@ public:
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
 private:
-    enum class Exchange { none, sending_rts, awaiting_cts, waiting_sifs, sending, awaiting_ack };
-    enum class Response { none, waiting_sifs, sending };
+    enum class Exchange : std::uint8_t { none, sending_rts, awaiting_cts, waiting_sifs, sending, awaiting_ack };
+    enum class Response : std::uint8_t { none, waiting_sifs, sending };
 
     void channel_busy_changed(bool busy) override;
     void frame_received(const Transmission& transmission) override;
@@ -89,10 +89,19 @@ private:
     void update_contention();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 
+    // First what every frame that is heard touches: two cache lines, which the medium fetches ahead.
     Simulator& simulator_;
     Radio& radio_;
-    MessageFates& fates_;
     LinkListener& listener_;
+    SimTime nav_end_ = SimTime::long_ago();
+    bool contention_sees_busy_ = false;
+    Exchange exchange_ = Exchange::none;
+    Response response_ = Response::none;
+    bool own_frames_set_nav_;
+    Contention contention_;
+
+    EventHandle nav_event_;
+    MessageFates& fates_;
     const ModeSet& modes_;
     MacTiming timing_;
     const Mode& multicast_mode_;
@@ -100,21 +109,15 @@ private:
     Retry::Limits retry_limits_;
     int rts_threshold_bytes_;
     int mtu_bytes_;
-    bool own_frames_set_nav_;
     bool skip_backoff_if_idle_;
     std::unique_ptr<RateControl> rate_control_;
     bool has_adaptive_rate_;
     std::vector<std::uint64_t>
-        frames_by_mode_;  // unicast frames on the air, by their mode's place in the mode set
+        frames_by_mode_;  // unicast frames on the air, by their mode's place in the mode set, if the rate adapts
 
     TxQueue queue_;
     DuplicateFilter duplicates_;
-    Contention contention_;
-    bool contention_sees_busy_ = false;
-    SimTime nav_end_ = SimTime::long_ago();
-    EventHandle nav_event_;
 
-    Exchange exchange_ = Exchange::none;
     std::shared_ptr<const Frame> in_progress_;  // granted once, not finished yet
     std::shared_ptr<const Frame> rts_;          // on the air
     const Mode* data_mode_;  // of the frame in progress, a unicast; before the first: of none
@@ -122,7 +125,6 @@ private:
     EventHandle answer_timeout_;
     Retry retry_;  // of the frame in progress
 
-    Response response_ = Response::none;
     std::shared_ptr<const Frame> response_frame_;
     const Mode* response_mode_ = nullptr;
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "netsim/mac/frame.hpp"
 
@@ -16,23 +16,27 @@ public:
 
     // False if it was full and the frame is dropped.
     bool push(std::shared_ptr<const Frame> frame) {
-        if (frames_.size() >= capacity_) {
+        if (size() >= capacity_) {
             return false;
         }
         frames_.push_back(std::move(frame));
         return true;
     }
     std::shared_ptr<const Frame> pop() {
-        std::shared_ptr<const Frame> frame = std::move(frames_.front());
-        frames_.pop_front();
+        std::shared_ptr<const Frame> frame = std::move(frames_[taken_++]);
+        if (2 * taken_ >= frames_.size()) {  // so that a frame is moved once, on average
+            frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(taken_));
+            taken_ = 0;
+        }
         return frame;
     }
-    bool empty() const { return frames_.empty(); }
-    std::size_t size() const { return frames_.size(); }
+    bool empty() const { return size() == 0; }
+    std::size_t size() const { return frames_.size() - taken_; }
 
 private:
     std::size_t capacity_;
-    std::deque<std::shared_ptr<const Frame>> frames_;
+    std::vector<std::shared_ptr<const Frame>> frames_;  // a deque takes half a kilobyte even while it is empty
+    std::size_t taken_ = 0;                             // of them, at the front
 };
 
 }  // namespace netsim

@@ -1,6 +1,7 @@
 // The antennas of all nodes: what both ends of a link add to it, or take from it. Used by the medium.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "netsim/medium/antenna_pattern.hpp"
@@ -12,31 +13,37 @@ class Antennas {
 public:
     // Those of nodes 0, 1, … The trajectory is the node's.
     void add(const MountedAntenna& antenna, const Trajectory& trajectory) {
-        all_isotropic_ = all_isotropic_ && antenna.pattern == nullptr;
-        mounted_.push_back({antenna, &trajectory});
+        const bool is_isotropic = antenna.pattern == nullptr;
+        all_isotropic_ = all_isotropic_ && is_isotropic;
+        mounted_.push_back(is_isotropic ? nullptr : std::make_unique<Mounted>(antenna, &trajectory));
     }
 
     // Then every gain is 1.
     bool all_isotropic() const { return all_isotropic_; }
-    double max_gain(NodeId node) const { return mounted_[node].antenna.max_gain(); }
+    double max_gain(NodeId node) const { return mounted_[node] ? mounted_[node]->antenna.max_gain() : 1; }
 
     // Of the sender towards the receiver, and of the receiver, at `place` when the transmission starts, towards the
     // sender. Both are turned as they are at that time.
     double gain(const Transmission& sent, NodeId receiver, const Position& place) const {
-        const Mounted& there = mounted_[receiver];
-        const Mounted& here = mounted_[sent.sender];
         const Position way = place - sent.origin;
-        return here.antenna.gain_towards(way, *here.trajectory, sent.start) *
-               there.antenna.gain_towards(way * -1, *there.trajectory, sent.start);
+        return gain_towards(way, sent.sender, sent.start) * gain_towards(way * -1, receiver, sent.start);
     }
 
 private:
     struct Mounted {
+        Mounted(const MountedAntenna& mounted_antenna, const Trajectory* its_trajectory)
+            : antenna(mounted_antenna), trajectory(its_trajectory) {}
+
         MountedAntenna antenna;
         const Trajectory* trajectory;
     };
 
-    std::vector<Mounted> mounted_;
+    double gain_towards(const Position& way, NodeId node, SimTime time) const {
+        const Mounted* mounted = mounted_[node].get();
+        return mounted == nullptr ? 1 : mounted->antenna.gain_towards(way, *mounted->trajectory, time);
+    }
+
+    std::vector<std::unique_ptr<Mounted>> mounted_;  // null: isotropic
     bool all_isotropic_ = true;
 };
 

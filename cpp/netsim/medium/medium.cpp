@@ -11,11 +11,9 @@ namespace netsim {
 
 namespace {
 
-// The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
-void fetch(const Receiver& receiver) {
+void fetch_lines(const void* object, std::ptrdiff_t lines) {
     constexpr std::ptrdiff_t cache_line = 64;
-    constexpr std::ptrdiff_t lines = 5;
-    const auto* address = reinterpret_cast<const char*>(receiver.listener);
+    const auto* address = static_cast<const char*>(object);
     for (std::ptrdiff_t line = 0; line < lines; ++line) {
         __builtin_prefetch(address + line * cache_line);
     }
@@ -32,10 +30,11 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       background_noise_(config),
       hearing_(hearing) {}
 
-NodeId Medium::attach(const Receiver& receiver) {
+NodeId Medium::attach(const Receiver& receiver, const MountedAntenna& antenna) {
     const auto node = static_cast<NodeId>(attached_.size());
     attached_.push_back(Attached{receiver});
-    antennas_.add(receiver.antenna, *receiver.trajectory);
+    touched_.emplace_back();
+    antennas_.add(antenna, *receiver.trajectory);
     odometer_.watch(*receiver.trajectory, simulator_.now());
     // Less than the difference by what the sum with the noise may be rounded.
     const double energy_w =
@@ -56,7 +55,7 @@ NodeId Medium::attach(const Receiver& receiver) {
     audience->least_w = std::min(audience->least_w, least_w);
     audience->least_energy_w = std::min(audience->least_energy_w, energy_w);
     audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
-    audience->most_antenna_gain = std::max(audience->most_antenna_gain, receiver.antenna.max_gain());
+    audience->most_antenna_gain = std::max(audience->most_antenna_gain, antenna.max_gain());
     audience->most_power_w = -1;
     audience->members.add(node, *receiver.trajectory);
     return node;
@@ -135,11 +134,16 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         const double within_m = reach_m(audience, sent);
         audience.members.prepare(now, odometer_, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
+        candidates_.clear();
         audience.members.visit(sent.origin, within_m, [&](NodeId node, const Position& place) {
             const double squared_m2 = squared_distance(sent.origin, place);
-            if (squared_m2 > within_m * within_m || node == sent.sender) {
-                return;
+            if (squared_m2 <= within_m * within_m && node != sent.sender) {
+                __builtin_prefetch(&attached_[node]);
+                __builtin_prefetch(&touched_[node]);
+                candidates_.push_back(Candidate{node, place, squared_m2});
             }
+        });
+        for (const auto& [node, place, squared_m2] : candidates_) {
             const Receiver& receiver = attached_[node].receiver;
             const double distance_m = std::sqrt(squared_m2);
             const double received_w = power_w(sent, node, place, distance_m);
@@ -148,10 +152,10 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
                 addressee_notices |= node == sent.label.destination;
             }
             if (is_told_alone(receiver, received_w)) {
-                fetch(receiver);
+                fetch(node, sent.label.kind);
                 entry.heard.push_back(Heard{now + propagation_delay(distance_m), node, received_w});
             }
-        });
+        }
     }
     --copies;  // the sender hears its band, but not itself
     entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
@@ -175,6 +179,22 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         all.too_weak -= addressed.too_weak;
     }
     fates_.book_transmission(sent.label, addressed, all);
+}
+
+// The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
+void Medium::fetch(NodeId node, FrameKind kind) const {
+    constexpr std::ptrdiff_t radio_lines = 5;
+    constexpr std::ptrdiff_t link_lines = 2;
+    const Receiver& receiver = attached_[node].receiver;
+    fetch_lines(receiver.listener, radio_lines);
+    const Touched& touched = touched_[node];
+    fetch_lines(touched.link, link_lines);
+    fetch_lines(touched.upper_layer, 1);
+    fetch_lines(touched.protocol, 1);
+    fates_.fetch(node, kind);
+    if (on_air_.size() > 1) {
+        fetch_lines(receiver.trajectory, 2);
+    }
 }
 
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {

@@ -42,7 +42,6 @@ struct Receiver {
     Band band;
     double sensitivity_w = 0;       // the least power it can lock on to
     double energy_detection_w = 0;  // noise and signals together that make its channel busy
-    MountedAntenna antenna{};       // isotropic
     double noise_w = 0;             // in its band when nobody sends
 };
 
@@ -57,7 +56,12 @@ public:
            Hearing hearing = Hearing::what_matters, std::uint64_t seed = 0);
 
     // Node ids are given in the order of attaching: 0, 1, …
-    NodeId attach(const Receiver& receiver);
+    NodeId attach(const Receiver& receiver, const MountedAntenna& antenna = {});
+    // What each arrival at the node touches in the layers above the radio: in a large network most of it is in no cache
+    // by then, so the medium has it fetched ahead. Null: nothing.
+    void set_touched(NodeId node, const void* link, const void* upper_layer, const void* protocol) {
+        touched_[node] = Touched{link, upper_layer, protocol};
+    }
 
     // Puts a frame on the air now, at the sender's present position, and sees to its arrivals.
     // `transmission`'s id, start and origin are filled in here.
@@ -73,9 +77,20 @@ public:
     std::size_t remembered_count() const { return on_air_.size(); }
 
 private:
-    struct Attached {
+    struct alignas(64) Attached {  // in as few cache lines as it takes
         Receiver receiver;
         std::uint64_t checks = 0;  // the last check of energies that looked at it
+    };
+    struct Touched {
+        const void* link = nullptr;
+        const void* upper_layer = nullptr;
+        const void* protocol = nullptr;
+    };
+    // Within reach of the transmission, or nearly.
+    struct Candidate {
+        NodeId node = 0;
+        Position place;
+        double squared_m2 = 0;
     };
     // Receivers of one band that notice about the same powers: what is too far away for the keenest of them is too
     // far away for all. Within a factor of 4, so that one of very keen ears does not make all others listen.
@@ -133,6 +148,7 @@ private:
     double reach_m(Audience& audience, const Transmission& transmission) const;
     // Beyond that, nobody of the audience gets that power.
     double reach_of_power_m(const Transmission& transmission, const Audience& audience, double power_w) const;
+    void fetch(NodeId node, FrameKind kind) const;
     void schedule_arrivals(OnAir& entry);
     void schedule_next_start(OnAir& entry);
     void schedule_next_end(OnAir& entry);
@@ -144,6 +160,7 @@ private:
     void tell_where_energy_adds_up(OnAir& newest, const Audience& audience);
     // Receivers at which the search's transmission can be the strongest of those that add up.
     void narrow(Search& search, const Audience& audience);
+    double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
     void tell_if_energy_adds_up(NodeId node, OnAir& newest);
     bool is_told_alone(const Receiver& receiver, double power_w) const {
         return power_w >= receiver.sensitivity_w || is_loud(receiver, power_w);
@@ -161,6 +178,8 @@ private:
     BackgroundNoise background_noise_;
     Hearing hearing_;
     std::vector<Attached> attached_;
+    std::vector<Touched> touched_;  // [node]
+    std::vector<Candidate> candidates_;
     std::deque<Audience> audiences_;
     Odometer odometer_;
     std::deque<std::unique_ptr<OnAir>> on_air_;  // by start

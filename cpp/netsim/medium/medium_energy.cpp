@@ -47,10 +47,15 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) 
         const Transmission& strongest = search.on_air->transmission;
         const double moved_m = odometer_.reading_m(now) - search.on_air->odometer_m;
         const double radius_m = search.radius_m + moved_m;
+        const double loud_to_all_m = std::max(loud_to_all_m_of(strongest, audience) - moved_m, 0.0);
         audience.members.visit(strongest.origin, radius_m, [&](NodeId node, const Position& place) {
+            const double squared_m2 = squared_distance(strongest.origin, place);
+            if (squared_m2 > radius_m * radius_m || squared_m2 < loud_to_all_m * loud_to_all_m) {
+                return;
+            }
             Attached& attached = attached_[node];
             if (attached.checks == checks_ || node == newest.transmission.sender ||
-                node == strongest.sender || squared_distance(strongest.origin, place) > radius_m * radius_m) {
+                node == strongest.sender) {
                 return;
             }
             const Receiver& receiver = attached.receiver;
@@ -68,6 +73,18 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) 
             tell_if_energy_adds_up(node, newest);
         });
     }
+}
+
+// Who is nearer is told of the transmission even if it is alone: the inner edge of the ring in which it takes others to
+// matter. 0 where that depends on more than the distance.
+double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const {
+    constexpr double more = 1 + 1e-8;  // for rounding
+    if (!antennas_.all_isotropic()) {
+        return 0;
+    }
+    return propagation_.sure_reach_m(audience.most_energy_w * more / transmission.power_w,
+                                     transmission.band.carrier_hz) /
+           more;
 }
 
 // Rings around the sender are excluded from outside: in none of them can its power and those of the others, each at
@@ -114,6 +131,11 @@ void Medium::narrow(Search& search, const Audience& audience) {
             break;
         }
         search.radius_m = inner_m;
+    }
+    // Within the last ring it has to bring what the others leave to be brought.
+    const double rest_w = level_w - others_w(search.radius_m, infinite, level_w);
+    if (rest_w > 0) {
+        search.radius_m = std::min(search.radius_m, reach_of_power_m(here, audience, rest_w));
     }
     search.others_w = others_w(search.radius_m, infinite, audience.most_energy_w);
     if (search.others_w >= audience.most_energy_w) {

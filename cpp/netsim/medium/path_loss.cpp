@@ -18,7 +18,8 @@ double PathLoss::reach_m(double gain, double carrier_hz) const {
     }
     const double factor = wavelength_factor(carrier_hz);
     const auto reach_of = [&](const PowerLaw& law) {
-        return std::pow(law.coefficient * factor / gain, 1 / law.exponent);
+        const double ratio = law.coefficient * factor / gain;
+        return law.exponent == 2 ? std::sqrt(ratio) : std::pow(ratio, 1 / law.exponent);
     };
     const double breakpoint_m = std::sqrt(squared_breakpoint_m2_);
     const double far_reach_m = reach_of(far_);

@@ -46,6 +46,9 @@ public:
                    : here;
     }
 
+    // No breakpoint: the gain falls steadily.
+    bool is_one_law() const { return !(squared_breakpoint_m2_ < infinite_m2); }
+
 private:
     friend PathLoss make_path_loss(const MediumConfig& config);
 

@@ -39,6 +39,11 @@ public:
         return path_loss_.reach_m(gain / most_factor_, carrier_hz);
     }
 
+    // Up to that distance in m every gain is at least `gain`, up to rounding. 0 if no such distance is known.
+    double sure_reach_m(double gain, double carrier_hz) const {
+        return is_power_law_ && path_loss_.is_one_law() ? path_loss_.reach_m(gain, carrier_hz) : 0;
+    }
+
     // No gain is larger at `distance_m` and beyond, up to rounding.
     double most_gain_beyond(double distance_m, double carrier_hz) const {
         return most_factor_ * path_loss_.most_gain_beyond(distance_m, carrier_hz);

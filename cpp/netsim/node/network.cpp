@@ -129,6 +129,9 @@ void Network::close_captures() {
 
 void Network::initialize() {
     for (Node& node : nodes_) {
+        if (!perfect_channel_) {
+            medium_.set_touched(node.id(), &node.link(), &node, node.protocol());
+        }
         node.initialize();
     }
     for (TelemetryClock& clock : telemetry_clocks_) {

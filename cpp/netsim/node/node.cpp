@@ -17,8 +17,8 @@ Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint6
     : simulator_(simulator),
       fingerprint_(fingerprint),
       id_(id),
-      name_(config.name),
       mobility_(make_mobility(config.mobility, config.initial_position)),
+      name_(config.name),
       attitude_(config.mobility),
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
 

@@ -19,7 +19,7 @@
 
 namespace netsim {
 
-class Node final : private LinkListener {
+class alignas(64) Node final : private LinkListener {
 public:
     Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
          Fingerprint& fingerprint);
@@ -65,15 +65,16 @@ private:
     void message_received(NodeId source, const Payload& payload) override;
     void timer_due(std::size_t number);
 
+    // First what every message touches: one cache line, which the medium fetches ahead.
     Simulator& simulator_;
     Fingerprint& fingerprint_;
     NodeId id_;
-    std::string name_;
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Mobility> mobility_;
-    Attitude attitude_;
     std::unique_ptr<Link> link_;
     std::unique_ptr<Protocol> protocol_;
+    std::string name_;
+    Attitude attitude_;
     Timers timers_;
     RandomStream random_;
     TrackedVariables tracked_variables_;

@@ -23,9 +23,8 @@ Radio::Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, co
       fates_(fates),
       fingerprint_(fingerprint),
       id_(medium.attach(Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz},
-                                 config.sensitivity_w, config.energy_detection_w,
-                                 MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)},
-                                 noise_w_})),
+                                 config.sensitivity_w, config.energy_detection_w, noise_w_},
+                        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)})),
       reception_draws_(seed, static_cast<std::uint32_t>(id_), Purpose::reception) {}
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,

@@ -1,5 +1,7 @@
 #include "netsim/trace/frame_fates.hpp"
 
+#include <algorithm>
+
 #include "netsim/error.hpp"
 
 namespace netsim {
@@ -7,13 +9,27 @@ namespace netsim {
 void FrameFates::book(NodeId receiver, FrameLabel label, FrameFate fate) {
     auto& sums = label.is_for(receiver) ? addressed_ : overheard_;
     ++sums[index(label.kind)].counts[index(fate)];
-    ++nodes_[receiver].counts[index(label.kind)][index(fate)];
+    std::vector<Counts>& rows = at_nodes_[index(label.kind)];
+    if (rows.size() <= static_cast<std::size_t>(receiver)) {
+        rows.resize(interferers_.size());
+    }
+    ++rows[receiver][index(fate)];
 }
 
 void FrameFates::book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers) {
     book(receiver, label, FrameFate::interference);
-    for (const NodeId interferer : interferers) {
-        ++nodes_[receiver].interferers[interferer];
+    std::vector<Interferer>& known = interferers_[receiver];
+    for (const NodeId node : interferers) {
+        auto place = std::ranges::lower_bound(known, node, {}, &Interferer::node);
+        if (place == known.end() || place->node != node) {
+            if (known.size() == known.capacity()) {
+                const auto offset = place - known.begin();
+                known.reserve(known.size() + known.size() / 4 + 2);
+                place = known.begin() + offset;
+            }
+            place = known.insert(place, Interferer{node});
+        }
+        ++place->copies;
     }
 }
 
@@ -37,6 +53,19 @@ FrameFates::Counts FrameFates::counts(FrameKind kind, bool overheard) const {
     NETSIM_ASSERT(booked <= book.copies);
     counts[index(FrameFate::in_air)] = book.copies - booked;
     return counts;
+}
+
+FrameFates::Counts FrameFates::counts_at(NodeId receiver, FrameKind kind) const {
+    const std::vector<Counts>& rows = at_nodes_[index(kind)];
+    return static_cast<std::size_t>(receiver) < rows.size() ? rows[receiver] : Counts{};
+}
+
+std::map<NodeId, std::uint64_t> FrameFates::interferers_at(NodeId receiver) const {
+    std::map<NodeId, std::uint64_t> copies;
+    for (const Interferer& interferer : interferers_[receiver]) {
+        copies.emplace_hint(copies.end(), interferer.node, interferer.copies);
+    }
+    return copies;
 }
 
 }  // namespace netsim

@@ -63,7 +63,7 @@ public:
     // counts[fate] of the copies of one kind, at their addressees or overheard by others.
     using Counts = std::array<std::uint64_t, frame_fate_count>;
 
-    void add_node() { nodes_.emplace_back(); }
+    void add_node() { interferers_.emplace_back(); }
 
     // One copy of `label`'s frame ended at `receiver`.
     void book(NodeId receiver, FrameLabel label, FrameFate fate);
@@ -71,6 +71,14 @@ public:
     void book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers);
     // A frame went on the air and made these copies, of which some are below sensitivity at their receivers.
     void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
+
+    // Something is going to be booked there soon: has it brought into the cache.
+    void fetch(NodeId receiver, FrameKind kind) const {
+        const std::vector<Counts>& rows = at_nodes_[index(kind)];
+        if (static_cast<std::size_t>(receiver) < rows.size()) {
+            __builtin_prefetch(&rows[receiver], 1);
+        }
+    }
 
     std::uint64_t frames(FrameKind kind) const { return frames_[index(kind)]; }
     std::uint64_t copies(FrameKind kind, bool overheard) const {
@@ -80,26 +88,27 @@ public:
     // that were not for their receiver; broadcast frames are for everybody.
     Counts counts(FrameKind kind, bool overheard) const;
     // Of the copies that could be received at one receiver (below_sensitivity is not kept for each node).
-    Counts counts_at(NodeId receiver, FrameKind kind) const { return nodes_[receiver].counts[index(kind)]; }
+    Counts counts_at(NodeId receiver, FrameKind kind) const;
     // {interfering node: copies lost at `receiver` with its help}
-    const std::map<NodeId, std::uint64_t>& interferers_at(NodeId receiver) const {
-        return nodes_[receiver].interferers;
-    }
+    std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const;
 
 private:
     struct Book {
         std::uint64_t copies = 0;
         Counts counts{};
     };
-    struct NodeBook {
-        std::array<Counts, frame_kind_count> counts{};
-        std::map<NodeId, std::uint64_t> interferers;
+    struct Interferer {
+        NodeId node = 0;
+        std::uint64_t copies = 0;
     };
 
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
     static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
 
-    std::vector<NodeBook> nodes_;
+    // [kind][receiver]: a row of a large network is touched for each copy of a frame, so those of one kind lie side by
+    // side; kinds that nobody sends have none.
+    std::array<std::vector<Counts>, frame_kind_count> at_nodes_;
+    std::vector<std::vector<Interferer>> interferers_;  // [receiver], by node: a map would take four times as much
     std::array<std::uint64_t, frame_kind_count> frames_{};
     std::array<Book, frame_kind_count> addressed_{};
     std::array<Book, frame_kind_count> overheard_{};
