@@ -59,7 +59,14 @@ public:
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
 private:
-    enum class Exchange : std::uint8_t { none, sending_rts, awaiting_cts, waiting_sifs, sending, awaiting_ack };
+    enum class Exchange : std::uint8_t {
+        none,
+        sending_rts,
+        awaiting_cts,
+        waiting_sifs,
+        sending,
+        awaiting_ack
+    };
     enum class Response : std::uint8_t { none, waiting_sifs, sending };
 
     void channel_busy_changed(bool busy) override;

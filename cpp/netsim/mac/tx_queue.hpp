@@ -35,8 +35,9 @@ public:
 
 private:
     std::size_t capacity_;
-    std::vector<std::shared_ptr<const Frame>> frames_;  // a deque takes half a kilobyte even while it is empty
-    std::size_t taken_ = 0;                             // of them, at the front
+    // Not a deque, which takes half a kilobyte even while it is empty.
+    std::vector<std::shared_ptr<const Frame>> frames_;
+    std::size_t taken_ = 0;  // of them, at the front
 };
 
 }  // namespace netsim

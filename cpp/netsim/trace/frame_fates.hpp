@@ -108,7 +108,8 @@ private:
     // [kind][receiver]: a row of a large network is touched for each copy of a frame, so those of one kind lie side by
     // side; kinds that nobody sends have none.
     std::array<std::vector<Counts>, frame_kind_count> at_nodes_;
-    std::vector<std::vector<Interferer>> interferers_;  // [receiver], by node: a map would take four times as much
+    // [receiver], by node: maps would take four times as much.
+    std::vector<std::vector<Interferer>> interferers_;
     std::array<std::uint64_t, frame_kind_count> frames_{};
     std::array<Book, frame_kind_count> addressed_{};
     std::array<Book, frame_kind_count> overheard_{};
