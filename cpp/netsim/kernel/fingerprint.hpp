@@ -21,25 +21,24 @@ public:
     void add_text(std::string_view text) {
         constexpr std::size_t first = 7;
         if (text.size() < first) {
-            add(word_of(text.data(), text.size()) << 8 ^ text.size());
+            add(word_of(text, 0, text.size()) << 8 ^ text.size());
             return;
         }
-        add(word_of(text.data(), first) << 8 ^ text.size());
-        const char* rest = text.data() + first;
-        const char* const end = text.data() + text.size();
-        for (; end - rest >= 8; rest += 8) {
-            add(word_of(rest, 8));
+        add(word_of(text, 0, first) << 8 ^ text.size());
+        std::size_t done = first;
+        for (; text.size() - done >= 8; done += 8) {
+            add(word_of(text, done, 8));
         }
-        add(word_of(rest, static_cast<std::size_t>(end - rest)));
+        add(word_of(text, done, text.size() - done));
     }
     std::uint64_t value() const { return hash_; }
 
 private:
     // Compilers make one load of it where `count` is a constant.
-    static std::uint64_t word_of(const char* characters, std::size_t count) {
+    static std::uint64_t word_of(std::string_view text, std::size_t from, std::size_t count) {
         std::uint64_t word = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            word |= static_cast<std::uint64_t>(static_cast<unsigned char>(characters[i])) << (8 * i);
+            word |= static_cast<std::uint64_t>(static_cast<unsigned char>(text[from + i])) << (8 * i);
         }
         return word;
     }

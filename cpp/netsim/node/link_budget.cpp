@@ -121,7 +121,7 @@ double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
     constexpr double strongest_w = 1e12;
     constexpr double precision = 1e-9;
     check_greater("range_m", range_m, 0, "m");
-    if (!(ratio > 0 && ratio < 1)) {
+    if (!(ratio > 0) || !(ratio < 1)) {
         throw ConfigError("ratio = " + text_of(ratio) + ": expected more than 0 and less than 1");
     }
     const std::vector<double> all = gains(range_m);
