@@ -9,7 +9,9 @@ command line; that is the order of node ids.
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gradysim.config.keys import GROUP_SIZE, IGNORED_MODULES, NETWORK_MODULES, PROTOCOL_KEYS
+from gradysim.config.keys import NETWORK_MODULES
+from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS
+from gradysim.config.keys.options import IGNORED_MODULES
 from gradysim.config.lookup import Found, Lookup
 from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.setting import SettingReader

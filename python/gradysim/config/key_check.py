@@ -6,18 +6,13 @@ group is better reported than the missing class that follows from it.
 
 from collections.abc import Iterator, Mapping
 
-from gradysim.config.environment_keys import OBSTACLE_KEYS, obstacle_path
 from gradysim.config.error import ConfigError
 from gradysim.config.groups import Group
 from gradysim.config.key_suggestion import unknown_name_text, unknown_parameter_text
-from gradysim.config.keys import (
-    GROUP_SIZE,
-    NETWORK_KEYS,
-    NETWORK_MODULES,
-    NODE_KEYS,
-    OPTIONS,
-    SECTION_OPTIONS,
-)
+from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
+from gradysim.config.keys.environment import OBSTACLE_KEYS, obstacle_path
+from gradysim.config.keys.node import GROUP_SIZE
+from gradysim.config.keys.options import OPTIONS, SECTION_OPTIONS
 from gradysim.config.lookup import Found, Lookup, is_ignored
 from gradysim.config.nearest import did_you_mean
 from gradysim.config.pattern import Pattern

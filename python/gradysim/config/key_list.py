@@ -5,14 +5,9 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 from gradysim.config.key import Key
-from gradysim.config.keys import (
-    GROUP_SIZE,
-    NETWORK_KEYS,
-    NODE_KEYS,
-    OPTION_KEYS,
-    PROTOCOL_KEYS,
-    PROTOCOL_PARAMETER,
-)
+from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS, PROTOCOL_PARAMETER
+from gradysim.config.keys.options import OPTION_KEYS
 from gradysim.config.native_protocol import NativeProtocol
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.scenario import CommunicationMediumSpec

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from gradysim.config.error import BadValue, ConfigError
-from gradysim.config.keys import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
+from gradysim.config.keys.options import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
 from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.reader import Entry
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.groups import Group
 from gradysim.config.key import Key
-from gradysim.config.keys import NODE_KEYS, PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
+from gradysim.config.keys import NODE_KEYS
+from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
 from gradysim.config.kinds import LARGEST_COORDINATE_M, Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.native_protocol import native_protocol

@@ -3,10 +3,10 @@
 import math
 from collections.abc import Mapping
 
-from gradysim.config.environment_keys import NUM_OBSTACLES, OBSTACLE_FILE, OBSTACLE_KEYS, obstacle_path
 from gradysim.config.error import ConfigError
 from gradysim.config.geojson import read_geojson
 from gradysim.config.key import Key
+from gradysim.config.keys.environment import NUM_OBSTACLES, OBSTACLE_FILE, OBSTACLE_KEYS, obstacle_path
 from gradysim.config.lookup import Lookup
 from gradysim.config.obstacle_spec import ObstacleSpec, Ring
 from gradysim.config.setting import Setting, SettingReader

@@ -7,7 +7,8 @@ from pathlib import Path
 from gradysim.config.error import ConfigError
 from gradysim.config.groups import find_groups
 from gradysim.config.key_check import check_names, check_option, check_parameters
-from gradysim.config.keys import NETWORK_KEYS, OPTIONS
+from gradysim.config.keys import NETWORK_KEYS
+from gradysim.config.keys.options import OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec

@@ -1,7 +1,8 @@
 """Keys of what stands between the nodes: the model of its losses, and obstacles one by one or as a file."""
 
 from gradysim.config.key import Key
-from gradysim.config.kinds import boolean, choice, coordinate, integer, number, quantity, text
+from gradysim.config.keys.shapes import Below, angle
+from gradysim.config.kinds import boolean, choice, coordinate, integer, number, text
 
 MATERIALS = (
     "concrete",
@@ -17,34 +18,38 @@ MATERIALS = (
 )
 """The engine's."""
 
-NUM_OBSTACLES = Key(
-    "environment.numObstacles",
-    "environment.num_obstacles",
+_environment = Below("environment", "environment")
+_obstacle = Below("environment.obstacle[0]", "obstacle")
+_loss = Below("radioMedium.obstacleLoss", "medium")
+
+NUM_OBSTACLES = _environment(
+    "numObstacles",
+    "num_obstacles",
     integer(0, 100_000),
     "How many `environment.obstacle[...]` there are",
     default="0",
 )
 
-OBSTACLE_FILE = Key(
-    "environment.obstacles",
-    "environment.obstacles",
+OBSTACLE_FILE = _environment(
+    "obstacles",
+    "obstacles",
     text(),
     "GeoJSON file with more of them, seen from the .ini file",
     default="none",
 )
 
 OBSTACLE_KEYS: tuple[Key, ...] = (
-    Key(
-        "environment.obstacle[0].typename",
-        "obstacle.typename",
+    _obstacle(
+        "typename",
+        "typename",
         choice("box", "prism"),
         "A box, or any footprint with vertical walls",
         default='"box"',
     ),
     *(
-        Key(
-            f"environment.obstacle[0].{end}{axis}",
-            f"obstacle.{end}_{axis.lower()}",
+        _obstacle(
+            f"{end}{axis}",
+            f"{end}_{axis.lower()}",
             coordinate(),
             meaning,
             default="none: it has to be given",
@@ -58,37 +63,37 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
             ("max", "Z", "Height of the roof above z = 0"),
         )
     ),
-    Key(
-        "environment.obstacle[0].heading",
-        "obstacle.heading_rad",
-        quantity("rad", shown="deg"),
+    _obstacle(
+        "heading",
+        "heading_rad",
+        angle(),
         "box: how it is turned about its middle, from x towards y",
         default="0deg",
     ),
-    Key(
-        "environment.obstacle[0].points",
-        "obstacle.points",
+    _obstacle(
+        "points",
+        "points",
         text(),
         'prism: x and y of the corners in metres, one after the other: "0 0 10 0 10 5"',
         default="none: it has to be given",
     ),
-    Key(
-        "environment.obstacle[0].material",
-        "obstacle.material",
+    _obstacle(
+        "material",
+        "material",
         choice(*MATERIALS),
         "DielectricObstacleLoss: what it is made of",
         default='"concrete"',
     ),
-    Key(
-        "environment.obstacle[0].relativePermittivity",
-        "obstacle.relative_permittivity",
+    _obstacle(
+        "relativePermittivity",
+        "relative_permittivity",
         number(at_least=1),
         "DielectricObstacleLoss: instead of the material's",
         default="the material's",
     ),
-    Key(
-        "environment.obstacle[0].conductivity",
-        "obstacle.conductivity_spm",
+    _obstacle(
+        "conductivity",
+        "conductivity_spm",
         number(at_least=0),
         "DielectricObstacleLoss: instead of the material's, in S/m",
         default="the material's",
@@ -97,21 +102,21 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
 """Those of one obstacle; in a list of keys it stands for all of them."""
 
 OBSTACLE_LOSS_KEYS: tuple[Key, ...] = (
-    Key(
-        "radioMedium.obstacleLoss.typename",
-        "medium.obstacle_loss",
+    _loss(
+        "typename",
+        "obstacle_loss",
         choice("", "IdealObstacleLoss", "DielectricObstacleLoss"),
         "What obstacles do to frames: nothing, block them, or weaken them; not with UnitDiskRadioMedium",
     ),
-    Key(
-        "radioMedium.obstacleLoss.enableDielectricLoss",
-        "medium.enable_dielectric_loss",
+    _loss(
+        "enableDielectricLoss",
+        "enable_dielectric_loss",
         boolean(),
         "DielectricObstacleLoss: by the length inside of the material",
     ),
-    Key(
-        "radioMedium.obstacleLoss.enableReflectionLoss",
-        "medium.enable_reflection_loss",
+    _loss(
+        "enableReflectionLoss",
+        "enable_reflection_loss",
         boolean(),
         "DielectricObstacleLoss: by the reflection at each face",
     ),

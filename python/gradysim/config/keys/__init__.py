@@ -1,0 +1,39 @@
+"""Every key and option that an .ini file may hold: where its value goes, and what it has to be.
+
+The names are INET's and OMNeT++'s. Ranges of radio and MAC values are the engine's business, only what no
+unit and no model could mean is refused here. To add a key, add a line to the table of its subject; lists of
+keys show them in this order.
+"""
+
+from gradysim.config.key import Key
+from gradysim.config.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
+from gradysim.config.keys.coordinate_system import COORDINATE_SYSTEM_KEYS
+from gradysim.config.keys.csma import CSMA_KEYS
+from gradysim.config.keys.environment import ENVIRONMENT_KEYS
+from gradysim.config.keys.interface import INTERFACE_KEYS
+from gradysim.config.keys.mac import MAC_KEYS
+from gradysim.config.keys.medium import MEDIUM_KEYS
+from gradysim.config.keys.mobility import MOBILITY_KEYS
+from gradysim.config.keys.node import PROTOCOL_KEYS
+from gradysim.config.keys.radio import RADIO_KEYS
+
+NODE_KEYS: tuple[Key, ...] = (
+    *PROTOCOL_KEYS,
+    *MOBILITY_KEYS,
+    *INTERFACE_KEYS,
+    *MAC_KEYS,
+    *CSMA_KEYS,
+    *RADIO_KEYS,
+)
+"""Those below a node."""
+
+NETWORK_KEYS: tuple[Key, ...] = (
+    *MEDIUM_KEYS,
+    *ENVIRONMENT_KEYS,
+    *COMMUNICATION_MEDIUM_KEYS,
+    *COORDINATE_SYSTEM_KEYS,
+)
+"""Those below the network."""
+
+NETWORK_MODULES = frozenset(key.path.partition(".")[0] for key in NETWORK_KEYS)
+"""Names below the network that are no groups of nodes."""

@@ -1,0 +1,23 @@
+"""Keys of prototype mode's medium."""
+
+from gradysim.config.key import Key
+from gradysim.config.keys.shapes import Below
+from gradysim.config.kinds import number, quantity
+
+_own = Below("communicationMedium", "communication_medium")
+
+COMMUNICATION_MEDIUM_KEYS: tuple[Key, ...] = (
+    _own(
+        "transmissionRange",
+        "transmission_range_m",
+        quantity("m", at_least=0),
+        "Prototype mode: distance up to which a message arrives",
+    ),
+    _own("delay", "delay_s", quantity("s", at_least=0), "Prototype mode: time from sending to arrival"),
+    _own(
+        "failureRate",
+        "failure_rate",
+        number(at_least=0, at_most=1),
+        "Prototype mode: part of the messages that is lost, 0 to 1",
+    ),
+)

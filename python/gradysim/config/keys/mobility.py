@@ -1,0 +1,60 @@
+"""Keys of where a node starts, how it is turned, and how it moves."""
+
+from gradysim.config.key import Key
+from gradysim.config.keys.shapes import Below, angle
+from gradysim.config.kinds import boolean, choice, coordinate, quantity
+
+_own = Below("mobility", "mobility")
+_start = Below("mobility", "position")
+
+MOBILITY_KEYS: tuple[Key, ...] = (
+    _own(
+        "typename",
+        "typename",
+        choice("MasslessMobility", "StationaryMobility"),
+        "How it moves: as its protocol says, or not at all",
+    ),
+    _start(
+        "initialX",
+        "initial_x",
+        coordinate(),
+        "Where it starts, x; of initialX and lineStartX/lineStepX the one that is written first is in force",
+        default="0m",
+    ),
+    _start("initialY", "initial_y", coordinate(), "The same for y", default="0m"),
+    _start("initialZ", "initial_z", coordinate(), "The same for z: height", default="0m"),
+    _start(
+        "lineStartX",
+        "line_start_x",
+        coordinate(),
+        "Nodes in a line: x of the node with index 0",
+        default="0m",
+    ),
+    _start("lineStartY", "line_start_y", coordinate(), "The same for y", default="0m"),
+    _start("lineStartZ", "line_start_z", coordinate(), "The same for z", default="0m"),
+    _start(
+        "lineStepX",
+        "line_step_x",
+        quantity("m"),
+        "Nodes in a line: x from one index to the next",
+        default="0m",
+    ),
+    _start("lineStepY", "line_step_y", quantity("m"), "The same for y", default="0m"),
+    _start("lineStepZ", "line_step_z", quantity("m"), "The same for z", default="0m"),
+    _own("speed", "speed_mps", quantity("mps", at_least=0), "Speed until the protocol sets another"),
+    _own(
+        "telemetryInterval",
+        "telemetry_interval_s",
+        quantity("s", at_least=0, shown="ms"),
+        "Time between two calls of handle_telemetry; 0s for none",
+    ),
+    _own("initialHeading", "initial_heading_rad", angle(), "How it is turned at the start: from x towards y"),
+    _own("initialElevation", "initial_elevation_rad", angle(), "The same upwards"),
+    _own("initialBank", "initial_bank_rad", angle(), "The same about its own x axis, from y towards z"),
+    _own(
+        "faceForward",
+        "face_forward",
+        boolean(),
+        "Whether heading and elevation follow the direction of flight",
+    ),
+)

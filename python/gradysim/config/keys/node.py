@@ -1,0 +1,44 @@
+"""Keys of a group of nodes and of what its nodes run."""
+
+from gradysim.config.key import Key
+from gradysim.config.keys.shapes import Below
+from gradysim.config.kinds import integer, si_number, text
+
+_protocol = Below("protocol", "protocol")
+
+PROTOCOL_CLASS = _protocol(
+    "class",
+    "class",
+    text(),
+    'What the node runs: "file.py:Class", seen from the .ini file, or "package.module:Class"',
+    default="none: it has to be given",
+)
+
+PROTOCOL_TYPENAME = _protocol(
+    "typename",
+    "typename",
+    text(),
+    "Instead of a class one of the engine's own protocols, listed below; integrated mode only",
+    default="none",
+)
+
+PROTOCOL_KEYS: tuple[Key, ...] = (PROTOCOL_CLASS, PROTOCOL_TYPENAME)
+"""The two ways to say what a node runs; of both the first match wins."""
+
+PROTOCOL_PARAMETER = _protocol(
+    "ATTRIBUTE",
+    "attribute",
+    si_number(),
+    "A public class attribute of the protocol, int, float, str or bool; quantities become SI units",
+    default="the class's",
+)
+"""Stands for all of them in lists of keys; `parameters_of` knows a class's."""
+
+GROUP_SIZE = Key(
+    "count",
+    "group.count",
+    integer(0, 1_000_000),
+    "Number of nodes of the group; `*.numUavs` says the same. neither: one node, no index",
+    default="none",
+)
+"""Below the group, `*.uavs.count`; `*.numUavs` means the same."""

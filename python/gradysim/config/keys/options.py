@@ -1,0 +1,46 @@
+"""Options of a run, and what is ignored because only OMNeT++ needs it."""
+
+from gradysim.config.key import Key
+from gradysim.config.kinds import Kind, integer, quantity, text
+
+_MAX_SIM_TIME_S = 9_223_372.0
+"""The engine's clock counts picoseconds in 64 bits."""
+
+OPTION_KEYS: tuple[Key, ...] = (
+    Key(
+        "sim-time-limit",
+        "option.sim_time_limit",
+        quantity("s", above=0, at_most=_MAX_SIM_TIME_S),
+        "Simulated time at which a run ends",
+        default="none: it has to be given",
+    ),
+    Key(
+        "seed-set",
+        "option.seed_set",
+        integer(0, 2**63 - 1),
+        "Seed of all random numbers of a run",
+        default="${runnumber}",
+    ),
+    Key(
+        "repeat",
+        "option.repeat",
+        integer(1, 1_000_000),
+        "How many runs there are, from number 0",
+        default="1",
+    ),
+    Key("description", "option.description", text(), "What the configuration is about", default='""'),
+)
+
+OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
+
+SECTION_OPTIONS = ("extends", "abstract")
+"""Options that belong to a section and cannot be given on the command line."""
+
+IGNORED_OPTIONS = ("network", "result-dir", "experiment-label", "cmdenv-*", "qtenv-*")
+"""Options of OMNeT++ that files share with it. `network` is only the name that paths begin with."""
+
+IGNORED_ENDS = ("cmdenv-", "qtenv-")
+"""Options of OMNeT++ that are given per module, such as `**.cmdenv-log-level`."""
+
+IGNORED_MODULES = ("visualizer",)
+"""Names below the network whose parameters are OMNeT++'s alone."""
