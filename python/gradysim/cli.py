@@ -128,6 +128,8 @@ def run(
             warn_of_equal_seeds(scenarios)
             for scenario in scenarios:
                 check(scenario)
+            if mode == "integrated":
+                warn_of_what_is_seldom_meant(scenarios)
             with StopOnInterrupt() as interrupt:
                 for scenario in scenarios:
                     if interrupt.should_stop():  # pressed between two runs
@@ -262,6 +264,17 @@ def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
             " identical if nothing else depends on ${runnumber}; `seed-set = ${runnumber}` is the default",
             file=sys.stderr,
         )
+
+
+def warn_of_what_is_seldom_meant(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which lines nothing reads, and the like."""
+    from gradysim.integrated.scenario_warnings import scenario_warnings
+
+    different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}
+    for text in dict.fromkeys(
+        text for scenario in different.values() for text in scenario_warnings(scenario)
+    ):
+        print(text, file=sys.stderr)
 
 
 def make_result_dir(directory: Path) -> None:

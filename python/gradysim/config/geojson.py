@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.config.error import ConfigError
+from gradysim.config.keys.environment import OBSTACLE_FILE
 from gradysim.config.kinds import LARGEST_COORDINATE_M
 from gradysim.config.obstacle_spec import ObstacleSpec, Ring
 from gradysim.config.source import Source
@@ -134,8 +135,18 @@ def _obstacles(
     own = {
         field: _number(properties, key) for key, field in _NUMBERS.items() if properties.get(key) is not None
     }
+    sources = {OBSTACLE_FILE.target: source}
     return [
-        ObstacleSpec(name, _rings(polygon, place), base_m, base_m + height_m, source, material, **own)
+        ObstacleSpec(
+            name,
+            _rings(polygon, place),
+            base_m,
+            base_m + height_m,
+            source,
+            material,
+            **own,
+            sources=sources,
+        )
         for polygon in polygons
     ]
 

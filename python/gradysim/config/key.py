@@ -6,6 +6,21 @@ from gradysim.config.kinds import Kind
 
 
 @dataclass(frozen=True)
+class ReadBy:
+    """The models that read a key, of those among which another key chooses.
+
+    Attributes:
+        chosen_by: The target of that other key.
+        names: What it has to say.
+        shown: What lists of keys call these models; "" where the key's path says enough.
+    """
+
+    chosen_by: str
+    names: tuple[str, ...]
+    shown: str
+
+
+@dataclass(frozen=True)
 class Key:
     """One parameter.
 
@@ -15,6 +30,7 @@ class Key:
         kind: What the value has to be.
         meaning: For people: a line of a list of all keys.
         default: As it would be written, for what no struct has a default for; "" where a struct has one.
+        read_by: Which models read it, if not all do.
     """
 
     path: str
@@ -22,6 +38,7 @@ class Key:
     kind: Kind
     meaning: str
     default: str = ""
+    read_by: ReadBy | None = None
 
     @property
     def written(self) -> str:

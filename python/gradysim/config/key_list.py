@@ -72,7 +72,7 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 
 def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, ...]:
     return tuple(
-        KeyRow(f"{_prefix(prefix, key)}{key.written}", key.kind.unit, _default(key, structs), key.meaning)
+        KeyRow(f"{_prefix(prefix, key)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key))
         for key in keys
     )
 
@@ -88,6 +88,12 @@ def _native_rows(protocol: type[NativeProtocol]) -> Iterator[KeyRow]:
         default = f"{value:g}{unit}" if is_quantity else kind.show(value)
         shown = unit or "number" if is_quantity else f"{kind.unit} of {unit}" if unit else kind.unit
         yield KeyRow(f"*.nodes[*].protocol.{name}", shown, default, meaning)
+
+
+def _meaning(key: Key) -> str:
+    """What a key means, after the models that read it."""
+    models = key.read_by.shown if key.read_by else ""
+    return f"{models}: {key.meaning}" if models else key.meaning
 
 
 def _prefix(prefix: str, key: Key) -> str:

@@ -1,6 +1,7 @@
 """One obstacle of a scenario, as the engine is given it."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from gradysim.config.source import Source
 
@@ -21,6 +22,7 @@ class ObstacleSpec:
         material: Of the engine's table.
         relative_permittivity: Instead of the material's; -1 for that.
         conductivity_spm: The same in S/m.
+        sources: Where its values were written, by the targets of their keys.
     """
 
     name: str
@@ -31,3 +33,4 @@ class ObstacleSpec:
     material: str = "concrete"
     relative_permittivity: float = -1.0
     conductivity_spm: float = -1.0
+    sources: Mapping[str, Source] = field(default_factory=dict)

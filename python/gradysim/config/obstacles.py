@@ -89,7 +89,8 @@ def _obstacle(name: str, values: Mapping[str, Setting], size_source: Source | No
         if field in values
     }
     material = str(values["material"].value) if "material" in values else "concrete"
-    return ObstacleSpec(name, (ring,), base_m, top_m, source, material, **own)
+    sources = {f"obstacle.{field}": setting.source for field, setting in values.items()}
+    return ObstacleSpec(name, (ring,), base_m, top_m, source, material, **own, sources=sources)
 
 
 def _refuse(name: str, values: Mapping[str, Setting], fields: tuple[str, ...], why: str) -> None:

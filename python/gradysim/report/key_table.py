@@ -20,6 +20,11 @@ Of two lines that fit, the first one is in force. A section may also say `extend
 `abstract = true`. What only OMNeT++ needs is ignored: `network`, `result-dir`, `experiment-label`,
 `cmdenv-*`, `qtenv-*`, `*.visualizer.**`.
 
+A key that matches no parameter is an error. A line for a model that is not chosen (`pathLoss.sigma` with
+`FreeSpacePathLoss`) is none, but `gradysim run` says on the error output that nothing reads it, and what
+would. It says nothing of a line that at least one node reads, nor of one whose model is turned off in so many
+words, by `typename = ""`, nor in prototype mode, which has no such models.
+
 This page is made by `gradysim keys --markdown`."""
 
 

@@ -47,6 +47,12 @@ def test_defaults_of_our_own_are_always_known() -> None:
     assert row("transmissionRange").default == "60m"
 
 
+def test_a_meaning_begins_with_the_models_that_read_the_key() -> None:
+    assert row("pathLoss.k").meaning.startswith("RicianFading: ")
+    assert row("macMinBE").meaning.startswith("802.15.4, exponential: ")
+    assert row("opMode").meaning.startswith("Generation of")
+
+
 @pytest.mark.parametrize("pattern", ["POWER", "*.transmitter.power", "wlan[*].radio.transmitter.pow"])
 def test_patterns(pattern: str) -> None:
     assert "*.nodes[*].wlan[*].radio.transmitter.power" in keys(pattern)

@@ -38,6 +38,14 @@ def test_a_box(folder: Any) -> None:
     assert (box.base_m, box.top_m, box.material) == (1.0, 20.0, "concrete")
     assert (box.relative_permittivity, box.conductivity_spm) == (-1.0, -1.0)
     assert (box.name, box.source.line) == ("obstacle[0]", 7)
+    assert {target: source.line for target, source in box.sources.items()} == {
+        "obstacle.min_x": 7,
+        "obstacle.max_x": 8,
+        "obstacle.min_y": 9,
+        "obstacle.max_y": 10,
+        "obstacle.min_z": 11,
+        "obstacle.max_z": 12,
+    }
 
 
 def test_a_box_is_turned_about_its_middle(folder: Any) -> None:

@@ -2,10 +2,16 @@
 
 from gradysim.config.key import Key
 from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.kinds import choice, power_ratio, quantity
 
-_own = Below(f"{WLAN}.radio.antenna", "antenna")
+_own = Below(f"{WLAN}.radio.antenna", "antenna", RADIO_MEDIA)
+_constant = _own.only_for("antenna.typename", "ConstantGainAntenna")
+_dipole = _own.only_for("antenna.typename", "DipoleAntenna")
+_beam = _own.only_for("antenna.typename", "CosineAntenna", "ParabolicAntenna")
+_parabolic = _own.only_for("antenna.typename", "ParabolicAntenna")
+_mounted = _own.only_for("antenna.typename", "DipoleAntenna", "CosineAntenna", "ParabolicAntenna", shown="")
 
 ANTENNA_KEYS: tuple[Key, ...] = (
     _own(
@@ -16,33 +22,33 @@ ANTENNA_KEYS: tuple[Key, ...] = (
         ),
         "Where the antenna sends to and receives from",
     ),
-    _own("gain", "gain", power_ratio(), "ConstantGainAntenna: gain in all directions"),
-    _own(
+    _constant("gain", "gain", power_ratio(), "gain in all directions"),
+    _beam(
         "maxGain",
         "max_gain",
         power_ratio(),
-        "CosineAntenna, ParabolicAntenna: gain along the boresight, its x axis",
+        "gain along the boresight, its x axis",
     ),
-    _own("minGain", "min_gain", power_ratio(), "ParabolicAntenna: gain outside of the beam"),
-    _own(
+    _parabolic("minGain", "min_gain", power_ratio(), "gain outside of the beam"),
+    _beam(
         "beamWidth",
         "beam_width_rad",
         quantity("rad", above=0, shown="deg"),
-        "CosineAntenna, ParabolicAntenna: angle between the directions at half the power; has to be given",
+        "angle between the directions at half the power; has to be given",
     ),
-    _own("wireAxis", "wire_axis", choice("x", "y", "z"), "DipoleAntenna: the axis along which it lies"),
-    _own(
+    _dipole("wireAxis", "wire_axis", choice("x", "y", "z"), "the axis along which it lies"),
+    _dipole(
         "length",
         "length_m",
         quantity("m", at_least=0),
-        "DipoleAntenna: from end to end, up to one wavelength; 0m: much shorter than the wave",
+        "from end to end, up to one wavelength; 0m: much shorter than the wave",
     ),
-    _own(
+    _mounted(
         "offsetHeading",
         "offset_heading_rad",
         angle(),
         "How the antenna is turned on the node: from the node's x towards its y",
     ),
-    _own("offsetElevation", "offset_elevation_rad", angle(), "The same upwards: -90deg looks down"),
-    _own("offsetBank", "offset_bank_rad", angle(), "The same about the antenna's own x axis"),
+    _mounted("offsetElevation", "offset_elevation_rad", angle(), "The same upwards: -90deg looks down"),
+    _mounted("offsetBank", "offset_bank_rad", angle(), "The same about the antenna's own x axis"),
 )

@@ -1,6 +1,7 @@
 """Keys of what stands between the nodes: the model of its losses, and obstacles one by one or as a file."""
 
 from gradysim.config.key import Key
+from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.kinds import boolean, choice, coordinate, integer, number, text
 
@@ -18,9 +19,13 @@ MATERIALS = (
 )
 """The engine's."""
 
-_environment = Below("environment", "environment")
-_obstacle = Below("environment.obstacle[0]", "obstacle")
-_loss = Below("radioMedium.obstacleLoss", "medium")
+_LOSSES = ("IdealObstacleLoss", "DielectricObstacleLoss")
+
+_environment = Below("environment", "environment").only_for("medium.obstacle_loss", *_LOSSES, shown="")
+_obstacle = Below("environment.obstacle[0]", "obstacle", _environment.read_by)
+_body = _obstacle.only_for("medium.obstacle_loss", "DielectricObstacleLoss")
+_loss = Below("radioMedium.obstacleLoss", "medium", RADIO_MEDIA)
+_dielectric = _loss.only_for("medium.obstacle_loss", "DielectricObstacleLoss")
 
 NUM_OBSTACLES = _environment(
     "numObstacles",
@@ -77,25 +82,25 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
         'prism: x and y of the corners in metres, one after the other: "0 0 10 0 10 5"',
         default="none: it has to be given",
     ),
-    _obstacle(
+    _body(
         "material",
         "material",
         choice(*MATERIALS),
-        "DielectricObstacleLoss: what it is made of",
+        "what it is made of",
         default='"concrete"',
     ),
-    _obstacle(
+    _body(
         "relativePermittivity",
         "relative_permittivity",
         number(at_least=1),
-        "DielectricObstacleLoss: instead of the material's",
+        "instead of the material's",
         default="the material's",
     ),
-    _obstacle(
+    _body(
         "conductivity",
         "conductivity_spm",
         number(at_least=0),
-        "DielectricObstacleLoss: instead of the material's, in S/m",
+        "instead of the material's, in S/m",
         default="the material's",
     ),
 )
@@ -105,20 +110,20 @@ OBSTACLE_LOSS_KEYS: tuple[Key, ...] = (
     _loss(
         "typename",
         "obstacle_loss",
-        choice("", "IdealObstacleLoss", "DielectricObstacleLoss"),
+        choice("", *_LOSSES),
         "What obstacles do to frames: nothing, block them, or weaken them; not with UnitDiskRadioMedium",
     ),
-    _loss(
+    _dielectric(
         "enableDielectricLoss",
         "enable_dielectric_loss",
         boolean(),
-        "DielectricObstacleLoss: by the length inside of the material",
+        "by the length inside of the material",
     ),
-    _loss(
+    _dielectric(
         "enableReflectionLoss",
         "enable_reflection_loss",
         boolean(),
-        "DielectricObstacleLoss: by the reflection at each face",
+        "by the reflection at each face",
     ),
 )
 

@@ -2,17 +2,21 @@
 
 from gradysim.config.key import Key
 from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
+from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
 from gradysim.config.kinds import choice, quantity
 
 _own = Below("radioMedium", "medium")
-_noise = Below("radioMedium.backgroundNoise", "medium")
+_of_radios = Below("radioMedium", "medium", RADIO_MEDIA)
+_noise = _of_radios.below("backgroundNoise")
+_isotropic_noise = _noise.only_for("medium.background_noise", "IsotropicScalarBackgroundNoise")
+_thermal_noise = _noise.only_for("medium.background_noise", "ThermalNoise")
 
 MEDIUM_KEYS: tuple[Key, ...] = (
     _own(
         "typename",
         "typename",
-        choice("Ieee80211ScalarRadioMedium", "Ieee802154NarrowbandScalarRadioMedium", "UnitDiskRadioMedium"),
+        choice(*RADIO_MEDIA.names, "UnitDiskRadioMedium"),
         "The model of the air: path loss and noise, or a circle",
     ),
     _noise(
@@ -21,20 +25,20 @@ MEDIUM_KEYS: tuple[Key, ...] = (
         choice("IsotropicScalarBackgroundNoise", "ThermalNoise"),
         "The noise in a channel: one power for all, or that of the receiver's bandwidth",
     ),
-    _noise(
+    _isotropic_noise(
         "power",
         "background_noise_w",
         quantity("W", at_least=0, shown="dBm"),
-        "IsotropicScalarBackgroundNoise: noise in the channel",
+        "noise in the channel",
     ),
-    _noise(
+    _thermal_noise(
         "temperature",
         "temperature_k",
         quantity("K", at_least=0),
-        "ThermalNoise: temperature of the receiver's surroundings",
+        "temperature of the receiver's surroundings",
     ),
     *PATH_LOSS_KEYS,
-    _own(
+    _of_radios(
         "propagation.typename",
         "propagation",
         choice("ConstantSpeedPropagation"),

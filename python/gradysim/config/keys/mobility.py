@@ -5,6 +5,7 @@ from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.kinds import boolean, choice, coordinate, quantity
 
 _own = Below("mobility", "mobility")
+_flight = _own.only_for("mobility.typename", "MasslessMobility", shown="")
 _start = Below("mobility", "position")
 
 MOBILITY_KEYS: tuple[Key, ...] = (
@@ -41,7 +42,7 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     ),
     _start("lineStepY", "line_step_y", quantity("m"), "The same for y", default="0m"),
     _start("lineStepZ", "line_step_z", quantity("m"), "The same for z", default="0m"),
-    _own("speed", "speed_mps", quantity("mps", at_least=0), "Speed until the protocol sets another"),
+    _flight("speed", "speed_mps", quantity("mps", at_least=0), "Speed until the protocol sets another"),
     _own(
         "telemetryInterval",
         "telemetry_interval_s",
@@ -51,7 +52,7 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     _own("initialHeading", "initial_heading_rad", angle(), "How it is turned at the start: from x towards y"),
     _own("initialElevation", "initial_elevation_rad", angle(), "The same upwards"),
     _own("initialBank", "initial_bank_rad", angle(), "The same about its own x axis, from y towards z"),
-    _own(
+    _flight(
         "faceForward",
         "face_forward",
         boolean(),

@@ -3,11 +3,13 @@
 from gradysim.config.key import Key
 from gradysim.config.keys.antenna import ANTENNA_KEYS
 from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.receiver import RECEIVER_KEYS
 from gradysim.config.keys.shapes import Below
 from gradysim.config.kinds import channel_of_2_4_ghz, quantity
 
-_own = Below(f"{WLAN}.radio", "radio")
+_own = Below(f"{WLAN}.radio", "radio", RADIO_MEDIA)
+_of_all_media = Below(f"{WLAN}.radio", "radio")
 
 RADIO_KEYS: tuple[Key, ...] = (
     _own(
@@ -19,7 +21,7 @@ RADIO_KEYS: tuple[Key, ...] = (
     _own("centerFrequency", "carrier_hz", quantity("Hz", above=0, shown="MHz"), "Centre of the channel"),
     _own("bandwidth", "bandwidth_hz", quantity("Hz", above=0, shown="MHz"), "Width of the channel"),
     _own("transmitter.power", "tx_power_w", quantity("W", at_least=0, shown="mW"), "Power that is sent"),
-    _own(
+    _of_all_media(
         "transmitter.communicationRange",
         "communication_range_m",
         quantity("m", at_least=0),

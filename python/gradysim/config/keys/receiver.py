@@ -2,10 +2,15 @@
 
 from gradysim.config.key import Key
 from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, level
 from gradysim.config.kinds import choice, file_name, power_ratio, quantity
 
-_own = Below(f"{WLAN}.radio.receiver", "radio")
+_own = Below(f"{WLAN}.radio.receiver", "radio", RADIO_MEDIA)
+_ber_table = _own.only_for("radio.error_model", "Ieee80211BerTableErrorModel")
+_thermal_noise = _own.only_for("medium.background_noise", "ThermalNoise")
+_preamble = _own.only_for("radio.preamble_detection", "ThresholdPreambleDetection")
+_capture = _own.only_for("radio.frame_capture", "SimpleFrameCapture")
 
 RECEIVER_KEYS: tuple[Key, ...] = (
     _own("sensitivity", "sensitivity_w", level(), "Weakest frame that is received at all"),
@@ -22,11 +27,11 @@ RECEIVER_KEYS: tuple[Key, ...] = (
         choice("Ieee80211NistErrorModel", "Ieee80211BerTableErrorModel", "Ieee802154ErrorModel"),
         "How noise becomes lost frames",
     ),
-    _own(
+    _ber_table(
         "errorModel.berTableFile",
         "ber_table_file",
         file_name(),
-        "Ieee80211BerTableErrorModel: CSV of packet success over SNIR, seen from the .ini file",
+        "CSV of packet success over SNIR, seen from the .ini file",
     ),
     _own(
         "errorModel.snirMode",
@@ -34,30 +39,30 @@ RECEIVER_KEYS: tuple[Key, ...] = (
         choice("min", "chunks"),
         "What decides about a frame: its least SNIR, or that of every stretch of time for its part",
     ),
-    _own("noiseFigure", "noise_figure", power_ratio(), "ThermalNoise: what the receiver adds to it"),
+    _thermal_noise("noiseFigure", "noise_figure", power_ratio(), "what the receiver adds to it"),
     _own(
         "preambleDetection.typename",
         "preamble_detection",
         choice("", "ThresholdPreambleDetection"),
         'When a radio locks on to a frame; "": at once, else when it has noticed its beginning',
     ),
-    _own(
+    _preamble(
         "preambleDetection.threshold",
         "preamble_threshold",
         power_ratio(),
-        "ThresholdPreambleDetection: least SNIR",
+        "least SNIR",
     ),
-    _own(
+    _preamble(
         "preambleDetection.minimumPower",
         "preamble_minimum_power_w",
         quantity("W", at_least=0, shown="dBm"),
-        "ThresholdPreambleDetection: least power of the frame",
+        "least power of the frame",
     ),
-    _own(
+    _preamble(
         "preambleDetection.duration",
         "preamble_duration_s",
         quantity("s", above=0, shown="us"),
-        "ThresholdPreambleDetection: how long a radio listens before it decides",
+        "how long a radio listens before it decides",
     ),
     _own(
         "frameCapture.typename",
@@ -65,16 +70,16 @@ RECEIVER_KEYS: tuple[Key, ...] = (
         choice("", "SimpleFrameCapture"),
         'Whether a stronger frame takes the place of one that has begun; "": never',
     ),
-    _own(
+    _capture(
         "frameCapture.margin",
         "capture_margin",
         power_ratio(),
-        "SimpleFrameCapture: how much stronger it has to be",
+        "how much stronger it has to be",
     ),
-    _own(
+    _capture(
         "frameCapture.window",
         "capture_window_s",
         quantity("s", at_least=0, shown="us"),
-        "SimpleFrameCapture: how long after the start of the other",
+        "how long after the start of the other",
     ),
 )

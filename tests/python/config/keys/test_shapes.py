@@ -4,7 +4,7 @@ import pytest
 
 from gradysim.config.error import BadValue
 from gradysim.config.expression import parse_value
-from gradysim.config.key import Key
+from gradysim.config.key import Key, ReadBy
 from gradysim.config.keys.shapes import Below, angle, bit_rate, level
 from gradysim.config.kinds import Kind
 
@@ -13,6 +13,19 @@ def test_a_key_stands_below_its_path_and_goes_to_its_struct() -> None:
     kind = angle()
     key = Below("wlan[0].radio", "radio")("tilt", "tilt_rad", kind, "How it is tilted", default="0deg")
     assert key == Key("wlan[0].radio.tilt", "radio.tilt_rad", kind, "How it is tilted", "0deg")
+
+
+def test_keys_further_down_stay_with_the_same_struct_and_models() -> None:
+    radio = Below("wlan[0].radio", "radio").only_for("medium.typename", "Air", "Vacuum")
+    key = radio.below("receiver")("level", "level_w", level(), "From where on it hears")
+    assert (key.path, key.target) == ("wlan[0].radio.receiver.level", "radio.level_w")
+    assert key.read_by == ReadBy("medium.typename", ("Air", "Vacuum"), "Air, Vacuum")
+
+
+def test_models_may_have_another_name_in_lists() -> None:
+    assert Below("mac", "mac").only_for("mac.typename", "LongName", shown="short").read_by == ReadBy(
+        "mac.typename", ("LongName",), "short"
+    )
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,87 @@
+"""What is allowed in a scenario and yet seldom meant: told before a run, which goes on all the same."""
+
+from collections.abc import Container, Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from gradysim.config.node_spec import NodeSpec
+from gradysim.config.scenario import Scenario
+from gradysim.config.setting import Setting
+from gradysim.config.source import Source
+from gradysim.config.unread_lines import Chosen, UnreadLines
+from gradysim.integrated.network import medium_config, node_config
+
+if TYPE_CHECKING:
+    from gradysim._netsim import MediumConfig
+
+_TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
+_WITHOUT_RADIOS = "UnitDiskRadioMedium"
+
+
+def scenario_warnings(scenario: Scenario) -> list[str]:
+    """Return one line of text for each: "FILE:LINE: warning: ..."."""
+    medium = medium_config(scenario)
+    return [*_unread_lines(scenario, medium), *_nodes_on_the_ground(scenario, medium)]
+
+
+def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
+    """The parameters of models that were not chosen."""
+    lines = UnreadLines()
+    of_network = _sources("medium", scenario.medium)
+    chosen = _chosen({"medium": medium}, of_network)
+    lines.add(of_network, chosen)
+    for obstacle in scenario.obstacles:
+        lines.add(obstacle.sources, chosen)
+    # Nodes with the same lines in force share their mappings: one of them stands for all.
+    alike = {
+        (spec.group, id(spec.protocol_sources), *map(id, _settings(spec).values())): spec
+        for spec in scenario.nodes
+    }
+    for spec in alike.values():
+        config = node_config(spec)
+        structs = {
+            "medium": medium,
+            "node": config,
+            "radio": config.radio,
+            "antenna": config.radio.antenna,
+            "mac": config.mac,
+            "csma": config.csma,
+            "mobility": config.mobility,
+        }
+        name = f"{spec.group}[*]" if spec.name.endswith("]") else spec.name
+        sources = {f"protocol.{field}": source for field, source in spec.protocol_sources.items()}
+        for struct, settings in _settings(spec).items():
+            sources |= _sources(struct, settings)
+        lines.add(sources, _chosen(structs, {*of_network, *sources}), name)
+    return lines.texts()
+
+
+def _settings(spec: NodeSpec) -> dict[str, Mapping[str, Setting]]:
+    structs = ("node", "radio", "antenna", "mac", "csma", "mobility")
+    return {struct: getattr(spec, struct) for struct in structs}
+
+
+def _sources(struct: str, settings: Mapping[str, Setting]) -> dict[str, Source]:
+    return {f"{struct}.{field}": setting.source for field, setting in settings.items()}
+
+
+def _chosen(structs: Mapping[str, object], written: Container[str]) -> Chosen:
+    def chosen(target: str) -> str | None:
+        struct, _, field = target.partition(".")
+        name = str(getattr(structs[struct], field))
+        return None if not name and target in written else name
+
+    return chosen
+
+
+def _nodes_on_the_ground(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
+    """Nodes whose two rays cancel."""
+    path_loss = scenario.medium.get("path_loss")
+    low = [spec.name for spec in scenario.nodes if spec.initial_position[2] == 0]
+    if path_loss is None or medium.path_loss not in _TWO_RAY or medium.typename == _WITHOUT_RADIOS or not low:
+        return
+    start = "starts" if len(low) == 1 else f"and {len(low) - 1} more start"
+    yield (
+        f"{path_loss.source}: warning: with {medium.path_loss}, a node on the ground hears next to nothing,"
+        f" as both rays cancel, and {low[0]} {start} at z = 0m; expected a height, such as"
+        f" `*.{low[0]}.mobility.initialZ = 1.5m`"
+    )

@@ -1,0 +1,35 @@
+"""What the command says of lines that are allowed and seldom meant."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gradysim.cli import main
+from gradysim.config import Scenario
+
+SIGMA = "*.radioMedium.pathLoss.sigma=3"
+
+
+@pytest.fixture
+def ini(make_scenario: Callable[..., Scenario], tmp_path: Path) -> str:
+    make_scenario()
+    return str(tmp_path / "test.ini")
+
+
+def test_a_line_that_nothing_reads_is_told_once_for_all_runs(
+    ini: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("gradysim._netsim")
+    assert main(["run", ini, "--quiet", "--set", SIGMA, "--set", "repeat=3"]) == 0
+    shown = capsys.readouterr()
+    assert shown.err.count("warning") == 1
+    assert f"--set {SIGMA}: warning: nothing reads" in shown.err
+    assert "warning" not in shown.out
+
+
+def test_prototype_mode_says_nothing_of_models_that_it_does_not_have(
+    ini: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", ini, "--quiet", "--mode", "prototype", "--set", SIGMA]) == 0
+    assert capsys.readouterr().err == ""
