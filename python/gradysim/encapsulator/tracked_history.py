@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 _COMPARABLE = frozenset({bool, int, float, str, type(None)})
 _NEVER = object()
-_make_tuple = tuple.__new__
 
 
 class TrackedValue(NamedTuple):
@@ -23,15 +22,21 @@ class TrackedHistory:
     itself a hundred times a second does not fill the memory. Lists and other objects are noted as they are,
     not copied: what is changed inside of one later shows in its earlier entries too.
 
-    Attributes:
-        values: The changes, in the order in which they happened.
     """
 
     def __init__(self, current_time: Callable[[], float]) -> None:
         """Start empty; `current_time()` gives the simulated time in seconds."""
-        self.values: list[TrackedValue] = []
         self._current_time = current_time
         self._last: dict[str, Any] = {}
+        # Apart and not as one list of changes: millions of those would keep the garbage collector busy.
+        self._times_s: list[float] = []
+        self._names: list[str] = []
+        self._values: list[Any] = []
+
+    @property
+    def values(self) -> list[TrackedValue]:
+        """The changes, in the order in which they happened."""
+        return list(map(TrackedValue, self._times_s, self._names, self._values))
 
     def note(self, name: str, value: Any) -> None:
         """Note that the variable `name` now is `value`; None for one that was removed."""
@@ -40,5 +45,6 @@ class TrackedHistory:
         if kind in _COMPARABLE and (last is value or (type(last) is kind and last == value)):
             return
         self._last[name] = value
-        # As TrackedValue(...), at half the time: some protocols change variables at every event.
-        self.values.append(_make_tuple(TrackedValue, (self._current_time(), name, value)))
+        self._times_s.append(self._current_time())
+        self._names.append(name)
+        self._values.append(value)

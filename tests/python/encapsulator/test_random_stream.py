@@ -55,11 +55,25 @@ def test_the_numbers_of_purposes_are_the_engines():
     assert max(engines.values()) < 100 <= Purpose.COMMUNICATION
 
 
-def test_words_come_block_by_block():
+@pytest.mark.parametrize("first", [0, 5, 2**32 - 3, 2**64 - 3])
+def test_words_come_block_by_block(first):
+    """However many are drawn at once; block numbers have 64 bits and begin again behind the last one."""
     stream = RandomStream(0x1234567890ABCDEF, 7, Purpose.PROTOCOL)
+    tag, name, _, words, gauss = stream.getstate()
+    stream.setstate((tag, name, first, words, gauss))
     key = (0x90ABCDEF, 0x12345678)
-    expected = [*philox4x32((0, 0, 7, 3), key), *philox4x32((1, 0, 7, 3), key)]
-    assert [stream.getrandbits(32) for _ in range(8)] == expected
+    numbers = [(first + count) % 2**64 for count in range(20)]
+    expected = [word for it in numbers for word in philox4x32((it % 2**32, it >> 32, 7, 3), key)]
+    assert [stream.getrandbits(32) for _ in range(80)] == expected
+
+
+@given(seeds, st.integers(0, 40))
+def test_a_number_is_made_of_the_next_two_words(seed, drawn):
+    stream, words = RandomStream(seed, 1), RandomStream(seed, 1)
+    stream.getrandbits(32 * drawn)
+    words.getrandbits(32 * drawn)
+    high, low = words.getrandbits(32), words.getrandbits(32)
+    assert stream.random() == ((high >> 5) * 2**26 + (low >> 6)) / 2**53
 
 
 def test_equal_names_give_equal_streams():

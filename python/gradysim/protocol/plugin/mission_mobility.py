@@ -183,11 +183,14 @@ class MissionMobilityPlugin:
     def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> None:
         # A handler before this one may have stopped the mission.
         if self._mission:
-            # squared_distance, written out: this runs at every telemetry of every vehicle.
+            # squared_distance, written out, and x alone first: this runs at every telemetry of every vehicle.
             x, y, z = telemetry.current_position
             target_x, target_y, target_z = self._mission[self._waypoint]
-            dx, dy, dz = x - target_x, y - target_y, z - target_z
+            dx = x - target_x
             tolerance = self._configuration.tolerance
+            if dx * dx > tolerance * tolerance:
+                return
+            dy, dz = y - target_y, z - target_z
             if dx * dx + dy * dy + dz * dz <= tolerance * tolerance:
                 self._advance()
 

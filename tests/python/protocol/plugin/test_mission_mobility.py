@@ -86,10 +86,13 @@ def test_a_loop_of_one_waypoint_stays_there_in_silence(protocol, loop):
     assert protocol.provider.targets == [(5.0, 5.0, 5.0)]
 
 
-@pytest.mark.parametrize(("distance", "waypoint"), [(0.5, 1), (0.51, 0)])
-def test_a_waypoint_is_reached_within_the_tolerance(protocol, distance, waypoint):
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize(("distance", "waypoint"), [(0.5, 1), (-0.5, 1), (0.51, 0), (-0.51, 0)])
+def test_a_waypoint_is_reached_within_the_tolerance(protocol, axis, distance, waypoint):
     plugin = mission(protocol, tolerance=0.5)
-    protocol.handle_telemetry(Telemetry((0.0, 0.0, distance)))
+    position = [0.0, 0.0, 0.0]
+    position[axis] = distance
+    protocol.handle_telemetry(Telemetry(tuple(position)))
     assert plugin.current_waypoint == waypoint
 
 
