@@ -142,6 +142,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("max_frame_retries", &CsmaConfig::max_frame_retries)
         .def_readwrite("ack_wait_s", &CsmaConfig::ack_wait_s)
         .def_readwrite("sifs_s", &CsmaConfig::sifs_s)
+        .def_readwrite("lifs_s", &CsmaConfig::lifs_s)
         .def_readwrite("backoff_method", &CsmaConfig::backoff_method)
         .def_readwrite("max_backoffs", &CsmaConfig::max_backoffs)
         .def_readwrite("min_be", &CsmaConfig::min_be)

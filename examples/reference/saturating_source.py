@@ -20,6 +20,8 @@ class SaturatingSource(IProtocol):
     """Messages handed over at once."""
     interval: float = 0.001
     """Seconds between two bursts, > 0."""
+    spread: float = 0.0
+    """Latest time of the first burst in seconds, drawn once per node; not negative."""
 
     def initialize(self) -> None:
         """Schedule the first burst."""
@@ -27,14 +29,15 @@ class SaturatingSource(IProtocol):
             raise ValueError(f"interval is {self.interval} s, expected more than 0 s")
         self._command = SendMessageCommand("x" * self.payload_bytes, self.destination)
         self._bursts = 0
-        self.provider.schedule_timer("burst", 0.0)
+        self._start = self.provider.random.uniform(0, self.spread)
+        self.provider.schedule_timer("burst", self._start)
 
     def handle_timer(self, timer: str) -> None:
         """Fill the queue up."""
         for _ in range(self.burst):
             self.provider.send_communication_command(self._command)
         self._bursts += 1
-        self.provider.schedule_timer("burst", self._bursts * self.interval)
+        self.provider.schedule_timer("burst", self._start + self._bursts * self.interval)
 
     def handle_packet(self, message: str) -> None:
         """Nobody writes to a source."""

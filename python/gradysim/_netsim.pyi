@@ -172,6 +172,7 @@ class CsmaConfig:
     max_frame_retries: int
     ack_wait_s: float
     sifs_s: float
+    lifs_s: float
     backoff_method: str
     max_backoffs: int
     min_be: int

@@ -12,6 +12,7 @@ void CsmaConfig::validate() const {
     check_between("csma.max_frame_retries", max_frame_retries, 0, 255, "");
     check_between("csma.ack_wait_s", ack_wait_s, shortest_s, longest_s, "s");
     check_between("csma.sifs_s", sifs_s, 0, longest_s, "s");
+    check_between("csma.lifs_s", lifs_s, 0, longest_s, "s");
     check_name("csma.backoff_method", backoff_method, backoff_method_names);
     check_between("csma.max_backoffs", max_backoffs, 0, 255, "");
     check_between("csma.max_be", max_be, 0, largest_exponent, "");

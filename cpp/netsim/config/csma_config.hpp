@@ -18,6 +18,9 @@ struct CsmaConfig {
     int max_frame_retries = 3;  // repetitions of a frame that is not acknowledged; 0 … 255
     double ack_wait_s = 560e-6;  // from the end of a frame until its sender gives up waiting; 1e-6 … 1
     double sifs_s = 192e-6;      // from the end of a received frame until its ACK begins; 0 … 1
+    // From the end of an exchange until the next wait; 0 … 1. The standard's long interframe space is 640e-6, 40 symbols
+    // (7.5.1.3), which all frames of this stack are long enough for; INET has none.
+    double lifs_s = 0;
 
     // A wait is a number of unit backoff periods, drawn from
     //   exponential: 0 … 2^BE − 1, where BE = min_be + failed assessments of this frame, at most max_be

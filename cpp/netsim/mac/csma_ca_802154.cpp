@@ -27,6 +27,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       cca_(SimTime::from_seconds(config.cca_s)),
       turnaround_(SimTime::from_seconds(config.turnaround_s)),
       sifs_(SimTime::from_seconds(config.sifs_s)),
+      lifs_(SimTime::from_seconds(config.lifs_s)),
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
       fates_(fates),
       listener_(listener),
@@ -79,8 +80,9 @@ void CsmaCa802154::go_on() {
 // The ends of the wait and of the assessment are the last events of their instants, so that they know all of these.
 void CsmaCa802154::back_off() {
     state_ = State::backing_off;
-    timer_ =
-        simulator_.schedule_after(unit_backoff_ * backoff_periods(), [this] { assess(); }, Priority::last);
+    const SimTime begin = std::max(simulator_.now(), rested_);
+    timer_ = simulator_.schedule_at(
+        begin + unit_backoff_ * backoff_periods(), [this] { assess(); }, Priority::last);
 }
 
 int CsmaCa802154::backoff_periods() {
@@ -144,6 +146,7 @@ void CsmaCa802154::transmission_ended() {
     }
     NETSIM_ASSERT(state_ == State::sending);
     if (in_progress_->receiver == broadcast_id || !config_.use_acks) {
+        rested_ = simulator_.now() + lifs_;
         finish(MessageFate::sent);
         return;
     }
@@ -182,6 +185,7 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
     } else if (frame.kind == FrameKind::ack && state_ == State::awaiting_ack &&
                frame.transmitter == in_progress_->receiver && frame.sequence == in_progress_->sequence) {
         simulator_.cancel(timer_);
+        rested_ = simulator_.now() + lifs_;
         finish(MessageFate::acknowledged);
     }
 }

@@ -21,8 +21,9 @@
 // without an answer. From ASSESSING on, until a frame or an ACK has been sent, the radio is deaf.
 //
 // Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments); the choices where the standard
-// leaves room are those of INET 4.5. Two differ from INET: a frame is given up after its last assessment also if it was
-// never on the air before, where INET starts afresh; and cca_whole_window is ours.
+// leaves room are those of INET 4.5. Three things differ from INET: a frame is given up after its last assessment also if
+// it was never on the air before, where INET starts afresh; cca_whole_window and lifs_s are ours (the latter is 7.5.1.3,
+// and as in ns-3 the wait begins at its end).
 #pragma once
 
 #include <cstdint>
@@ -84,6 +85,7 @@ private:
     SimTime cca_;
     SimTime turnaround_;
     SimTime sifs_;
+    SimTime lifs_;
     SimTime ack_wait_;
     MessageFates& fates_;
     LinkListener& listener_;
@@ -95,6 +97,7 @@ private:
     EventHandle timer_;                         // of the state
     std::shared_ptr<const Frame> in_progress_;  // was on the air, or is about to be
     std::shared_ptr<const Frame> ack_;          // that is about to be sent
+    SimTime rested_;                            // no wait begins before
     int failed_assessments_ = 0;                // of the present attempt
     int retries_ = 0;                           // of the frame in progress
     bool interrupted_ = false;                  // the present attempt, to send an ACK

@@ -16,6 +16,7 @@ TEST(CsmaConfig, DefaultsAreThoseOfInet) {
     EXPECT_EQ(config.max_frame_retries, 3);
     EXPECT_EQ(config.ack_wait_s, 560e-6);
     EXPECT_EQ(config.sifs_s, 192e-6);
+    EXPECT_EQ(config.lifs_s, 0);
     EXPECT_EQ(config.backoff_method, "exponential");
     EXPECT_EQ(config.max_backoffs, 4);
     EXPECT_EQ(config.min_be, 3);
@@ -40,6 +41,7 @@ TEST(CsmaConfig, EachFieldHasARange) {
              Case{[](CsmaConfig& c) { c.ack_wait_s = 0; },
                   "csma.ack_wait_s = 0 s: expected from 1e-06 s to 1 s"},
              Case{[](CsmaConfig& c) { c.sifs_s = -1; }, "csma.sifs_s = -1 s: expected from 0 s to 1 s"},
+             Case{[](CsmaConfig& c) { c.lifs_s = 2; }, "csma.lifs_s = 2 s: expected from 0 s to 1 s"},
              Case{[](CsmaConfig& c) { c.max_backoffs = 256; },
                   "csma.max_backoffs = 256: expected from 0 to 255"},
              Case{[](CsmaConfig& c) { c.min_be = 6; }, "csma.min_be = 6: expected from 0 to 5"},

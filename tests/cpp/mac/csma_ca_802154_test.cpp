@@ -370,6 +370,56 @@ TEST_F(CsmaCa802154Test, TheWholeWindowCanBeAskedFor) {
     EXPECT_EQ(sniffer.heard.at(1).start, cca * 2 + turnaround);
 }
 
+CsmaConfig with_rest() {
+    CsmaConfig config = without_backoff();
+    config.lifs_s = 640e-6;
+    return config;
+}
+
+TEST_F(CsmaCa802154Test, TheNextFrameRestsAfterAnAck) {
+    Device& sender = add_device({0, 0, 0}, with_rest());
+    Device& receiver = add_device({light_microsecond_m, 0, 0});
+    Sniffer& at_sender = add_sniffer({0, 0, 0});
+    sender.send(receiver.id(), 50);
+    sender.send(receiver.id(), 50);
+    air.run();
+    ASSERT_EQ(at_sender.heard.size(), 4U);
+    EXPECT_EQ(at_sender.heard[2].start, at_sender.heard[1].end + us(640) + cca + turnaround);
+}
+
+TEST_F(CsmaCa802154Test, TheNextFrameRestsAfterOneWithoutAck) {
+    Device& sender = add_device({0, 0, 0}, with_rest());
+    Sniffer& sniffer = add_sniffer({0, 0, 0});
+    sender.send(broadcast_id, 50);
+    sender.send(broadcast_id, 50);
+    air.run();
+    ASSERT_EQ(sniffer.heard.size(), 2U);
+    EXPECT_EQ(sniffer.heard[1].start, sniffer.heard[0].end + us(640) + cca + turnaround);
+}
+
+TEST_F(CsmaCa802154Test, AMessageThatComesDuringTheRestWaitsForItsEnd) {
+    Device& sender = add_device({0, 0, 0}, with_rest());
+    Sniffer& sniffer = add_sniffer({0, 0, 0});
+    const SimTime first_end = cca + turnaround + data_duration;
+    sender.send(broadcast_id, 50);
+    air.at(first_end + us(100), [&] { sender.send(broadcast_id, 50); });
+    air.at(first_end + us(50'000), [&] { sender.send(broadcast_id, 50); });
+    air.run();
+    ASSERT_EQ(sniffer.heard.size(), 3U);
+    EXPECT_EQ(sniffer.heard[1].start, first_end + us(640) + cca + turnaround);
+    EXPECT_EQ(sniffer.heard[2].start, first_end + us(50'000) + cca + turnaround);
+}
+
+TEST_F(CsmaCa802154Test, NoRestComesBeforeARepetition) {
+    Device& sender = add_device({0, 0, 0}, with_rest());
+    Sniffer& sniffer = add_sniffer({0, 0, 0});
+    constexpr NodeId nobody = 99;
+    sender.send(nobody, 50);
+    air.run();
+    ASSERT_EQ(sniffer.heard.size(), 4U);
+    EXPECT_EQ(sniffer.heard[1].start, sniffer.heard[0].end + ack_wait + cca + turnaround);
+}
+
 TEST_F(CsmaCa802154Test, AFullQueueDropsTheNewcomer) {
     CsmaConfig config;
     config.queue_capacity = 1;

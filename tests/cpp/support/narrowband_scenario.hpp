@@ -55,6 +55,7 @@ inline RandomScenario make_narrowband_scenario(std::uint64_t seed) {
         device.csma.max_be = eager ? 1 : 3 + below(3);
         device.csma.cca_whole_window = chance(0.3);
         device.csma.queue_capacity = chance(0.8) ? 100 : 1;
+        device.csma.lifs_s = chance(0.3) ? 640e-6 : 0;
         node = device;
     }
     scenario.talk.longest_text = 70;  // behind a number of the sender and one of the message

@@ -74,6 +74,12 @@ def test_source_and_sink() -> None:
     assert_alike(native, result(SATURATION, "G54", SECOND, count_from))
 
 
+def test_sources_that_begin_at_times_of_their_own() -> None:
+    spread = "*.stations[*].protocol.spread = 500ms"
+    native = result(SATURATION, "G54", SECOND, spread, STATIONS, SINK)
+    assert_alike(native, result(SATURATION, "G54", SECOND, spread))
+
+
 def test_flood() -> None:
     native = result(FLOOD, "General")
     assert_alike(native, result(FLOOD, "Python"))

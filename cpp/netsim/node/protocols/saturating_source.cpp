@@ -14,6 +14,7 @@ void SaturatingSourceConfig::validate() const {
     check_payload_bytes(payload_bytes);
     check_between("protocol.burst", static_cast<double>(burst), 1, most, "");
     check_greater("protocol.interval", interval_s, 0, "s");
+    check_at_least("protocol.spread", spread_s, 0, "s");
 }
 
 SaturatingSource::SaturatingSource(Node& node, const SaturatingSourceConfig& config)
@@ -31,11 +32,14 @@ NativeProtocol SaturatingSource::description() {
             {"payload_bytes", &Config::payload_bytes, "B", "Size of a message"},
             {"burst", &Config::burst, "", "Messages handed over at once"},
             {"interval", &Config::interval_s, "s", "Time between two bursts"},
+            {"spread", &Config::spread_s, "s",
+             "Latest time of the first burst, which is drawn for each node"},
         });
 }
 
 void SaturatingSource::initialize() {
-    node_.schedule_timer("burst", SimTime());
+    start_s_ = node_.random().uniform(0, config_.spread_s);
+    node_.schedule_timer("burst", SimTime::from_seconds(start_s_));
 }
 
 void SaturatingSource::handle_timer(const std::string&) {
@@ -43,7 +47,8 @@ void SaturatingSource::handle_timer(const std::string&) {
         node_.send(static_cast<NodeId>(config_.destination), message_);
     }
     ++bursts_;
-    node_.schedule_timer("burst", SimTime::from_seconds(static_cast<double>(bursts_) * config_.interval_s));
+    const double time_s = start_s_ + static_cast<double>(bursts_) * config_.interval_s;
+    node_.schedule_timer("burst", SimTime::from_seconds(time_s));
 }
 
 }  // namespace netsim

@@ -12,12 +12,14 @@ struct SaturatingSourceConfig {
     std::int64_t payload_bytes = 1000;  // ≥ 0
     std::int64_t burst = 4;             // ≥ 1
     double interval_s = 0.001;          // > 0
+    double spread_s = 0;                // ≥ 0
 
     void validate() const;
 };
 
 // Hands a burst of messages to its MAC at regular times, faster than the channel can carry them: the queue never runs
-// empty. The defaults offer 32 Mbps of payload. What does not fit into the queue is dropped there.
+// empty. The defaults offer 32 Mbps of payload. What does not fit into the queue is dropped there. The time of the first
+// burst is drawn at the start, between 0 and spread.
 class SaturatingSource final : public Protocol {
 public:
     SaturatingSource(Node& node, const SaturatingSourceConfig& config);
@@ -33,6 +35,7 @@ private:
     Node& node_;
     SaturatingSourceConfig config_;
     Payload message_;
+    double start_s_ = 0;
     std::int64_t bursts_ = 0;
 };
 

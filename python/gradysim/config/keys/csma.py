@@ -31,6 +31,12 @@ CSMA_KEYS: tuple[Key, ...] = (
         "from the end of a frame to its ACK",
     ),
     _mac(
+        "macLIFSPeriod",
+        "lifs_s",
+        quantity("s", at_least=0, shown="us"),
+        "rest after a frame or its ACK, before the next wait; none in INET, 640us in the standard",
+    ),
+    _mac(
         "macMaxCSMABackoffs",
         "max_backoffs",
         integer(0),

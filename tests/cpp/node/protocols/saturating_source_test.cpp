@@ -22,6 +22,15 @@ TEST_F(SaturatingSourceTest, HandsOverABurstInEachInterval) {
     EXPECT_EQ(other->packets.back().text, "xxxxxxxxxx");
 }
 
+TEST_F(SaturatingSourceTest, BeginsWithinTheSpread) {
+    run("SaturatingSource",
+        {{"destination", std::int64_t{1}}, {"burst", std::int64_t{1}}, {"interval", 10.0}, {"spread", 5.0}},
+        6);
+    ASSERT_EQ(other->packets.size(), 1U);
+    EXPECT_GT(other->packets[0].time, SimTime::from_seconds(0.01));
+    EXPECT_LT(other->packets[0].time, SimTime::from_seconds(5.01));
+}
+
 TEST_F(SaturatingSourceTest, ItsQueueNeverRunsEmpty) {
     run("SaturatingSource", {{"destination", std::int64_t{1}}}, 1);
     constexpr auto dropped = static_cast<std::size_t>(MessageFate::queue_overflow);
