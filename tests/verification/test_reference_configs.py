@@ -17,9 +17,11 @@ from gradysim.results.run_result import RunResult
 
 FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 BASES = {"Sensitivity", "Noise"}
+COMPLETED = {"link", "narrowband", "narrowband_contention", "saturation"}
+"""Files whose General runs only with what the others add."""
 FILES = {
-    *("beacons", "capture", "flood", "hidden", "jittered", "link", "narrowband", "rate_control"),
-    *("saturation", "sir"),
+    *("beacons", "capture", "flood", "hidden", "jittered", "link", "narrowband", "narrowband_contention"),
+    *("rate_control", "saturation", "sir"),
     "synchronised",
 }
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
@@ -33,7 +35,7 @@ def runnable() -> list[tuple[str, str]]:
         for config in config_names(read_ini(file))
         if not file.stem.endswith("_positions")
         and config not in BASES
-        and (config != "General" or file.stem not in ("link", "narrowband", "saturation"))
+        and (config != "General" or file.stem not in COMPLETED)
     ]
 
 
