@@ -11,26 +11,19 @@ import pytest
 
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.simulator import real_time
+from python.quiet_protocol import QUIET
 
-PROTOCOL = """
+PROTOCOL = f"""{QUIET}
 import random
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, GotoGeoCoordsMobilityCommand
-
-class Quiet(IProtocol):
-    def initialize(self): pass
-    def handle_timer(self, timer): pass
-    def handle_packet(self, message): pass
-    def handle_telemetry(self, telemetry): pass
-    def finish(self): pass
 
 class Talker(Quiet):
     heard = 0
     def initialize(self):
         self.provider.schedule_timer("talk", 0.1 + 0.01 * self.provider.get_id())
     def handle_timer(self, timer):
-        self.provider.send_communication_command(BroadcastMessageCommand(f"{random.random()}"))
+        self.provider.send_communication_command(BroadcastMessageCommand(f"{{random.random()}}"))
         self.provider.schedule_timer("talk", self.provider.current_time() + 0.1)
     def handle_packet(self, message):
         self.heard += 1

@@ -1,26 +1,21 @@
 """`gradysim run --pcap`: which files are written, and what is refused."""
 
-import os
-import subprocess
-import sys
-from collections.abc import Callable
-from importlib import util
+from functools import partial
 from pathlib import Path
 
 import pytest
 
-PROTOCOL = """
-from gradysim.protocol.interface import IProtocol
+from python.cli.command import Gradysim, compiled, run_gradysim
+from python.quiet_protocol import QUIET
+
+PROTOCOL = f"""{QUIET}
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 
-class Talker(IProtocol):
+class Talker(Quiet):
     def initialize(self):
         self.provider.schedule_timer("talk", 1 + 0.01 * self.provider.get_id())
     def handle_timer(self, timer):
         self.provider.send_communication_command(BroadcastMessageCommand("hello"))
-    def handle_packet(self, message): pass
-    def handle_telemetry(self, telemetry): pass
-    def finish(self): pass
 
 class Failing(Talker):
     def handle_packet(self, message):
@@ -38,12 +33,6 @@ repeat = 3
 *.uavs[*].protocol.class = "protocol.py:Failing"
 """
 
-compiled = pytest.mark.skipif(
-    util.find_spec("gradysim._netsim") is None, reason="the compiled part is not installed"
-)
-
-Gradysim = Callable[..., subprocess.CompletedProcess[str]]
-
 
 @pytest.fixture
 def gradysim_run(tmp_path: Path) -> Gradysim:
@@ -51,17 +40,7 @@ def gradysim_run(tmp_path: Path) -> Gradysim:
     (tmp_path / "protocol.py").write_text(PROTOCOL)
     (tmp_path / "test.ini").write_text(INI)
 
-    def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, "-m", "gradysim", "run", "test.ini", *arguments],
-            cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"},
-            capture_output=True,
-            text=True,
-            timeout=60,
-        )
-
-    return run
+    return partial(run_gradysim, tmp_path, "run", "test.ini")
 
 
 def names_in(folder: Path) -> list[str]:

@@ -12,6 +12,7 @@ from gradysim.simulator.handler.communication import CommunicationHandler, Commu
 from gradysim.simulator.handler.mobility import MobilityConfiguration, MobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.quiet_protocol import QUIET
 
 
 class RecordingProvider(IProvider):
@@ -107,18 +108,6 @@ def make_protocol():
 @pytest.fixture
 def protocol(make_protocol):
     return make_protocol()
-
-
-QUIET = """
-from gradysim.protocol.interface import IProtocol
-
-class Quiet(IProtocol):
-    def initialize(self): pass
-    def handle_timer(self, timer): pass
-    def handle_packet(self, message): pass
-    def handle_telemetry(self, telemetry): pass
-    def finish(self): pass
-"""
 
 
 class Outcome(NamedTuple):

@@ -1,0 +1,117 @@
+"""The command as a process of its own, and the folder that it runs in."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from importlib import util
+from pathlib import Path
+
+import pytest
+
+from python.quiet_protocol import QUIET
+
+PROTOCOL = f"""{QUIET}
+import signal
+import sys
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+
+class Talker(Quiet):
+    def initialize(self):
+        print("printed by a protocol")
+        self.provider.tracked_variables["said"] = 0
+        self.provider.schedule_timer("talk", 1 + 0.01 * self.provider.get_id())
+    def handle_timer(self, timer):
+        self.provider.send_communication_command(BroadcastMessageCommand("hello"))
+        self.provider.tracked_variables["said"] += 1
+        self.provider.schedule_timer("talk", self.provider.current_time() + 1)
+
+class Failing(Talker):
+    def handle_packet(self, message):
+        raise RuntimeError("spoilt")
+
+class Endless(Talker):
+    def initialize(self):
+        super().initialize()
+        print("ready", file=sys.stderr, flush=True)
+
+class Stuck(Talker):
+    def handle_timer(self, timer):
+        while True:
+            signal.raise_signal(signal.SIGINT)
+
+class Unmakeable(Quiet):
+    def __init__(self):
+        raise RuntimeError("no constructor")
+"""
+
+
+INI = """[General]
+sim-time-limit = 10.5s
+repeat = 3
+*.uavs.count = 2
+*.uavs[*].protocol.class = "protocol.py:Talker"
+*.uavs[*].mobility.lineStepX = 10m
+*.uavs[*].mobility.telemetryInterval = 0s
+
+[Config Failing]
+*.uavs[*].protocol.class = "protocol.py:Failing"
+
+[Config Endless]
+sim-time-limit = 2500h
+*.uavs[*].protocol.class = "protocol.py:Endless"
+*.uavs[*].mobility.telemetryInterval = 0.1s
+
+[Config Stuck]
+*.uavs[*].protocol.class = "protocol.py:Stuck"
+
+[Config Unmakeable]
+*.uavs[*].protocol.class = "protocol.py:Unmakeable"
+
+[Config Chatty]
+*.uavs[*].protocol.class = "chatty.py:Talker"
+
+[Config LateMistake]
+*.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 20000 * ${runnumber}
+*.uavs[*].mobility.telemetryInterval = ${runnumber}ms
+
+[Config WrongKey]
+*.uavs[*].mobility.sped = 3mps
+"""
+
+
+LINE_OF_THE_WRONG_KEY = INI.splitlines().index("*.uavs[*].mobility.sped = 3mps") + 1
+
+
+compiled = pytest.mark.skipif(
+    util.find_spec("gradysim._netsim") is None, reason="the compiled part is not installed"
+)
+
+
+both_modes = pytest.mark.parametrize("mode", [pytest.param("integrated", marks=compiled), "prototype"])
+
+
+Gradysim = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def environment() -> dict[str, str]:
+    """Of a process that finds the same modules as this one."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"}
+
+
+def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run the command in a folder."""
+    return subprocess.run(
+        [sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+
+def objects(output: str) -> list[dict]:
+    """The JSON objects of an output, one in each line."""
+    return [json.loads(line) for line in output.splitlines()]

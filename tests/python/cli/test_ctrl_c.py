@@ -1,0 +1,42 @@
+"""What Ctrl-C does to a run."""
+
+import signal
+import subprocess
+import sys
+
+from python.cli.command import both_modes, environment, objects
+
+
+@both_modes
+def test_ctrl_c_ends_a_run_cleanly_within_a_second(folder, mode):
+    with subprocess.Popen(
+        [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", "--mode", mode, "--json"],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        while "ready" not in (line := process.stderr.readline()):
+            assert line, "it ended before it was ready"
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=1)
+    assert process.returncode == 130
+    (run,) = objects(out)
+    assert run["interrupted"]
+    assert 0 < run["sim_time_s"] < 9_000_000
+    assert "Traceback" not in err
+
+
+@both_modes
+def test_a_second_ctrl_c_leaves_a_protocol_that_never_returns(gradysim, mode):
+    done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", mode, "--json")
+    assert done.returncode == 130
+    (run,) = objects(done.stdout)
+    assert (run["interrupted"], run["sim_time_s"]) == (True, 1.0)
+
+
+@both_modes
+def test_the_summary_of_an_interrupted_run_says_so(gradysim, mode):
+    done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", mode)
+    assert "interrupted at 1 s of simulated time" in done.stdout

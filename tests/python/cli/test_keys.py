@@ -1,0 +1,13 @@
+"""`gradysim keys`."""
+
+
+def test_keys_are_plain_lines_when_there_is_no_terminal(gradysim):
+    done = gradysim("keys", "mobility.speed")
+    assert done.returncode == 0
+    assert [line.split("\t")[0] for line in done.stdout.splitlines()] == ["*.nodes[*].mobility.speed"]
+
+
+def test_a_pattern_that_no_key_matches_is_a_mistake(gradysim):
+    done = gradysim("keys", "nonsense")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "nonsense" in done.stderr

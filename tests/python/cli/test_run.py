@@ -1,0 +1,143 @@
+"""`gradysim run` as a user meets it: a process with arguments, output and an exit code."""
+
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from python.cli.command import both_modes, compiled, environment, objects
+
+
+@both_modes
+def test_the_summary(gradysim, mode):
+    done = gradysim("run", "test.ini", "--mode", mode, "-r", "1")
+    assert done.returncode == 0, done.stderr
+    for text in ("General run 1", "seed 1", f"{mode} mode", "uavs[1]", "said = 10", "delivered", "10.5 s"):
+        assert text in done.stdout
+    assert done.stderr == ""
+
+
+@compiled
+def test_integrated_is_the_default(gradysim):
+    assert "integrated mode" in gradysim("run", "test.ini", "-r", "0").stdout
+
+
+def test_all_runs_are_the_default(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--json")
+    assert [run["run"] for run in objects(done.stdout)] == [0, 1, 2]
+
+
+def test_chosen_runs(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--json", "-r", "0,2")
+    assert [run["run"] for run in objects(done.stdout)] == [0, 2]
+
+
+@both_modes
+def test_json_has_the_keys_that_scripts_rely_on(gradysim, mode):
+    (run,) = objects(gradysim("run", "test.ini", "--mode", mode, "--json", "-r", "0").stdout)
+    assert set(run) == {
+        "config",
+        "run",
+        "seed",
+        "mode",
+        "sim_time_s",
+        "wall_s",
+        "cpu_s",
+        "events",
+        "interrupted",
+        "fingerprint",
+        "fates",
+        "nodes",
+    }
+    assert set(run["nodes"][0]) == {"id", "name", "protocol", "position", "tracked_variables"}
+    assert run["mode"] == mode
+    assert run["nodes"][0]["tracked_variables"] == {"said": 10}
+
+
+@pytest.mark.parametrize("origin", ["protocol", "module"])
+def test_what_protocols_print_is_kept_out_of_the_json(gradysim, origin):
+    done = gradysim("run", "test.ini", "-c", "Chatty", "--mode", "prototype", "--json", "-r", "0")
+    assert len(done.stdout.splitlines()) == 1
+    assert f"printed by a {origin}" in done.stderr
+
+
+def test_set_comes_before_the_file(gradysim):
+    done = gradysim(
+        "run", "test.ini", "--mode", "prototype", "--json", "-r", "0",
+        "--set", "sim-time-limit=5s", "--set", "*.uavs.count = 3",
+    )  # fmt: skip
+    (run,) = objects(done.stdout)
+    assert (run["sim_time_s"], len(run["nodes"])) == (5.0, 3)
+
+
+def test_the_seed_of_the_first_run_counts_on_in_the_next(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--seed", "40", "-r", "0,2", "--json")
+    assert [run["seed"] for run in objects(done.stdout)] == [40, 42]
+
+
+@pytest.mark.parametrize(
+    ("runs", "seed", "warned"), [("0..2", 4, True), ("1", 4, False), ("0..2", None, False)]
+)
+def test_runs_with_one_seed_are_warned_of(gradysim, runs, seed, warned):
+    fixed = () if seed is None else ("--set", f"seed-set={seed}")
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--json", "-r", runs, *fixed)
+    assert done.returncode == 0
+    assert ("warning: the 3 runs of General have seed 4" in done.stderr) is warned
+
+
+def test_a_negative_seed_is_refused(gradysim):
+    done = gradysim("run", "test.ini", "--seed=-1")
+    assert (done.returncode, done.stderr.strip()) == (2, "--seed -1: expected 0 or more")
+
+
+def test_the_result_directory(gradysim, folder):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0,2", "--result-dir", "out/here")
+    assert sorted(path.name for path in (folder / "out" / "here").iterdir()) == [
+        "General-#0.prototype.json",
+        "General-#2.prototype.json",
+    ]
+    assert "General-#2.prototype.json" in done.stdout
+    assert json.loads((folder / "out" / "here" / "General-#2.prototype.json").read_text())["run"] == 2
+
+
+def test_a_result_directory_that_is_a_file_is_named_with_its_option(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", "test.ini")
+    expected = "--result-dir test.ini: it is a file; expected a folder, or a new name"
+    assert (done.returncode, done.stderr.strip()) == (2, expected)
+
+
+@pytest.mark.parametrize("arguments", [["keys"], ["run", "test.ini", "--mode", "prototype", "--json"]])
+def test_a_reader_that_has_had_enough_ends_it_silently(folder, arguments):
+    theirs, ours = os.pipe()
+    os.close(theirs)
+    done = subprocess.run(
+        [sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env=environment(),
+        stdout=ours,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    os.close(ours)
+    assert [line for line in done.stderr.splitlines() if line != "printed by a protocol"] == []
+
+
+@compiled
+def test_the_same_seed_gives_the_same_fingerprint_in_another_process(gradysim):
+    first, again = (
+        objects(gradysim("run", "test.ini", "--json", "-r", "0").stdout)[0]["fingerprint"] for _ in range(2)
+    )
+    assert first == again
+
+
+def test_runs_lists_the_runs(gradysim):
+    done = gradysim("runs", "test.ini", "-c", "Failing")
+    assert done.returncode == 0
+    assert done.stdout.splitlines() == [
+        "Run 0: $repetition=0",
+        "Run 1: $repetition=1",
+        "Run 2: $repetition=2",
+    ]
