@@ -1,0 +1,68 @@
+"""What a user writes: a protocol, an environment of one's own, a script that builds a simulation."""
+
+from typing import Any
+
+from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.messages.communication import (
+    CommunicationCommand,
+)
+from gradysim.protocol.messages.mobility import (
+    MobilityCommand,
+)
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.simulator.handler.communication import CommunicationHandler
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.simulation import (
+    SimulationBuilder,
+    SimulationConfiguration,
+    Simulator,
+)
+
+
+class Quiet(IProtocol):
+    """Does nothing; the tests override what they need."""
+
+    def initialize(self) -> None: ...
+
+    def handle_timer(self, timer: str) -> None: ...
+
+    def handle_packet(self, message: str) -> None: ...
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
+
+    def finish(self) -> None: ...
+
+
+class Provider(IProvider):
+    """A user's own environment, written against the published interface: all that it has is a clock."""
+
+    now = 0.0
+
+    def send_communication_command(self, command: CommunicationCommand) -> None: ...
+
+    def send_mobility_command(self, command: MobilityCommand) -> None: ...
+
+    def schedule_timer(self, timer: str, timestamp: float) -> None: ...
+
+    def cancel_timer(self, timer: str) -> None: ...
+
+    def current_time(self) -> float:
+        return self.now
+
+    def get_id(self) -> int:
+        return 4
+
+
+def simulation(
+    *protocols: type[IProtocol], handlers: tuple[INodeHandler, ...] | None = None, **configuration: Any
+) -> Simulator:
+    """A simulation of nodes at the origin, with timers and communication if nothing else is said."""
+    builder = SimulationBuilder(
+        SimulationConfiguration(**{"duration": 10, "execution_logging": False} | configuration)
+    )
+    for handler in (TimerHandler(), CommunicationHandler()) if handlers is None else handlers:
+        builder.add_handler(handler)
+    for protocol in protocols:
+        builder.add_node(protocol, (0, 0, 0))
+    return builder.build()
