@@ -1,0 +1,109 @@
+"""Simulations whose nodes are flown by processes that speak MAVLink: the toy of tests/python/sitl."""
+
+import os
+from pathlib import Path
+from typing import ClassVar
+
+import pytest
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.simulator.handler.ardupilot_mobility import (
+    ArdupilotMobilityConfiguration,
+    ArdupilotMobilityException,
+    ArdupilotMobilityHandler,
+)
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+
+REFERENCE = (-15.84, -47.92, 1000.0)
+
+
+SPEED = 10
+
+
+class Flyer(IProtocol):
+    """Does `deeds[time](self)` at the times given, and keeps its telemetry."""
+
+    deeds: ClassVar = {}
+
+    def initialize(self):
+        self.telemetry = []
+        for moment in self.deeds:
+            self.provider.schedule_timer(str(moment), moment)
+
+    def handle_timer(self, timer):
+        self.deeds[float(timer)](self)
+
+    def handle_packet(self, message): ...
+
+    def handle_telemetry(self, telemetry):
+        self.telemetry.append((self.provider.current_time(), telemetry.current_position))
+
+    def finish(self): ...
+
+    def at(self, moment):
+        """Where it was by its last telemetry before a time."""
+        return [position for time, position in self.telemetry if time <= moment][-1]
+
+
+def flyer(**deeds):
+    """`flyer(at_2=command)`: a class of protocols that send commands."""
+    chosen = {float(name.removeprefix("at_")): _sender(command) for name, command in deeds.items()}
+    return type("Flyer", (Flyer,), {"deeds": chosen})
+
+
+def _sender(command):
+    if callable(command):
+        return command
+    return lambda protocol: protocol.provider.send_mobility_command(command)
+
+
+def programs_in(folder):
+    """The command lines of running processes that name a folder."""
+    found = []
+    for file in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            line = file.read_bytes()
+        except OSError:
+            continue
+        if str(folder).encode() in line and int(file.parent.name) != os.getpid():
+            found.append(line)
+    return found
+
+
+def build(program, *protocols, positions=None, duration=5, real_time=SPEED, **settings):
+    configuration = ArdupilotMobilityConfiguration(
+        **{
+            "ardupilot_path": program,
+            "reference_coordinates": REFERENCE,
+            "simulation_startup_speedup": 50,
+            "autopilot_user": None,
+            "uav_api_startup_timeout": 20,
+            **settings,
+        }
+    )
+    builder = SimulationBuilder(
+        SimulationConfiguration(duration=duration, real_time=real_time, execution_logging=False)
+    )
+    builder.add_handler(TimerHandler())
+    builder.add_handler(ArdupilotMobilityHandler(configuration))
+    for number, protocol in enumerate(protocols):
+        builder.add_node(protocol, positions[number] if positions else (10.0 * number, 5.0, 12.0))
+    return builder.build()
+
+
+def fly(*arguments, **settings):
+    """Run a simulation to its end; return its protocols."""
+    simulator = build(*arguments, **settings)
+    simulator.start_simulation()
+    return [node.protocol_encapsulator.protocol for node in simulator.nodes]
+
+
+def near(position, within=1.5):
+    return pytest.approx(position, abs=within)
+
+
+def failure_of(*arguments, **settings):
+    with pytest.raises(ArdupilotMobilityException) as caught:
+        fly(*arguments, **settings)
+    return str(caught.value)

@@ -1,0 +1,53 @@
+"""What is refused before or while nodes fly."""
+
+import gc
+import sys
+
+import pytest
+
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    GotoGeoCoordsMobilityCommand,
+    MobilityCommand,
+    SetSpeedMobilityCommand,
+    SetVelocityMobilityCommand,
+)
+from gradysim.simulator.handler.ardupilot_mobility import (
+    ArdupilotMobilityException,
+)
+from gradysim.sitl.dialect import load_dialect
+from python.simulator.handler.ardupilot_mobility.flying import Flyer, build, failure_of, fly, flyer
+
+
+def test_who_seeks_no_real_time_is_told(toy_copter):
+    with pytest.raises(ArdupilotMobilityException, match="set real_time=True"):
+        build(toy_copter(), Flyer, real_time=False)
+    gc.collect()
+
+
+def test_without_pymavlink_the_error_says_what_to_install(toy_copter, monkeypatch):
+    load_dialect.cache_clear()
+    monkeypatch.setitem(sys.modules, "pymavlink.dialects.v20.ardupilotmega", None)
+    with pytest.raises(ModuleNotFoundError, match=r'pip install "gradysim\[sitl\]"'):
+        fly(toy_copter(), Flyer)
+
+
+def test_without_an_autopilot_the_error_says_what_to_give(tmp_path):
+    assert "there is no such file" in failure_of(tmp_path / "nothing", Flyer)
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (GotoCoordsMobilityCommand(float("nan"), 0, 0), "expected three finite numbers"),
+        (GotoCoordsMobilityCommand(0, 1e8, 0), "beyond the Earth's edge"),
+        (GotoGeoCoordsMobilityCommand(91, 0, 0), "latitude 91"),
+        (SetSpeedMobilityCommand(-1), "speed -1"),
+        (SetVelocityMobilityCommand(1, None, 0), "expected three finite numbers"),
+        (MobilityCommand(17), "unknown mobility command"),
+    ],
+)
+def test_a_command_that_means_nothing_is_refused(toy_copter, command, said):
+    text = failure_of(toy_copter(), flyer(at_0=command))
+    assert text.startswith("node 0 was ")
+    assert said in text
