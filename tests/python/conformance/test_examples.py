@@ -24,6 +24,16 @@ CASES = {  # file in configs: (configuration, reach in metres, more settings)
     "reference/jittered": ("General", 100, ()),
     "reference/link": ("Snr24", 45, ()),
     "reference/narrowband": ("Contention", 100, ()),
+    "reference/narrowband_contention": (
+        "Inet",
+        100,
+        (
+            "sim-time-limit = 200ms",
+            "*.sink.protocol.count_from = 10ms",
+            '*.sink.protocol.class = "../../examples/reference/sink.py:Sink"',
+            '*.stations[*].protocol.class = "../../examples/reference/saturating_source.py:SaturatingSource"',
+        ),
+    ),
     "reference/rate_control": ("Fixed", 1000, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/sir": ("General", 1000, ()),
