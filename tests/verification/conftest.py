@@ -20,6 +20,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out what does nothing but draw when no pictures are wanted, as matplotlib may not be there."""
+    only_draws = collection_path.name.endswith("_picture.py")
+    return True if only_draws and not config.getoption("--verify") else None
+
+
 @pytest.fixture(autouse=True)
 def _engine() -> None:
     pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")

@@ -1,6 +1,7 @@
 """What docs/guides/calibrate.md shows is what the command prints."""
 
 import re
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,12 +29,13 @@ def test_the_command_prints_what_it_shows(
     assert "   100 m     0.00 %" in printed
 
 
-def test_a_picture_is_drawn(root: Path, tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib", reason="of the extra `plot`")
-    file = tmp_path / "curve.svg"
-    arguments = f"calibrate {root}/configs/zigzag.ini -c ZigZag5 --range 50m --picture {file}"
-    assert main(arguments.split()) == 0
-    assert "share of frames received" in file.read_text(encoding="utf-8")
+def test_without_matplotlib_a_picture_is_a_mistake_that_says_how_to_get_it(
+    root: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    arguments = f"calibrate {root}/configs/zigzag.ini -c ZigZag5 --range 50m --picture curve.svg"
+    assert main(arguments.split()) == 2
+    assert "pip install 'gradysim[plot]'" in capsys.readouterr().err
 
 
 def test_a_mistake_is_told_with_its_option(root: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -119,3 +119,11 @@ def test_contributing_lists_every_command(root: Path) -> None:
     targets = set(re.findall(r"^([a-z-]+):.*##", (root / "Makefile").read_text(), re.MULTILINE))
     table = set(re.findall(r"^\| `make ([a-z-]+)`", (root / "CONTRIBUTING.md").read_text(), re.MULTILINE))
     assert targets - table == {"help"}
+
+
+def test_each_line_of_its_sh_snippets_is_of_a_kind_that_is_tested_here() -> None:
+    snippets = re.findall(r"^```sh\n(.*?)^```", README.read_text(), re.MULTILINE | re.DOTALL)
+    loop = re.compile(r"^for .*?^done$", re.MULTILINE | re.DOTALL)
+    lines = loop.sub("", "".join(snippets)).split("\n")
+    known = re.compile(r"make [a-z-]+ .*|docker .*|gradysim run .* # .*heard = \d+|")
+    assert [line for line in lines if not known.fullmatch(line)] == []

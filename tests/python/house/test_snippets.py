@@ -1,8 +1,40 @@
-"""Every document in README.md and docs/ that has snippets has a test that reads all kinds of them."""
+"""Every snippet in Python of the documents runs, and each document with snippets has a test of its own."""
 
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
+
+import pytest
+
+_ROOT = Path(__file__).parents[3]
+
+SAVED_AS = {"docs/guides/handlers.md": "climber"}
+"""Documents whose first snippet is a file of its own, which the others import."""
+
+NEEDS_AN_AUTOPILOT = {"docs/guides/ardupilot.md"}
+"""Documents whose main program flies an autopilot: here only what it defines is run.
+
+tests/python/house/test_ardupilot_guide.py flies it with a toy, tests/python/sitl/test_real_autopilot.py shows
+that real ones fly.
+"""
+
+
+DOCUMENTS = [*sorted(_ROOT.glob("*.md")), *sorted((_ROOT / "docs").rglob("*.md"))]
+
+
+def snippets() -> list[tuple[str, int]]:
+    """The document and the number of each snippet in Python."""
+    return [
+        (str(file.relative_to(_ROOT)), number) for file in DOCUMENTS for number in range(len(programs(file)))
+    ]
+
+
+def programs(document: Path) -> list[str]:
+    """The snippets in Python of a document."""
+    return re.findall(r"^```python\n(.*?)^```", document.read_text(), re.MULTILINE | re.DOTALL)
 
 
 def languages(document: Path) -> set[str]:
@@ -11,8 +43,13 @@ def languages(document: Path) -> set[str]:
     return {language for language in found if language in ("python", "ini", "sh", "bash", "console")}
 
 
+def is_test(file: Path) -> bool:
+    """Whether it may be a document's own test, which this one is not."""
+    return file.name.startswith("test_") and file.name != Path(__file__).name
+
+
 def test_a_test_runs_them(root: Path, project_files: Callable[..., list[Path]]) -> None:
-    tests = [(root / file).read_text() for file in project_files(".py") if file.name.startswith("test_")]
+    tests = [(root / file).read_text() for file in project_files(".py") if is_test(file)]
     documents = {str(file): languages(root / file) for file in project_files(".md")}
     missing = {
         (document, language)
@@ -24,3 +61,29 @@ def test_a_test_runs_them(root: Path, project_files: Callable[..., list[Path]]) 
     }
     assert any(documents.values())
     assert missing == set()
+
+
+@pytest.mark.parametrize(("document", "number"), snippets())
+def test_a_snippet_runs(document: str, number: int, tmp_path: Path) -> None:
+    """After those before it on the page, as a reader would put them together in one file."""
+    texts = programs(_ROOT / document)[: number + 1]
+    if document in SAVED_AS:
+        (tmp_path / f"{SAVED_AS[document]}.py").write_text(texts[0])
+        texts = texts[1:] or texts
+    (tmp_path / "page.py").write_text("\n\n".join(texts))
+    command = ["-c", "import page"] if document in NEEDS_AN_AUTOPILOT else ["page.py"]
+    done = subprocess.run(
+        [sys.executable, "-W", "error", *command],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(_ROOT / "python")},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_all_snippets_are_found() -> None:
+    """Those that are indented, or whose language is written in another way, would be passed over."""
+    text = "".join(file.read_text() for file in DOCUMENTS)
+    assert len(re.findall(r"```\s*py", text, re.IGNORECASE)) == len(snippets())
