@@ -89,6 +89,10 @@ def threshold(change: Callable[[float], float]) -> Change:
     return receivers(lambda one: replace(one, snir_threshold=change(one.snir_threshold)))
 
 
+def energy(change: Callable[[float], float]) -> Change:
+    return receivers(lambda one: replace(one, energy_detection_w=change(one.energy_detection_w)))
+
+
 def noise(factor: float) -> Change:
     def change(air: Air) -> Air:
         if air.temperature_k is None:
@@ -112,6 +116,9 @@ def runs(tmp_path_factory: pytest.TempPathFactory) -> list[tuple[Case, EngineRun
         pytest.param(sensitivity(lambda power_w: nextafter(power_w, inf)), id="more than the sensitivity"),
         pytest.param(threshold(lambda ratio: ratio * 0.99), id="a threshold 1 % off"),
         pytest.param(threshold(lambda ratio: nextafter(ratio, 0)), id="no less than the threshold"),
+        pytest.param(energy(lambda power_w: power_w * 1.01), id="1 % more energy for a busy channel"),
+        pytest.param(energy(lambda power_w: power_w * 0.99), id="1 % less energy for a busy channel"),
+        pytest.param(energy(lambda power_w: nextafter(power_w, inf)), id="more than that energy"),
         pytest.param(noise(1.01), id="1 % more noise"),
         pytest.param(noise(1e-9), id="no noise"),
         pytest.param(lambda case: replace(case, seed=case.seed + 1), id="other random numbers"),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from math import log10
 
+from verification.oracle.access import differences_in_access
 from verification.oracle.captured_frame import CapturedFrame
 from verification.oracle.case import Case
 from verification.oracle.engine_run import EngineRun
@@ -41,6 +42,8 @@ def compare(case: Case, run: EngineRun) -> Comparison:
     prediction = predict(case, run)
     chosen = [index for index, certain in enumerate(prediction.certain) if certain]
     differences = [line for index in chosen for line in _differences_at(index, run, prediction)]
+    for index in chosen:
+        differences += differences_in_access(case, index, run.sent[index], prediction.heard[index])
     if len(chosen) == len(case.stations) and prediction.below_sensitivity != run.below_sensitivity:
         differences.append(
             f"below sensitivity: {run.below_sensitivity}, expected {prediction.below_sensitivity}"

@@ -35,7 +35,7 @@ BREAKPOINT_M = BREAKPOINT[0]
 
 
 def exact_case(seed: int) -> Case:
-    """The case of that seed: one station listens, the others send."""
+    """The case of that seed: one station listens, the others send, one of them when it senses no energy."""
     draw = Random(seed)
     op_mode = draw.choice(list(RATES_MBPS))
     rate_mbps = draw.choice(RATES_MBPS[op_mode])
@@ -58,7 +58,10 @@ def exact_case(seed: int) -> Case:
     frame_us = frame_format(op_mode, rate_mbps, PAYLOAD_BYTES + HEADERS_BYTES).duration_us
     offsets_us = [0, *draw.choices([4, 16, 20, 192, frame_us, frame_us - 4], k=2)]
     senders = [_sender(draw, listener, place, offsets_us) for place in _cross(distance_m)]
-    return Case(seed, op_mode, 2346, air, (listener, *senders))
+    # It may have to wait; before the others, since of equal times its grant is the older one.
+    energy_w = noise_w + sum(draw.sample([1.0, 0.5, 0.25, 0.125], k=draw.randint(1, 2)))
+    watcher = replace(senders.pop(), receiver=Receiver(DEAF_W, energy_w, 1.0))
+    return Case(seed, op_mode, 2346, air, (listener, watcher, *senders))
 
 
 def _power_of_two(draw: Random) -> float:

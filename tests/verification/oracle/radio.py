@@ -76,6 +76,8 @@ class Heard:
     receptions: list[Reception] = field(default_factory=list)
     fates: Counter[tuple[str, str]] = field(default_factory=Counter)
     """Of the arrivals that reach the sensitivity, by (kind, fate)."""
+    busy_ps: list[tuple[int, int]] = field(default_factory=list)
+    """From when until when the channel was busy."""
     uncertain: int = 0
     """Receptions with a chance from 1 % to 99 %: the random number decided."""
 
@@ -99,6 +101,9 @@ class Radio:
         self._transmitting = False
         self._locked: Arrival | None = None
         self._detecting: list[Arrival] = []
+        self._present: list[Arrival] = []
+        self._busy_since_ps: int | None = None
+        self._neighbours: dict[int, list[Arrival]] = {}
         self._numbers = count()
         self._events: list[tuple[int, int, int, int, Callable[[], None]]] = []
         for sent in own:
@@ -111,12 +116,28 @@ class Radio:
         while self._events:
             self._now_ps, *_, action = heappop(self._events)
             action()
+            self._sense()
 
     def _at(self, time_ps: int, action: Callable[[], None], scheduled_ps: int, order: int) -> None:
         heappush(self._events, (time_ps, scheduled_ps, order, next(self._numbers), action))
 
     def _after(self, delay_us: int, action: Callable[[], None]) -> None:
         self._at(self._now_ps + delay_us * 1_000_000, action, self._now_ps, 1_000_000)
+
+    def _sense(self) -> None:
+        """The channel is busy while the radio sends or receives, and with enough energy.
+
+        Where preambles are detected, energy is sensed as slowly as they are.
+        """
+        energy_w = self._noise_w + sum(
+            arrival.power_w for arrival in self._present if not self._is_detecting(arrival)
+        )
+        busy = self._transmitting or self._locked is not None or energy_w >= self._receiver.energy_detection_w
+        if busy and self._busy_since_ps is None:
+            self._busy_since_ps = self._now_ps
+        elif not busy and self._busy_since_ps is not None:
+            self.heard.busy_ps.append((self._busy_since_ps, self._now_ps))
+            self._busy_since_ps = None
 
     # Its own transmissions.
 
@@ -135,6 +156,7 @@ class Radio:
     # Arrivals.
 
     def _begin(self, arrival: Arrival) -> None:
+        self._present.append(arrival)
         if arrival.power_w < self._receiver.sensitivity_w:
             return
         if self._transmitting:
@@ -204,6 +226,7 @@ class Radio:
             self._locked = None
 
     def _end(self, arrival: Arrival) -> None:
+        self._present = [other for other in self._present if other is not arrival]
         if self._is_detecting(arrival):
             self._detecting = [other for other in self._detecting if other is not arrival]
             self._book(arrival, "preamble_undetected")
@@ -263,16 +286,27 @@ class Radio:
     def _interference_w(self, arrival: Arrival, time_ps: int) -> float:
         """What all other arrivals bring at that time."""
         return sum(
-            other.power_w
-            for other in self._arrivals
-            if other is not arrival and other.start_ps <= time_ps < other.end_ps
+            other.power_w for other in self._beside(arrival) if other.start_ps <= time_ps < other.end_ps
         )
 
     def _changes(self, arrival: Arrival, period_ps: tuple[int, int]) -> list[int]:
         """The start of the period and all times within it at which the interference changes."""
         start_ps, end_ps = period_ps
-        times = {time for other in self._arrivals for time in (other.start_ps, other.end_ps)}
+        times = {time for other in self._beside(arrival) for time in (other.start_ps, other.end_ps)}
         return [start_ps, *sorted(time for time in times if start_ps < time < end_ps)]
+
+    def _beside(self, arrival: Arrival) -> list[Arrival]:
+        """All others that are there at any moment of it."""
+        order = arrival.sent.order
+        if order not in self._neighbours:
+            self._neighbours[order] = [
+                other
+                for other in self._arrivals
+                if other is not arrival
+                and other.start_ps < arrival.end_ps
+                and arrival.start_ps < other.end_ps
+            ]
+        return self._neighbours[order]
 
     def _header_of(self, arrival: Arrival) -> tuple[int, int]:
         form = arrival.sent.format

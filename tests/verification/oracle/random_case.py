@@ -79,7 +79,7 @@ class _Style:
         # So that typical arrivals are about as strong as they must be, or stronger.
         at_half_w = sensitivity_w * _wide(draw, -0.5, 2.5)
         return cls(
-            count=draw.randint(2, 12),
+            count=draw.randint(2, 12) if draw.random() < 0.99 else draw.randint(30, 60),
             op_mode=draw.choice([*RATES_MBPS, "g(mixed)"]),
             size_m=size_m,
             sensitivity_w=sensitivity_w,
@@ -139,17 +139,21 @@ def _changed(station: Station, **fields: Any) -> Station:
 
 
 def _on_the_edge(draw: Random, style: _Style, stations: list[Station]) -> list[Station]:
-    """Some stations get a sensitivity or a threshold that one of the others just meets, or just does not."""
+    """Some stations get levels and thresholds that one of the others just meets, or just does not."""
     edged = []
     for station in stations:
         sender = draw.choice(stations)
         distance_m = dist(sender.position, station.position)
         power_w = sender.tx_power_w * gain(style.air, distance_m, sender.carrier_hz)
         nearly = 1 + draw.choice([-1, 1]) * _wide(draw, -7, -2)
+        own_noise_w = noise_w(style.air, station)
         if draw.random() < style.on_the_edge and station.receiver.sensitivity_w < DEAF_W:
             station = _changed(station, sensitivity_w=power_w * nearly)
         elif draw.random() < style.on_the_edge:
-            station = _changed(station, snir_threshold=power_w / noise_w(style.air, station) * nearly)
+            station = _changed(station, snir_threshold=power_w / own_noise_w * nearly)
+        if draw.random() < style.on_the_edge:
+            energy_w = own_noise_w + power_w * nearly
+            station = _changed(station, energy_detection_w=max(energy_w, 1.001 * own_noise_w))
         edged.append(station)
     return edged
 
@@ -163,7 +167,7 @@ def _receiver(draw: Random, style: _Style) -> Receiver:
     own_w = style.sensitivity_w * (1.0 if draw.random() < 0.7 else _wide(draw, -1, 1))
     return Receiver(
         sensitivity_w=DEAF_W if is_deaf else own_w,
-        energy_detection_w=DEAF_W if is_deaf else own_w * _wide(draw, -0.5, 2),
+        energy_detection_w=DEAF_W if is_deaf and draw.random() < 0.7 else own_w * _wide(draw, -0.5, 2),
         snir_threshold=style.snir_threshold,
         noise_figure=draw.choice([1.0, 1.0, _wide(draw, 0, 1)]),
         by_chunks=draw.random() < style.by_chunks,

@@ -1,0 +1,86 @@
+"""What was sent, when to the picosecond, and how it arrives elsewhere.
+
+Captures are cut to nanoseconds, so one of the moments within that nanosecond at which anything happened in
+the engine was the start. If there are several, it helps that all waits of a MAC are whole microseconds,
+counted from something that happened at the station before.
+"""
+
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from math import dist
+
+from verification.oracle.captured_frame import CapturedFrame
+from verification.oracle.case import Case, Station
+from verification.oracle.engine_run import EngineRun
+from verification.oracle.flight import Flight
+from verification.oracle.physics import delay_ps, frame_format, gain
+from verification.oracle.radio import Arrival, Transmission
+
+PS_PER_US = 1_000_000
+LONGEST_WAIT_PS = 20_000 * PS_PER_US
+
+
+def transmissions(case: Case, run: EngineRun, flights: Sequence[Flight]) -> list[Transmission]:
+    """All of a run, in the order of their starts; of equal ones the lower station's comes first."""
+    captured = sorted(
+        ((frame, sender) for sender, frames in enumerate(run.sent) for frame in frames),
+        key=lambda pair: (pair[0].time_ns, pair[1]),
+    )
+    found: list[Transmission] = []
+    for frame, sender in captured:
+        possible_ps = _possible_starts(case.stations[sender], frame, run.instants_ps)
+        if len(possible_ps) > 1:
+            rests = {time_ps % PS_PER_US for time_ps in _happened_at(case, flights, found, sender)}
+            likely_ps = [time_ps for time_ps in possible_ps if time_ps % PS_PER_US in rests]
+            possible_ps = likely_ps or possible_ps
+        found.append(
+            Transmission(
+                order=0,
+                sender=sender,
+                start_ps=possible_ps[0],
+                slack_ps=possible_ps[-1] - possible_ps[0],
+                kind=frame.kind,
+                octets=frame.octets,
+                format=frame_format(case.op_mode, frame.rate_mbps, frame.mpdu_bytes),
+            )
+        )
+    found.sort(key=lambda sent: (sent.start_ps, sent.sender))
+    return [replace(sent, order=order) for order, sent in enumerate(found)]
+
+
+def arrival_at(case: Case, flights: Sequence[Flight], sent: Transmission, receiver: int) -> Arrival:
+    """Both ends of the way are where they are when the transmission starts."""
+    sender = case.stations[sent.sender]
+    distance_m = dist(
+        flights[sent.sender].position_at(sent.start_ps), flights[receiver].position_at(sent.start_ps)
+    )
+    power_w = sender.tx_power_w * gain(case.air, distance_m, sender.carrier_hz)
+    return Arrival(sent, sent.start_ps + delay_ps(distance_m), power_w)
+
+
+def is_in_band(sender: Station, receiver: Station) -> bool:
+    """Whether the receiver's band has room for what the sender sends."""
+    return sender.carrier_hz == receiver.carrier_hz and sender.bandwidth_hz <= receiver.bandwidth_hz
+
+
+def _possible_starts(station: Station, frame: CapturedFrame, instants_ps: Sequence[int]) -> Sequence[int]:
+    captured_ps = frame.time_ns * 1000
+    first = bisect_left(instants_ps, captured_ps)
+    possible_ps = instants_ps[first : bisect_left(instants_ps, captured_ps + 1000)]
+    assert possible_ps, f"nothing happened at {frame.time_ns} ns"
+    is_planned = any(send.time_ns == frame.time_ns for send in station.sends)
+    return [captured_ps] if is_planned and captured_ps in possible_ps else possible_ps
+
+
+def _happened_at(
+    case: Case, flights: Sequence[Flight], found: Sequence[Transmission], station: int
+) -> Iterator[int]:
+    """Starts at that station, and with them ends but for whole microseconds, of what was sent lately."""
+    for sent in found:
+        if sent.end_ps < found[-1].start_ps - LONGEST_WAIT_PS or sent.slack_ps:
+            continue
+        if sent.sender == station:
+            yield sent.start_ps
+        elif is_in_band(case.stations[sent.sender], case.stations[station]):
+            yield arrival_at(case, flights, sent, station).start_ps
