@@ -93,6 +93,10 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.started = 0;
     entry.ended = 0;
     entry.told_later.clear();
+    entry.rings.resize(audiences_.size());
+    for (EnergyRing& ring : entry.rings) {
+        ring.clear();
+    }
     return entry;
 }
 
@@ -161,8 +165,8 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
     schedule_arrivals(entry);
     if (!beside_.empty()) {
-        for (const Audience& audience : audiences_) {
-            if (sent.band.fits_in(audience.band)) {
+        for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
+            if (sent.band.fits_in(audiences_[audience].band)) {
                 tell_where_energy_adds_up(entry, audience);
             }
         }

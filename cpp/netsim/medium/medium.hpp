@@ -15,6 +15,7 @@
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/medium/antennas.hpp"
 #include "netsim/medium/background_noise.hpp"
+#include "netsim/medium/energy_ring.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/neighbours.hpp"
 #include "netsim/medium/odometer.hpp"
@@ -79,7 +80,6 @@ public:
 private:
     struct alignas(64) Attached {  // in as few cache lines as it takes
         Receiver receiver;
-        std::uint64_t checks = 0;  // the last check of energies that looked at it
     };
     struct Touched {
         const void* link = nullptr;
@@ -120,13 +120,16 @@ private:
         std::vector<Heard> heard;        // by those that notice it alone, in the order of their events
         std::size_t started = 0;         // of `heard`
         std::size_t ended = 0;           // of `heard`
-        std::vector<NodeId> told_later;  // receivers to whom it came to matter only with later transmissions
+        std::vector<NodeId> told_later;  // receivers to whom it came to matter only with others beside it
+        std::vector<EnergyRing> rings;   // [audience]
     };
-    // A circle in which receivers are looked for at which energies add up.
-    struct Search {
+    // What a receiver gets while it gets one that it does not notice alone.
+    struct Share {
         OnAir* on_air;
-        double radius_m;
-        double others_w;  // what all other transmissions can bring there
+        Arrival arrival;
+        bool is_told;
+        bool
+            surely_counts;  // is told, and no frame that the radio may leave out of the energy while it detects it
     };
 
     OnAir& put_on_air(Transmission transmission);
@@ -155,13 +158,20 @@ private:
     void tell(NodeId node, const OnAir& on_air, const Arrival& arrival);
     void begin(NodeId node, const OnAir& on_air, const Arrival& arrival);
     // Sums of energy: medium_energy.cpp.
-    // Collects in `beside_` the others that some receiver may get at the same time as `newest`.
+    // Collects in `beside_` the others that are not over everywhere.
     void find_those_beside(const OnAir& newest);
-    void tell_where_energy_adds_up(OnAir& newest, const Audience& audience);
-    // Receivers at which the search's transmission can be the strongest of those that add up.
-    void narrow(Search& search, const Audience& audience);
+    void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
+    void add_to_ring(OnAir& here, OnAir& newest, std::size_t audience);
+    // Adds up anew what the others can bring, and watches whoever that calls for.
+    void widen_ring(OnAir& here, OnAir& newest, std::size_t audience);
+    // A function of the radius: the most that `there` brings to receivers within that of where `here` began.
+    auto most_brought_w(const OnAir& there, const OnAir& here, const Audience& audience) const;
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
-    void tell_if_energy_adds_up(NodeId node, OnAir& newest);
+    // Tells the radio of as many as it takes to find its channel busy when it is, from now on, while `strongest` lasts.
+    // Returns what more there must be, while it does, until there is somewhat to tell.
+    double tell_enough(NodeId node, OnAir& strongest, OnAir& newest);
+    // The same for one moment of those that bring `shares_`. Returns what they bring, 0 if that is told.
+    double tell_enough_at(SimTime moment, NodeId node);
     bool is_told_alone(const Receiver& receiver, double power_w) const {
         return power_w >= receiver.sensitivity_w || is_loud(receiver, power_w);
     }
@@ -185,12 +195,9 @@ private:
     std::deque<std::unique_ptr<OnAir>> on_air_;  // by start
     std::vector<std::unique_ptr<OnAir>> spare_;  // forgotten ones, of use again
     std::uint64_t next_id_ = 0;
-    std::uint64_t checks_ = 0;
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
-    std::vector<Search> searches_;
-    std::vector<double> between_m_;
-    std::vector<std::pair<OnAir*, Arrival>> together_;
+    std::vector<Share> shares_;
 };
 
 }  // namespace netsim

@@ -1,5 +1,9 @@
 // The part of the medium that finds the radios at which several transmissions, none of which matters alone, make the
 // channel busy together.
+//
+// Each transmission has rings of receivers that it has to watch (energy_ring.hpp), one for each audience. At each of those
+// holds, for as long as it lasts there: at any moment, the radio has been told of enough to find its channel busy, or all
+// that is on the air stays below the level, by what the ring says is missing.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,75 +12,116 @@
 
 namespace netsim {
 
+namespace {
+
+// Bounds are taken so much larger and levels so much lower, for rounding.
+constexpr double margin = 1e-9;
+
+}  // namespace
+
+// At any receiver that gets `there` and is within a radius, in m, of where `here` began when that did.
+auto Medium::most_brought_w(const OnAir& there, const OnAir& here, const Audience& audience) const {
+    const double moved_m = std::abs(there.odometer_m - here.odometer_m);
+    const double between_m =
+        distance(here.transmission.origin, there.transmission.origin) * (1 - margin) - moved_m;
+    const double sent_w = most_power_w(there.transmission, audience) * (1 + margin);
+    return [this, between_m, sent_w, carrier_hz = there.transmission.band.carrier_hz](double radius_m) {
+        return sent_w * propagation_.most_gain_beyond(std::max(between_m - radius_m, 0.0), carrier_hz);
+    };
+}
+
 void Medium::find_those_beside(const OnAir& newest) {
-    const Transmission& sent = newest.transmission;
     beside_.clear();
     for (const std::unique_ptr<OnAir>& other : on_air_) {
-        if (other.get() == &newest || other->last_end <= sent.start) {
-            continue;
-        }
-        // At any receiver, the ends of two frames are shifted against each other by at most the distance of their
-        // senders (triangle inequality), and by what the receiver moved in between.
-        const Transmission& earlier = other->transmission;
-        const double shift_m = distance(earlier.origin, sent.origin) + newest.odometer_m - other->odometer_m;
-        if (earlier.start + earlier.duration + most_propagation_delay(shift_m * (1 + 1e-9)) > sent.start) {
+        if (other.get() != &newest && other->last_end > newest.transmission.start) {
             beside_.push_back(other.get());
         }
     }
 }
 
-// Of k powers that reach the level together, the largest reaches a k-th of it. So it is enough to look around each
-// of the senders, as far as it is received with that power: and less far, where the others are far away.
-void Medium::tell_where_energy_adds_up(OnAir& newest, const Audience& audience) {
-    const SimTime now = simulator_.now();
-    ++checks_;
-    searches_.clear();
-    searches_.push_back(Search{&newest, 0, 0});
+void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {
+    bool is_alone = true;
     for (OnAir* other : beside_) {
-        if (other->transmission.band.fits_in(audience.band)) {
-            searches_.push_back(Search{other, 0, 0});
+        if (other->transmission.band.fits_in(audiences_[audience].band)) {
+            is_alone = false;
+            add_to_ring(*other, newest, audience);
         }
     }
-    if (searches_.size() == 1) {
-        return;
-    }
-    for (Search& search : searches_) {
-        narrow(search, audience);
-    }
-    for (const Search& search : searches_) {
-        const Transmission& strongest = search.on_air->transmission;
-        const double moved_m = odometer_.reading_m(now) - search.on_air->odometer_m;
-        const double radius_m = search.radius_m + moved_m;
-        const double loud_to_all_m = std::max(loud_to_all_m_of(strongest, audience) - moved_m, 0.0);
-        audience.members.visit(strongest.origin, radius_m, [&](NodeId node, const Position& place) {
-            const double squared_m2 = squared_distance(strongest.origin, place);
-            if (squared_m2 > radius_m * radius_m || squared_m2 < loud_to_all_m * loud_to_all_m) {
-                return;
-            }
-            Attached& attached = attached_[node];
-            if (attached.checks == checks_ || node == newest.transmission.sender ||
-                node == strongest.sender) {
-                return;
-            }
-            const Receiver& receiver = attached.receiver;
-            // Up to rounding, that is, for which there is a margin on both sides.
-            const double received_w =
-                moved_m > 0 || !odometer_.all_stand()
-                    ? arrival_at(strongest, node).power_w
-                    : power_w(strongest, node, place, distance(strongest.origin, place));
-            if (is_loud(receiver, received_w * (1 - 1e-9)) ||
-                (receiver.noise_w + received_w + search.others_w) * (1 + 1e-9) <
-                    receiver.energy_detection_w) {
-                return;
-            }
-            attached.checks = checks_;
-            tell_if_energy_adds_up(node, newest);
-        });
+    if (!is_alone) {
+        widen_ring(newest, newest, audience);
     }
 }
 
-// Who is nearer is told of the transmission even if it is alone: the inner edge of the ring in which it takes others to
-// matter. 0 where that depends on more than the distance.
+void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
+    EnergyRing& ring = here.rings[audience];
+    const auto bound_w = most_brought_w(newest, here, audiences_[audience]);
+    const double most_w = bound_w(ring.radius_m());
+    for (EnergyRing::Watched& watched : ring.watched()) {
+        watched.missing_w -= most_w;
+        if (watched.missing_w > 0) {
+            continue;
+        }
+        // The bound does not tell, perhaps the power does.
+        const double exact_w = newest.transmission.sender == watched.node
+                                   ? 0
+                                   : arrival_at(newest.transmission, watched.node).power_w;
+        watched.missing_w += most_w - exact_w;
+        if (watched.missing_w <= 0) {
+            watched.missing_w = tell_enough(watched.node, here, newest);
+        }
+    }
+    ring.add(bound_w);
+    if (ring.is_too_narrow()) {
+        widen_ring(here, newest, audience);
+    }
+}
+
+void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
+    const Audience& audience = audiences_[index];
+    const Transmission& sent = here.transmission;
+    EnergyRing& ring = here.rings[index];
+    const auto visit_others = [&](const auto& visitor) {
+        if (&newest != &here) {
+            visitor(newest);
+        }
+        for (const OnAir* other : beside_) {
+            if (other != &here && other->transmission.band.fits_in(audience.band)) {
+                visitor(*other);
+            }
+        }
+    };
+    ring.forget_others(beside_.size(), audience.least_energy_w * (1 - margin),
+                       [&](double power_w) { return reach_of_power_m(sent, audience, power_w); });
+    visit_others([&](const OnAir& other) { ring.add(most_brought_w(other, here, audience)); });
+    if (!ring.is_too_narrow()) {
+        return;
+    }
+    const double watched_before_w = ring.least_power_w();
+    ring.widen();
+    const double radius_m = ring.radius_m();
+    double others_w = 0;
+    visit_others([&](const OnAir& other) { others_w += most_brought_w(other, here, audience)(radius_m); });
+    const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
+    const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
+    audience.members.visit(sent.origin, radius_m + moved_m, [&](NodeId node, const Position& place) {
+        if (squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || node == sent.sender) {
+            return;
+        }
+        const double received_w = moved_m > 0 || !odometer_.all_stand()
+                                      ? arrival_at(sent, node).power_w
+                                      : power_w(sent, node, place, distance(sent.origin, place));
+        const Receiver& receiver = attached_[node].receiver;
+        if (received_w < ring.least_power_w() || received_w >= watched_before_w ||
+            is_loud(receiver, received_w * (1 - margin))) {
+            return;
+        }
+        const double missing_w =
+            receiver.energy_detection_w * (1 - margin) - (receiver.noise_w + received_w + others_w);
+        ring.watched().push_back({node, missing_w > 0 ? missing_w : tell_enough(node, here, newest)});
+    });
+}
+
+// Who is nearer is told of the transmission even if it is alone. 0 where that depends on more than the distance.
 double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const {
     constexpr double more = 1 + 1e-8;  // for rounding
     if (!antennas_.all_isotropic()) {
@@ -87,94 +132,88 @@ double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience
            more;
 }
 
-// Rings around the sender are excluded from outside: in none of them can its power and those of the others, each at
-// most as large, reach the level.
-void Medium::narrow(Search& search, const Audience& audience) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    constexpr double less = 1 - 1e-9;  // for rounding
-    const Transmission& here = search.on_air->transmission;
-    const double level_w = audience.least_energy_w * less;
-    const double share_w = level_w / static_cast<double>(searches_.size());
-    search.others_w = infinite;
-    search.radius_m = share_w > 0 ? reach_of_power_m(here, audience, share_w) : infinite;
-    if (!(search.radius_m < infinite)) {
-        return;
+double Medium::tell_enough(NodeId node, OnAir& strongest, OnAir& newest) {
+    const Receiver& receiver = attached_[node].receiver;
+    const Arrival here = arrival_at(strongest.transmission, node);
+    const SimTime begin = std::max(here.start, newest.transmission.start);
+    double all_w = receiver.noise_w;
+    shares_.clear();
+    const auto add = [&](OnAir& other) {
+        const Transmission& sent = other.transmission;
+        if (sent.sender == node || !sent.band.fits_in(receiver.band)) {
+            return;
+        }
+        const Arrival there = &other == &strongest ? here : arrival_at(sent, node);
+        // A radio leaves out a frame that it is detecting, which it then is told of anyway.
+        const bool may_be_left_out = there.power_w >= receiver.sensitivity_w;
+        if (there.end < begin || there.start > here.end ||
+            (may_be_left_out && is_loud(receiver, there.power_w))) {
+            return;
+        }
+        const bool is_told =
+            is_told_alone(receiver, there.power_w) ||
+            std::find(other.told_later.begin(), other.told_later.end(), node) != other.told_later.end();
+        shares_.push_back(Share{&other, there, is_told, is_told && !may_be_left_out});
+        all_w += there.power_w;
+    };
+    for (OnAir* other : beside_) {
+        add(*other);
     }
-    between_m_.clear();
-    for (const Search& other : searches_) {
-        const double moved_m = std::abs(other.on_air->odometer_m - search.on_air->odometer_m);
-        const double distance_m = distance(here.origin, other.on_air->transmission.origin);
-        between_m_.push_back(distance_m * less - moved_m);
+    add(newest);
+    const double level_w = receiver.energy_detection_w;
+    if (all_w * (1 + margin) < level_w) {
+        return level_w - all_w * (1 + margin);
     }
-    // What the others can bring within `within_m`, each at most `most_w`.
-    const auto others_w = [&](double within_m, double most_w, double enough_w) {
-        double sum_w = 0;
-        for (std::size_t i = 0; i < searches_.size() && sum_w < enough_w; ++i) {
-            const Transmission& there = searches_[i].on_air->transmission;
-            if (&there != &here) {
-                const double least_m = std::max(between_m_[i] - within_m, 0.0);
-                sum_w += std::min(most_w, most_power_w(there, audience) *
-                                              propagation_.most_gain_beyond(least_m, there.band.carrier_hz));
+    double most_w = 0;  // while it is not yet busy
+    const auto tell_at = [&](SimTime moment) { most_w = std::max(most_w, tell_enough_at(moment, node)); };
+    tell_at(begin);
+    for (const Share& share : shares_) {
+        for (const SimTime moment : {share.arrival.start, share.arrival.end}) {
+            if (moment > begin && moment <= here.end) {
+                tell_at(moment);
             }
         }
-        return sum_w;
-    };
-    const double loud_m = reach_of_power_m(here, audience, audience.least_energy_w);
-    // Each ring is optional, so their number may be limited: with extreme powers there could be thousands.
-    constexpr int most_rings = 100;
-    for (int ring = 0; ring < most_rings && search.radius_m > loud_m; ++ring) {
-        constexpr double step = 0.75;
-        const double inner_m = std::max(step * search.radius_m, loud_m);
-        const double most_w = most_power_w(here, audience) *
-                              propagation_.most_gain_beyond(inner_m * less, here.band.carrier_hz);
-        if (most_w + others_w(search.radius_m, most_w, level_w) >= level_w) {
-            break;
-        }
-        search.radius_m = inner_m;
     }
-    // Within the last ring it has to bring what the others leave to be brought.
-    const double rest_w = level_w - others_w(search.radius_m, infinite, level_w);
-    if (rest_w > 0) {
-        search.radius_m = std::min(search.radius_m, reach_of_power_m(here, audience, rest_w));
-    }
-    search.others_w = others_w(search.radius_m, infinite, audience.most_energy_w);
-    if (search.others_w >= audience.most_energy_w) {
-        search.others_w = infinite;
-    }
+    return level_w - most_w * (1 + margin);
 }
 
-void Medium::tell_if_energy_adds_up(NodeId node, OnAir& newest) {
+// Of those not yet told the strongest first: that takes the fewest. To be told for nothing does no harm.
+double Medium::tell_enough_at(SimTime moment, NodeId node) {
     const Receiver& receiver = attached_[node].receiver;
-    const Arrival arrival = arrival_at(newest.transmission, node);
-    if (is_loud(receiver, arrival.power_w)) {
-        return;
-    }
-    double sum_w = receiver.noise_w + arrival.power_w;
-    together_.clear();
-    if (!is_told_alone(receiver, arrival.power_w)) {
-        together_.emplace_back(&newest, arrival);
-    }
-    for (OnAir* other : beside_) {
-        if (other->transmission.sender == node || !other->transmission.band.fits_in(receiver.band)) {
-            continue;
+    // Where an arrival begins in the moment in which another one ends, there is an instant with both of them or one
+    // without any.
+    const auto happens = [&](SimTime Arrival::* when) {
+        return std::any_of(shares_.begin(), shares_.end(),
+                           [&](const Share& share) { return share.arrival.*when == moment; });
+    };
+    const bool is_crowded = happens(&Arrival::start) && happens(&Arrival::end);
+    for (;;) {
+        double all_w = receiver.noise_w;
+        double told_w = receiver.noise_w;
+        Share* strongest = nullptr;  // of those not told
+        for (Share& share : shares_) {
+            const Arrival& arrival = share.arrival;
+            if (arrival.start > moment || arrival.end < moment || (arrival.end == moment && !is_crowded)) {
+                continue;
+            }
+            all_w += arrival.power_w;
+            if (share.surely_counts && arrival.end > moment && (arrival.start < moment || !is_crowded)) {
+                told_w += arrival.power_w;
+            }
+            if (!share.is_told && (strongest == nullptr || arrival.power_w > strongest->arrival.power_w)) {
+                strongest = &share;
+            }
         }
-        const Arrival beside = arrival_at(other->transmission, node);
-        if (beside.end <= arrival.start || beside.start >= arrival.end || is_loud(receiver, beside.power_w)) {
-            continue;
+        if (told_w * (1 - margin) >= receiver.energy_detection_w) {
+            return 0;
         }
-        sum_w += beside.power_w;
-        if (!is_told_alone(receiver, beside.power_w) &&
-            std::find(other->told_later.begin(), other->told_later.end(), node) == other->told_later.end()) {
-            together_.emplace_back(other, beside);
+        if (strongest == nullptr || all_w * (1 + margin) < receiver.energy_detection_w) {
+            return all_w;
         }
-    }
-    // To be told for nothing does no harm, so that rounding need not be known.
-    if (sum_w * (1 + 1e-12) < receiver.energy_detection_w) {
-        return;
-    }
-    for (auto& [on_air, unnoticed] : together_) {
-        on_air->told_later.push_back(node);
-        tell(node, *on_air, unnoticed);
+        strongest->is_told = true;
+        strongest->surely_counts = true;
+        strongest->on_air->told_later.push_back(node);
+        tell(node, *strongest->on_air, strongest->arrival);
     }
 }
 
