@@ -4,7 +4,6 @@ import asyncio
 import os
 import shutil
 import subprocess
-import tempfile
 import weakref
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,6 +12,7 @@ from gradysim.protocol.position import Position
 from gradysim.sitl.arducopter import find_arducopter, options, parameter_file
 from gradysim.sitl.connection import StreamConnection
 from gradysim.sitl.error import SitlError
+from gradysim.sitl.folder import FleetFolder
 from gradysim.sitl.instance import free_instance
 from gradysim.sitl.link import MavlinkLink
 from gradysim.sitl.process import AutopilotProcess, stop_all
@@ -25,7 +25,7 @@ class Fleet:
     """Starts autopilots, each with a folder of its own, and ends them.
 
     `close` ends all and removes their files. Should it never be called, that happens when the fleet is
-    dropped, or Python ends.
+    dropped, or Python ends; if Python is killed, when the next fleet starts.
     """
 
     def __init__(
@@ -50,9 +50,10 @@ class Fleet:
         self._consoles = None if console_folder is None else Path(console_folder).expanduser().absolute()
         if self._consoles is not None:
             self._consoles.mkdir(parents=True, exist_ok=True)
-        self._folder = Path(tempfile.mkdtemp(prefix="gradysim-sitl-"))
+        files = FleetFolder()
+        self._folder = files.path
         self._processes: list[AutopilotProcess] = []
-        self._end = weakref.finalize(self, _end, self._processes, self._folder)
+        self._end = weakref.finalize(self, _end, self._processes, files)
         self._instances: set[int] = set()
         self._program = self._reachable(found)
         self._help: str | None = None
@@ -166,6 +167,6 @@ async def _connected(connection: StreamConnection, process: AutopilotProcess, ti
         await asyncio.sleep(0.02)
 
 
-def _end(processes: list[AutopilotProcess], folder: Path) -> None:
+def _end(processes: list[AutopilotProcess], files: FleetFolder) -> None:
     stop_all(processes)
-    shutil.rmtree(folder, ignore_errors=True)
+    files.remove()
