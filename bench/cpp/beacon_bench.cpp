@@ -71,8 +71,8 @@ std::unique_ptr<netsim::Network> make_network(std::int64_t count, double speed_m
     for (std::int64_t i = 0; i < count; ++i) {
         NodeConfig config("node " + std::to_string(i));
         config.initial_position = {draws.uniform() * side_m, draws.uniform() * side_m, 0};
-        config.radio.tx_power_w = 0.002;
-        config.mac.bitrate_bps = bitrate_bps;
+        config.wlan[0].radio.tx_power_w = 0.002;
+        config.wlan[0].mac.bitrate_bps = bitrate_bps;
         config.mobility.speed_mps = speed_mps;
         config.mobility.telemetry_interval_s = 0;
         Node& node = network->add_node(config);

@@ -1,6 +1,7 @@
-// The config structs, field by field under their own names (C++'s type_name is Python's typename,
-// its interface_type Python's interface).
+// The config structs, field by field under their own names (C++'s type_name is Python's typename).
 #include <array>
+#include <string>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -168,14 +169,27 @@ void bind_config(py::module_& module) {
                &EulerAngles::elevation_rad);
     bind_angle(mobility, "initial_bank_rad", &MobilityConfig::initial_orientation, &EulerAngles::bank_rad);
 
+    py::class_<InterfaceConfig>(module, "InterfaceConfig")
+        .def_readonly("typename", &InterfaceConfig::type_name)  // sets defaults, so only at the start
+        .def_readwrite("radio", &InterfaceConfig::radio)
+        .def_readwrite("mac", &InterfaceConfig::mac)
+        .def_readwrite("csma", &InterfaceConfig::csma)
+        .def("validate", &InterfaceConfig::validate);
+
     py::class_<NodeConfig>(module, "NodeConfig")
-        .def(py::init<std::string, std::string>(), py::arg("name"),
-             py::arg("interface") = ieee80211_interface)
+        .def(py::init<std::string, const std::vector<std::string>&>(), py::arg("name"),
+             py::arg("interfaces") = std::vector<std::string>{std::string(ieee80211_interface)})
         .def_readwrite("name", &NodeConfig::name)
-        .def_readonly("interface", &NodeConfig::interface_type)  // sets defaults, so only at the start
-        .def_readwrite("radio", &NodeConfig::radio)
-        .def_readwrite("mac", &NodeConfig::mac)
-        .def_readwrite("csma", &NodeConfig::csma)
+        .def_property_readonly(
+            "wlan",  // their number is that of the start, so that references to them stay valid
+            [](py::object self) {
+                py::tuple interfaces(self.cast<NodeConfig&>().wlan.size());
+                for (std::size_t index = 0; index < interfaces.size(); ++index) {
+                    interfaces[index] = py::cast(self.cast<NodeConfig&>().wlan[index],
+                                                 py::return_value_policy::reference_internal, self);
+                }
+                return interfaces;
+            })
         .def_readwrite("mobility", &NodeConfig::mobility)
         .def_property(
             "initial_position",

@@ -11,8 +11,9 @@ namespace proxy_protocol {
 
 void bind_link_budget(py::module_& module) {
     py::class_<LinkBudget>(module, "LinkBudget")
-        .def(py::init<const MediumConfig&, const NodeConfig&, const NodeConfig&, int>(), py::arg("medium"),
-             py::arg("sender"), py::arg("receiver"), py::arg("payload_bytes"))
+        .def(py::init<const MediumConfig&, const NodeConfig&, const NodeConfig&, int, std::size_t>(),
+             py::arg("medium"), py::arg("sender"), py::arg("receiver"), py::arg("payload_bytes"),
+             py::arg("interface") = 0)
         .def("reception_ratio", py::overload_cast<double, double>(&LinkBudget::reception_ratio, py::const_),
              py::arg("distance_m"), py::arg("tx_power_w"))
         .def("tx_power_w_for", &LinkBudget::tx_power_w_for, py::arg("range_m"), py::arg("ratio"))

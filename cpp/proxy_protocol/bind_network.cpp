@@ -1,6 +1,7 @@
 // The network: building it, running it, reading its ledgers.
 #include <cstdint>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -95,8 +96,14 @@ py::dict interferers_at(const Network& network, NodeId receiver) {
 }
 
 py::dict frames_by_bitrate(const Network& network, NodeId node) {
+    std::map<std::int64_t, std::uint64_t> sums;
+    for (const auto& link : network.node(node).links()) {
+        for (const auto& [bitrate_bps, frames] : link->frames_by_bitrate()) {
+            sums[bitrate_bps] += frames;
+        }
+    }
     py::dict result;
-    for (const auto& [bitrate_bps, frames] : network.node(node).link().frames_by_bitrate()) {
+    for (const auto& [bitrate_bps, frames] : sums) {
         result[py::int_(bitrate_bps)] = frames;
     }
     return result;
@@ -138,7 +145,7 @@ void bind_network(py::module_& module) {
     py::class_<Network>(module, "Network")
         .def(py::init<const MediumConfig&, std::uint64_t>(), py::arg("medium"), py::arg("seed"))
         .def("add_node", &Network::add_node, py::arg("config"), py::return_value_policy::reference_internal)
-        .def("capture", &Network::capture, py::arg("node"), py::arg("path"))
+        .def("capture", &Network::capture, py::arg("node"), py::arg("path"), py::arg("interface") = 0)
         .def("close_captures", &Network::close_captures)
         .def("initialize", &Network::initialize)
         .def(

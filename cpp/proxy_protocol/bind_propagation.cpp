@@ -30,12 +30,12 @@ double gain(const Propagation& propagation, const std::array<double, 3>& from_po
             double time, std::uint64_t transmission) {
     Transmission sent;
     sent.id = transmission;
-    sent.sender = from_node;
+    sent.sender.node = from_node;
     sent.start = SimTime::from_seconds(time);
     sent.band.carrier_hz = carrier_hz;
     sent.origin = {from_position[0], from_position[1], from_position[2]};
     const Position place{to_position[0], to_position[1], to_position[2]};
-    return propagation.gain(sent, to_node, place, distance(sent.origin, place));
+    return propagation.gain(sent, InterfaceId{to_node, 0}, place, distance(sent.origin, place));
 }
 
 }  // namespace

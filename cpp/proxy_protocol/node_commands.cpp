@@ -1,5 +1,7 @@
 #include "proxy_protocol/node_commands.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -85,15 +87,30 @@ void carry_out(const char* exception, Command command) {
     throw py::error_already_set();
 }
 
+// That of commands of one's own, which may have none, is the first.
+std::int32_t interface_of(py::handle command) {
+    static PyObject* const interface_name = name_of("interface");
+    const auto value = py::reinterpret_steal<py::object>(PyObject_GetAttr(command.ptr(), interface_name));
+    if (!value) {
+        if (!PyErr_ExceptionMatches(PyExc_AttributeError)) {
+            throw py::error_already_set();
+        }
+        PyErr_Clear();
+        return 0;
+    }
+    return static_cast<std::int32_t>(std::clamp<long>(integer(value, "interface"), -1, INT32_MAX));
+}
+
 void carry_out_communication(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const message_name = name_of("message");
     static PyObject* const destination_name = name_of("destination");
     const long type = command_type_of(command, type_name, "CommunicationCommand");
+    const auto interface = interface_of(command);
     auto payload =
         std::make_shared<const std::string>(utf8_from_python(attribute(command, message_name), "a message"));
     if (type == broadcast_type) {
-        node.broadcast(std::move(payload));
+        node.broadcast(std::move(payload), interface);
         return;
     }
     if (type != send_type) {
@@ -104,7 +121,8 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     if (destination.is_none()) {
         throw py::value_error("a SEND command needs a destination: the id of a node");
     }
-    node.send(static_cast<netsim::NodeId>(integer(destination, "destination")), std::move(payload));
+    node.send(static_cast<netsim::NodeId>(integer(destination, "destination")), std::move(payload),
+              interface);
 }
 
 void carry_out_mobility(netsim::Node& node, py::handle command) {

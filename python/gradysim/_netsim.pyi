@@ -75,9 +75,14 @@ class LinkBudget:
     """
 
     def __init__(
-        self, medium: MediumConfig, sender: NodeConfig, receiver: NodeConfig, payload_bytes: int
+        self,
+        medium: MediumConfig,
+        sender: NodeConfig,
+        receiver: NodeConfig,
+        payload_bytes: int,
+        interface: int = ...,
     ) -> None:
-        """For messages of that length; heights are the z of the initial positions.
+        """For messages of that length through wlan[interface]; heights are the z of the initial positions.
 
         ConfigError: a value out of range, a medium without path loss, different bands, a message too long.
         """
@@ -193,18 +198,25 @@ class MobilityConfig:
     initial_elevation_rad: float
     initial_bank_rad: float
 
-class NodeConfig:
-    """The interface chooses the MAC and the defaults of the radio, so it is given at the start and stays."""
+class InterfaceConfig:
+    """Its type chooses the MAC and the defaults of the radio, so it stays what it was at the start."""
 
-    name: str
     @property
-    def interface(self) -> str: ...
+    def typename(self) -> str: ...
     radio: RadioConfig
     mac: MacConfig
     csma: CsmaConfig
+    def validate(self) -> None: ...
+
+class NodeConfig:
+    """With one network interface of each of the given types, by default one of 802.11."""
+
+    name: str
+    @property
+    def wlan(self) -> tuple[InterfaceConfig, ...]: ...
     mobility: MobilityConfig
     initial_position: tuple[float, float, float]
-    def __init__(self, name: str, interface: str = ...) -> None: ...
+    def __init__(self, name: str, interfaces: Sequence[str] = ...) -> None: ...
     def validate(self) -> None: ...
 
 class RandomStream:
@@ -275,10 +287,11 @@ class Node:
 class Network:
     def __init__(self, medium: MediumConfig, seed: int) -> None: ...
     def add_node(self, config: NodeConfig) -> Node: ...
-    def capture(self, node: int, path: str) -> None:
-        """Write what the radio of that node sends and receives from now on to a pcap file.
+    def capture(self, node: int, path: str, interface: int = ...) -> None:
+        """Write what the radio of that interface sends and receives from now on to a pcap file.
 
-        Raises ConfigError for a path that cannot be written and for a medium without radios.
+        Raises ConfigError for a path that cannot be written, for an interface that is not there and for a
+        medium without radios.
         """
     def close_captures(self) -> None:
         """Complete the capture files; `finish` does it, too. SimulationError if one could not be written."""

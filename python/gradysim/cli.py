@@ -13,7 +13,7 @@ import contextlib
 import json
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TextIO
@@ -138,7 +138,7 @@ def run(
                     outcome = run_one(build, scenario, interrupt.should_stop, bar=bar)
                     code = report(outcome, output, result_dir, as_json=as_json)
                     if pcap and outcome.result is not None:
-                        for capture in captures(scenario, pcap, result_dir).values():
+                        for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
                             print(f"captured in {capture}")
                     if code != OK:
                         return code
@@ -347,6 +347,13 @@ def captures(scenario: "Scenario", pcap: Sequence[str], result_dir: Path | None)
     from gradysim.integrated.capture import capture_files
 
     return capture_files(scenario, pcap, Path("results") if result_dir is None else result_dir)
+
+
+def files_written(scenario: "Scenario", captures: Mapping[int, Path]) -> Iterable[Path]:
+    """Return the capture files of all radios of these nodes."""
+    from gradysim.integrated.capture import files_of_interfaces
+
+    return files_of_interfaces(scenario, captures).values()
 
 
 def run_one(

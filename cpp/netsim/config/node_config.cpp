@@ -1,24 +1,14 @@
 #include "netsim/config/node_config.hpp"
 
+#include <utility>
+
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
 
 namespace netsim {
-namespace {
 
-// A model of another modulation could only make up an answer.
-void check_error_model(const std::string& interface_type, const std::string& error_model) {
-    const std::string fitting = RadioConfig(interface_type).error_model;
-    const bool fits = interface_type == ieee80211_interface
-                          ? error_model == fitting || error_model == ber_table_error_model
-                          : error_model == fitting;
-    if (!fits) {
-        throw ConfigError("radio.error_model = \"" + error_model + "\": expected \"" + fitting +
-                          "\", the one for a node with an " + interface_type);
-    }
-}
-
-}  // namespace
+NodeConfig::NodeConfig(std::string node_name, const std::vector<std::string>& interface_types)
+    : name(std::move(node_name)), wlan(interface_types.begin(), interface_types.end()) {}
 
 void NodeConfig::validate() const {
     if (name.empty()) {
@@ -30,12 +20,31 @@ void NodeConfig::validate() const {
                   "m");
     check_between("node.initial_position.z", initial_position.z, -largest_coordinate_m, largest_coordinate_m,
                   "m");
-    check_name("interface", interface_type, interface_type_names);
-    radio.validate();
-    check_error_model(interface_type, radio.error_model);
-    mac.validate();
-    csma.validate();
+    validate_interfaces();
     mobility.validate();
+}
+
+void NodeConfig::validate_interfaces() const {
+    if (wlan.empty() || wlan.size() > most_interfaces) {
+        throw ConfigError("node.wlan: " + std::to_string(wlan.size()) + " interfaces; expected 1 to " +
+                          std::to_string(most_interfaces));
+    }
+    for (std::size_t index = 0; index < wlan.size(); ++index) {
+        const std::string prefix = wlan.size() > 1 ? "wlan[" + std::to_string(index) + "]." : "";
+        try {
+            wlan[index].validate();
+        } catch (const ConfigError& error) {
+            throw ConfigError(prefix + error.what());
+        }
+        // Both would get each frame for the node, and acknowledge it at the same time.
+        for (std::size_t before = 0; before < index; ++before) {
+            if (wlan[before].radio.carrier_hz == wlan[index].radio.carrier_hz) {
+                throw ConfigError(prefix + "radio.carrier_hz = " + text_of(wlan[index].radio.carrier_hz) +
+                                  " Hz: expected another channel than that of wlan[" +
+                                  std::to_string(before) + "] of the same node");
+            }
+        }
+    }
 }
 
 }  // namespace netsim

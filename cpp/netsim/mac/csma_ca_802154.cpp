@@ -31,7 +31,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
       fates_(fates),
       listener_(listener),
-      draws_(seed, static_cast<std::uint32_t>(radio.id()), Purpose::csma_backoff),
+      draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
       queue_(config.queue_capacity) {
     radio_.set_listener(*this);
 }
@@ -46,7 +46,7 @@ void CsmaCa802154::send(NodeId destination, Payload payload) {
     }
     Frame frame;
     frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
-    frame.transmitter = radio_.id();
+    frame.transmitter = radio_.node();
     frame.receiver = destination;
     frame.sequence = next_sequence_++;
     frame.psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
@@ -178,7 +178,7 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
     const Frame& frame = *transmission.frame;
     if (frame.kind == FrameKind::broadcast) {
         listener_.message_received(frame.transmitter, frame.payload);
-    } else if (frame.receiver != radio_.id()) {
+    } else if (frame.receiver != radio_.node()) {
         return;
     } else if (frame.kind == FrameKind::unicast) {
         unicast_received(frame);

@@ -36,7 +36,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       listener_(listener),
       own_frames_set_nav_(config.own_frames_set_nav),
       contention_(simulator, MacTiming(mode_set(config.op_mode)), config.backoff_optimization,
-                  RandomStream(seed, static_cast<std::uint32_t>(radio.id()), Purpose::backoff), *this),
+                  RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
       fates_(fates),
       modes_(mode_set(config.op_mode)),
       timing_(modes_),
@@ -46,7 +46,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       rts_threshold_bytes_(config.rts_threshold_bytes),
       mtu_bytes_(config.mtu_bytes),
       skip_backoff_if_idle_(config.skip_backoff_if_idle),
-      rate_control_(make_rate_control(config, seed, radio.id())),
+      rate_control_(make_rate_control(config, seed, radio.interface())),
       has_adaptive_rate_(!config.rate_control.empty()),
       frames_by_mode_(has_adaptive_rate_ ? modes_.modes().size() : 0),
       queue_(config.queue_capacity),
@@ -85,7 +85,7 @@ void Dcf::send(NodeId destination, Payload payload) {
     }
     Frame frame;
     frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
-    frame.transmitter = radio_.id();
+    frame.transmitter = radio_.node();
     frame.receiver = destination;
     frame.sequence = next_sequence_++;
     frame.psdu_bytes = data_psdu_bytes(payload_bytes);
@@ -207,7 +207,7 @@ void Dcf::answer_timed_out() {
 void Dcf::frame_received(const Transmission& transmission) {
     contention_.frame_received();
     const Frame& frame = *transmission.frame;
-    const bool for_this_station = frame.receiver == radio_.id();
+    const bool for_this_station = frame.receiver == radio_.node();
     if (!for_this_station) {
         set_nav(frame.duration_field);
     }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "netsim/mac/frame.hpp"
+#include "netsim/medium/interface_id.hpp"
 
 namespace netsim {
 

@@ -13,7 +13,8 @@ const Mode& initial_mode(const MacConfig& config) {
                : modes.mode_for_bitrate(config.initial_rate_bps, "mac.initial_rate_bps");
 }
 
-std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed, NodeId node) {
+std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed,
+                                               InterfaceId interface) {
     const ModeSet& modes = mode_set(config.op_mode);
     if (config.rate_control.empty()) {
         return std::make_unique<FixedRateControl>(modes.mode_for_bitrate(config.bitrate_bps));
@@ -33,7 +34,7 @@ std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uin
         modes, initial_mode(config),
         MinstrelRateControl::Parameters{SimTime::from_seconds(config.rate_update_interval_s),
                                         config.look_around_share, config.ewma_weight},
-        RandomStream(seed, static_cast<std::uint32_t>(node), Purpose::rate_control));
+        RandomStream(seed, interface.stream(), Purpose::rate_control));
 }
 
 }  // namespace netsim

@@ -11,6 +11,7 @@
 #include "netsim/config/mac_config.hpp"
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/mac/frame.hpp"
+#include "netsim/medium/interface_id.hpp"
 #include "netsim/phy/modes.hpp"
 
 namespace netsim {
@@ -52,6 +53,7 @@ private:
 const Mode& initial_mode(const MacConfig& config);
 
 // The one of MacConfig::rate_control, for station `node`.
-std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed, NodeId node);
+std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed,
+                                               InterfaceId interface);
 
 }  // namespace netsim

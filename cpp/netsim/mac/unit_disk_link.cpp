@@ -2,11 +2,13 @@
 
 #include <utility>
 
+#include "netsim/error.hpp"
+
 namespace netsim {
 
-UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, double range_m,
-                           const Trajectory& trajectory, FrameFates& frame_fates, MessageFates& message_fates,
-                           Fingerprint& fingerprint, LinkListener& listener)
+UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface,
+                           double range_m, const Trajectory& trajectory, FrameFates& frame_fates,
+                           MessageFates& message_fates, Fingerprint& fingerprint, LinkListener& listener)
     : simulator_(simulator),
       channel_(channel),
       range_m_(range_m),
@@ -15,8 +17,11 @@ UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, doubl
       message_fates_(message_fates),
       fingerprint_(fingerprint),
       listener_(listener),
-      id_(static_cast<NodeId>(channel.links.size())) {
-    channel.links.push_back(this);
+      id_(interface.node) {
+    if (interface.index == 0) {
+        NETSIM_ASSERT(interface.node == static_cast<NodeId>(channel.links.size()));
+        channel.links.push_back(this);
+    }
 }
 
 void UnitDiskLink::send(NodeId destination, Payload payload) {

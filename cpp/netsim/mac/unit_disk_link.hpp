@@ -2,6 +2,8 @@
 //
 // No airtime, no interference, no loss: the channel of prototype mode (whose rules it follows to the letter), so that
 // a protocol's logic can be told apart from what the radio does to it. The range is inclusive and judged at sending.
+// There is one channel only: of a node's interfaces it makes no difference through which one a message goes, but for
+// their ranges.
 #pragma once
 
 #include <cstddef>
@@ -18,16 +20,16 @@ namespace netsim {
 
 class UnitDiskLink;
 
-// All links of one network, by node id.
+// The first link of each node of one network, by node id.
 struct UnitDiskChannel {
     std::vector<UnitDiskLink*> links;
 };
 
 class UnitDiskLink final : public Link {
 public:
-    UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, double range_m, const Trajectory& trajectory,
-                 FrameFates& frame_fates, MessageFates& message_fates, Fingerprint& fingerprint,
-                 LinkListener& listener);
+    UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface, double range_m,
+                 const Trajectory& trajectory, FrameFates& frame_fates, MessageFates& message_fates,
+                 Fingerprint& fingerprint, LinkListener& listener);
     UnitDiskLink(const UnitDiskLink&) = delete;
     UnitDiskLink& operator=(const UnitDiskLink&) = delete;
 

@@ -1,4 +1,4 @@
-// The antennas of all nodes: what both ends of a link add to it, or take from it. Used by the medium.
+// The antennas of all radios: what both ends of a link add to it, or take from it. Used by the medium.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace netsim {
 
 class Antennas {
 public:
-    // Those of nodes 0, 1, … The trajectory is the node's.
+    // Those of radios 0, 1, … The trajectory is their node's.
     void add(const MountedAntenna& antenna, const Trajectory& trajectory) {
         const bool is_isotropic = antenna.pattern == nullptr;
         all_isotropic_ = all_isotropic_ && is_isotropic;
@@ -20,13 +20,13 @@ public:
 
     // Then every gain is 1.
     bool all_isotropic() const { return all_isotropic_; }
-    double max_gain(NodeId node) const { return mounted_[node] ? mounted_[node]->antenna.max_gain() : 1; }
+    double max_gain(RadioId radio) const { return mounted_[radio] ? mounted_[radio]->antenna.max_gain() : 1; }
 
     // Of the sender towards the receiver, and of the receiver, at `place` when the transmission starts, towards the
     // sender. Both are turned as they are at that time.
-    double gain(const Transmission& sent, NodeId receiver, const Position& place) const {
+    double gain(const Transmission& sent, RadioId receiver, const Position& place) const {
         const Position way = place - sent.origin;
-        return gain_towards(way, sent.sender, sent.start) * gain_towards(way * -1, receiver, sent.start);
+        return gain_towards(way, sent.radio, sent.start) * gain_towards(way * -1, receiver, sent.start);
     }
 
 private:
@@ -38,8 +38,8 @@ private:
         const Trajectory* trajectory;
     };
 
-    double gain_towards(const Position& way, NodeId node, SimTime time) const {
-        const Mounted* mounted = mounted_[node].get();
+    double gain_towards(const Position& way, RadioId radio, SimTime time) const {
+        const Mounted* mounted = mounted_[radio].get();
         return mounted == nullptr ? 1 : mounted->antenna.gain_towards(way, *mounted->trajectory, time);
     }
 

@@ -17,14 +17,14 @@
 #include <limits>
 #include <vector>
 
-#include "netsim/trace/frame_fates.hpp"
+#include "netsim/medium/interface_id.hpp"
 
 namespace netsim {
 
 class EnergyRing {
 public:
     struct Watched {
-        NodeId node = 0;
+        RadioId radio = 0;
         double missing_w =
             0;  // more than that must come before its channel can become busy where it is not yet
     };

@@ -38,7 +38,7 @@ Fading::Fading(const MediumConfig& config, std::uint64_t seed)
     }
 }
 
-double Fading::gain(NodeId a, NodeId b, SimTime time, std::uint64_t transmission) const {
+double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const {
     if (kind_ == Kind::none) {
         return 1;
     }

@@ -1,6 +1,6 @@
 // Fading and shadowing: the random factor of a link's gain, a ratio of powers.
 //
-// A deterministic function of the run's seed, the pair of nodes and the time (link_gaussians.hpp), so the channel is
+// A deterministic function of the run's seed, the pair of radios and the time (link_gaussians.hpp), so the channel is
 // the same in both directions, and who asks twice gets the same answer. With x, y, z standard normal,
 // and a mean of 1 but for shadowing:
 //   LogNormalShadowing: 10^(σ z / 10), σ in dB: 1 in the median. Source: T. S. Rappaport, "Wireless
@@ -30,8 +30,8 @@ public:
     // None, if config.path_loss names a model without.
     Fading(const MediumConfig& config, std::uint64_t seed);
 
-    // The factor between nodes `a` and `b` for a transmission that starts at `time`: from 0 to most().
-    double gain(NodeId a, NodeId b, SimTime time, std::uint64_t transmission) const;
+    // The factor between the interfaces of streams `a` and `b` (interface_id.hpp) for a transmission that starts at `time`: from 0 to most().
+    double gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const;
 
     // Never more than that.
     double most() const { return most_; }

@@ -115,7 +115,7 @@ const Interference& InterferenceSum::worst() {
             continue;
         }
         worst_.max_power_w += other.power_w;
-        const NodeId sender = other.transmission->sender;
+        const NodeId sender = other.transmission->sender.node;
         auto& interferers = worst_.interferers;
         if (std::find(interferers.begin(), interferers.end(), sender) == interferers.end()) {
             interferers.push_back(sender);

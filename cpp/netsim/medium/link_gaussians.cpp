@@ -8,7 +8,8 @@
 
 namespace netsim {
 
-GaussianPair LinkGaussians::at(NodeId a, NodeId b, SimTime time, std::uint64_t transmission) const {
+GaussianPair LinkGaussians::at(std::uint32_t a, std::uint32_t b, SimTime time,
+                               std::uint64_t transmission) const {
     if (a > b) {
         std::swap(a, b);
     }
@@ -32,7 +33,7 @@ GaussianPair LinkGaussians::at(NodeId a, NodeId b, SimTime time, std::uint64_t t
 
 // Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical
 // Statistics 29, 1958.
-GaussianPair LinkGaussians::draw(NodeId low, NodeId high, std::uint64_t index) const {
+GaussianPair LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const {
     // The name of a stream, kernel/random.hpp, has room for one node; the index of the block makes way for the
     // other. Its upper part goes above the purpose, of which 16 bits are more than enough.
     const std::uint32_t purpose =

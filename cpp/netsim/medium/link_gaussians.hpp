@@ -1,4 +1,4 @@
-// Gaussian numbers of a link, as a function of the run's seed, the pair of nodes and the time.
+// Gaussian numbers of a link, as a function of the run's seed, the pair of its ends and the time.
 //
 // Nothing is stored for a link and nothing is drawn in an order: who asks again, or asks later, or asks from the other
 // end, gets the same numbers. They are what fading and shadowing are made of.
@@ -15,7 +15,6 @@
 #include <cstdint>
 
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/trace/frame_fates.hpp"
 
 namespace netsim {
 
@@ -32,10 +31,10 @@ public:
         : seed_(seed), coherence_time_(coherence_time) {}
 
     // The same for (a, b) as for (b, a). `transmission` below 2^48.
-    GaussianPair at(NodeId a, NodeId b, SimTime time, std::uint64_t transmission) const;
+    GaussianPair at(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const;
 
 private:
-    GaussianPair draw(NodeId low, NodeId high, std::uint64_t index) const;
+    GaussianPair draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const;
 
     std::uint64_t seed_;
     SimTime coherence_time_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "netsim/error.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -30,12 +31,16 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       background_noise_(config),
       hearing_(hearing) {}
 
-NodeId Medium::attach(const Receiver& receiver, const MountedAntenna& antenna) {
-    const auto node = static_cast<NodeId>(attached_.size());
+RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna) {
+    const auto radio = static_cast<RadioId>(attached_.size());
     attached_.push_back(Attached{receiver});
-    touched_.emplace_back();
+    touched_.push_back(Touched{.interface = interface});
     antennas_.add(antenna, *receiver.trajectory);
-    odometer_.watch(*receiver.trajectory, simulator_.now());
+    if (first_radio_.empty() || touched_[first_radio_.back()].interface.node != interface.node) {
+        NETSIM_ASSERT(interface.node == static_cast<NodeId>(first_radio_.size()));
+        first_radio_.push_back(radio);
+        odometer_.watch(*receiver.trajectory, simulator_.now());
+    }
     // Less than the difference by what the sum with the noise may be rounded.
     const double energy_w =
         receiver.energy_detection_w - receiver.noise_w - 1e-15 * receiver.energy_detection_w;
@@ -56,9 +61,9 @@ NodeId Medium::attach(const Receiver& receiver, const MountedAntenna& antenna) {
     audience->least_energy_w = std::min(audience->least_energy_w, energy_w);
     audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
     audience->most_antenna_gain = std::max(audience->most_antenna_gain, antenna.max_gain());
-    audience->most_power_w = -1;
-    audience->members.add(node, *receiver.trajectory);
-    return node;
+    audience->reached_gain = -1;
+    audience->members.add(radio, *receiver.trajectory);
+    return radio;
 }
 
 void Medium::transmit(Transmission transmission) {
@@ -66,7 +71,7 @@ void Medium::transmit(Transmission transmission) {
     OnAir& entry = put_on_air(std::move(transmission));
     const Transmission& sent = entry.transmission;
     fingerprint_.add(static_cast<std::uint64_t>(sent.start.ps()));
-    fingerprint_.add((static_cast<std::uint64_t>(sent.sender) << 32) ^ sent.psdu_bytes);
+    fingerprint_.add((static_cast<std::uint64_t>(sent.sender.stream()) << 32) ^ sent.psdu_bytes);
     if (hearing_ == Hearing::everything) {
         tell_everybody(entry);
     } else {
@@ -85,7 +90,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.transmission = std::move(transmission);
     entry.transmission.id = next_id_++;
     entry.transmission.start = now;
-    entry.transmission.origin = attached_[entry.transmission.sender].receiver.trajectory->position_at(now);
+    entry.transmission.origin = attached_[entry.transmission.radio].receiver.trajectory->position_at(now);
     entry.last_end = now;
     entry.first_place = simulator_.reserve_places(2 * attached_.size());
     entry.odometer_m = odometer_.reading_m(now);
@@ -105,19 +110,21 @@ void Medium::tell_everybody(OnAir& entry) {
     const Transmission& sent = entry.transmission;
     CopyCount addressed;
     CopyCount overheard;
-    for (NodeId node = 0; node < static_cast<NodeId>(attached_.size()); ++node) {
-        const Receiver& receiver = attached_[node].receiver;
-        if (node == sent.sender || !sent.band.fits_in(receiver.band)) {
+    for (RadioId radio = 0; radio < static_cast<RadioId>(attached_.size()); ++radio) {
+        const Receiver& receiver = attached_[radio].receiver;
+        if (radio == sent.radio || sent.band.share_in(receiver.band) == 0) {
             continue;
         }
-        const Arrival arrival = arrival_at(sent, node);
-        CopyCount& count = sent.label.is_for(node) ? addressed : overheard;
-        ++count.made;
-        if (arrival.power_w < receiver.sensitivity_w) {
-            ++count.too_weak;
+        const Arrival arrival = arrival_at(sent, radio);
+        if (sent.band.fits_in(receiver.band)) {
+            CopyCount& count = sent.label.is_for(touched_[radio].interface.node) ? addressed : overheard;
+            ++count.made;
+            if (arrival.power_w < receiver.sensitivity_w) {
+                ++count.too_weak;
+            }
         }
         entry.last_end = std::max(entry.last_end, arrival.end);
-        tell(node, entry, arrival);
+        tell(radio, entry, arrival);
     }
     fates_.book_transmission(sent.label, addressed, overheard);
 }
@@ -128,36 +135,38 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     find_those_beside(entry);
     std::uint64_t copies = 0;
     std::uint64_t noticed_copies = 0;
+    const RadioId addressee = addressee_of(sent);
     bool addressee_notices = false;
     double farthest_m = 0;
     for (Audience& audience : audiences_) {
-        if (!sent.band.fits_in(audience.band)) {
+        const double share = sent.band.share_in(audience.band);
+        if (share == 0) {
             continue;
         }
-        copies += audience.members.size();
+        copies += sent.band.fits_in(audience.band) ? audience.members.size() : 0;
         const double within_m = reach_m(audience, sent);
         audience.members.prepare(now, odometer_, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
         candidates_.clear();
-        audience.members.visit(sent.origin, within_m, [&](NodeId node, const Position& place) {
+        audience.members.visit(sent.origin, within_m, [&](RadioId radio, const Position& place) {
             const double squared_m2 = squared_distance(sent.origin, place);
-            if (squared_m2 <= within_m * within_m && node != sent.sender) {
-                __builtin_prefetch(&attached_[node]);
-                __builtin_prefetch(&touched_[node]);
-                candidates_.push_back(Candidate{node, place, squared_m2});
+            if (squared_m2 <= within_m * within_m && radio != sent.radio) {
+                __builtin_prefetch(&attached_[radio]);
+                __builtin_prefetch(&touched_[radio]);
+                candidates_.push_back(Candidate{radio, place, squared_m2});
             }
         });
-        for (const auto& [node, place, squared_m2] : candidates_) {
-            const Receiver& receiver = attached_[node].receiver;
+        for (const auto& [radio, place, squared_m2] : candidates_) {
+            const Receiver& receiver = attached_[radio].receiver;
             const double distance_m = std::sqrt(squared_m2);
-            const double received_w = power_w(sent, node, place, distance_m);
-            if (received_w >= receiver.sensitivity_w) {
+            const double received_w = power_w(sent, share, radio, place, distance_m);
+            if (can_lock_on(receiver, sent, received_w)) {
                 ++noticed_copies;
-                addressee_notices |= node == sent.label.destination;
+                addressee_notices |= radio == addressee;
             }
-            if (is_told_alone(receiver, received_w)) {
-                fetch(node, sent.label.kind);
-                entry.heard.push_back(Heard{now + propagation_delay(distance_m), node, received_w});
+            if (is_told_alone(receiver, sent, received_w)) {
+                fetch(radio, sent.label.kind);
+                entry.heard.push_back(Heard{now + propagation_delay(distance_m), radio, received_w});
             }
         }
     }
@@ -166,7 +175,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     schedule_arrivals(entry);
     if (!beside_.empty()) {
         for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
-            if (sent.band.fits_in(audiences_[audience].band)) {
+            if (sent.band.share_in(audiences_[audience].band) > 0) {
                 tell_where_energy_adds_up(entry, audience);
             }
         }
@@ -175,9 +184,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     CopyCount addressed;
     if (sent.label.destination == broadcast_id) {
         std::swap(all, addressed);
-    } else if (sent.label.destination != sent.sender && sent.label.destination >= 0 &&
-               sent.label.destination < static_cast<NodeId>(attached_.size()) &&
-               sent.band.fits_in(attached_[sent.label.destination].receiver.band)) {
+    } else if (addressee >= 0) {
         addressed = CopyCount{1, addressee_notices ? 0U : 1U};
         all.made -= addressed.made;
         all.too_weak -= addressed.too_weak;
@@ -185,28 +192,46 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     fates_.book_transmission(sent.label, addressed, all);
 }
 
+RadioId Medium::addressee_of(const Transmission& transmission) const {
+    const NodeId node = transmission.label.destination;
+    if (node < 0 || static_cast<std::size_t>(node) >= first_radio_.size()) {
+        return -1;
+    }
+    const auto count = static_cast<RadioId>(attached_.size());
+    for (RadioId radio = first_radio_[node]; radio < count && touched_[radio].interface.node == node;
+         ++radio) {
+        if (radio != transmission.radio && transmission.band.fits_in(attached_[radio].receiver.band)) {
+            return radio;
+        }
+    }
+    return -1;
+}
+
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
-void Medium::fetch(NodeId node, FrameKind kind) const {
+void Medium::fetch(RadioId radio, FrameKind kind) const {
     constexpr std::ptrdiff_t radio_lines = 5;
     constexpr std::ptrdiff_t link_lines = 2;
-    const Receiver& receiver = attached_[node].receiver;
+    const Receiver& receiver = attached_[radio].receiver;
     fetch_lines(receiver.listener, radio_lines);
-    const Touched& touched = touched_[node];
+    const Touched& touched = touched_[radio];
     fetch_lines(touched.link, link_lines);
     fetch_lines(touched.upper_layer, 1);
     fetch_lines(touched.protocol, 1);
-    fates_.fetch(node, kind);
+    fates_.fetch(touched.interface.node, kind);
     if (on_air_.size() > 1) {
         fetch_lines(receiver.trajectory, 2);
     }
 }
 
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
-    const double most_w = most_power_w(transmission, audience);
-    if (audience.most_power_w != most_w || audience.carrier_hz != transmission.band.carrier_hz) {
-        audience.most_power_w = most_w;
+    // Who cannot decode it notices only its energy.
+    const double least_w =
+        transmission.band.fits_in(audience.band) ? audience.least_w : audience.least_energy_w;
+    const double gain = least_w / most_power_w(transmission, audience);
+    if (audience.reached_gain != gain || audience.carrier_hz != transmission.band.carrier_hz) {
+        audience.reached_gain = gain;
         audience.carrier_hz = transmission.band.carrier_hz;
-        audience.reach_m = reach_of_power_m(transmission, audience, audience.least_w);
+        audience.reach_m = reach_of_power_m(transmission, audience, least_w);
     }
     return audience.reach_m;
 }
@@ -221,12 +246,14 @@ double Medium::reach_of_power_m(const Transmission& transmission, const Audience
                        : std::numeric_limits<double>::infinity();
 }
 
-Arrival Medium::arrival_at(const Transmission& transmission, NodeId node) const {
-    const Position there = attached_[node].receiver.trajectory->position_at(transmission.start);
+Arrival Medium::arrival_at(const Transmission& transmission, RadioId radio) const {
+    const Receiver& receiver = attached_[radio].receiver;
+    const Position there = receiver.trajectory->position_at(transmission.start);
     const double distance_m = distance(transmission.origin, there);
     const SimTime start = transmission.start + propagation_delay(distance_m);
-    return Arrival{&transmission, start, start + transmission.duration,
-                   power_w(transmission, node, there, distance_m)};
+    return Arrival{
+        &transmission, start, start + transmission.duration,
+        power_w(transmission, transmission.band.share_in(receiver.band), radio, there, distance_m)};
 }
 
 // The events of an arrival have their places in the order of equal times since its transmission began: the
@@ -237,7 +264,7 @@ void Medium::schedule_arrivals(OnAir& entry) {
         return;
     }
     std::sort(entry.heard.begin(), entry.heard.end(), [](const Heard& a, const Heard& b) {
-        return a.start != b.start ? a.start < b.start : a.node < b.node;
+        return a.start != b.start ? a.start < b.start : a.radio < b.radio;
     });
     schedule_next_start(entry);
     schedule_next_end(entry);
@@ -246,12 +273,12 @@ void Medium::schedule_arrivals(OnAir& entry) {
 void Medium::schedule_next_start(OnAir& entry) {
     const Heard& next = entry.heard[entry.started];
     simulator_.schedule_at_place(
-        next.start, entry.first_place + 2 * static_cast<Place>(next.node), [this, &entry] {
+        next.start, entry.first_place + 2 * static_cast<Place>(next.radio), [this, &entry] {
             const Heard& now = entry.heard[entry.started];
             if (++entry.started < entry.heard.size()) {
                 schedule_next_start(entry);
             }
-            attached_[now.node].receiver.listener->arrival_started(Arrival{
+            attached_[now.radio].receiver.listener->arrival_started(Arrival{
                 &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
         });
 }
@@ -259,45 +286,45 @@ void Medium::schedule_next_start(OnAir& entry) {
 void Medium::schedule_next_end(OnAir& entry) {
     const Heard& next = entry.heard[entry.ended];
     simulator_.schedule_at_place(
-        next.start + entry.transmission.duration, entry.first_place + 2 * static_cast<Place>(next.node) + 1,
+        next.start + entry.transmission.duration, entry.first_place + 2 * static_cast<Place>(next.radio) + 1,
         [this, &entry] {
             const Heard& now = entry.heard[entry.ended];
             if (++entry.ended < entry.heard.size()) {
                 schedule_next_end(entry);
             }
-            attached_[now.node].receiver.listener->arrival_ended(Arrival{
+            attached_[now.radio].receiver.listener->arrival_ended(Arrival{
                 &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
         });
 }
 
-void Medium::tell(NodeId node, const OnAir& on_air, const Arrival& arrival) {
+void Medium::tell(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
     if (arrival.start < simulator_.now()) {
         // It came to matter after it had begun: nothing that the radio could have noticed happened in
         // between.
-        begin(node, on_air, arrival);
+        begin(radio, on_air, arrival);
         return;
     }
     simulator_.schedule_at_place(
-        arrival.start, on_air.first_place + 2 * static_cast<Place>(node),
-        [this, node, &on_air, power_w = arrival.power_w] {
+        arrival.start, on_air.first_place + 2 * static_cast<Place>(radio),
+        [this, radio, &on_air, power_w = arrival.power_w] {
             const SimTime start = simulator_.now();
             const Transmission& transmission = on_air.transmission;
-            begin(node, on_air, Arrival{&transmission, start, start + transmission.duration, power_w});
+            begin(radio, on_air, Arrival{&transmission, start, start + transmission.duration, power_w});
         });
 }
 
-void Medium::begin(NodeId node, const OnAir& on_air, const Arrival& arrival) {
-    attached_[node].receiver.listener->arrival_started(arrival);
+void Medium::begin(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
+    attached_[radio].receiver.listener->arrival_started(arrival);
     simulator_.schedule_at_place(
-        arrival.end, on_air.first_place + 2 * static_cast<Place>(node) + 1,
-        [this, node, transmission = arrival.transmission, power_w = arrival.power_w] {
+        arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1,
+        [this, radio, transmission = arrival.transmission, power_w = arrival.power_w] {
             const SimTime end = simulator_.now();
-            attached_[node].receiver.listener->arrival_ended(
+            attached_[radio].receiver.listener->arrival_ended(
                 Arrival{transmission, end - transmission->duration, end, power_w});
         });
 }
 
-InterferenceSum& Medium::interference_with(NodeId receiver, const Arrival& arrival, SimTime start,
+InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arrival, SimTime start,
                                            SimTime end) {
     interference_.begin(start, end);
     if (on_air_.size() <= 1) {
@@ -306,8 +333,8 @@ InterferenceSum& Medium::interference_with(NodeId receiver, const Arrival& arriv
     const Receiver& here = attached_[receiver].receiver;
     for (const std::unique_ptr<OnAir>& other : on_air_) {
         const Transmission& sent = other->transmission;
-        if (&sent == arrival.transmission || sent.sender == receiver || other->last_end <= start ||
-            sent.start >= end || !sent.band.fits_in(here.band)) {
+        if (&sent == arrival.transmission || sent.radio == receiver || other->last_end <= start ||
+            sent.start >= end || sent.band.share_in(here.band) == 0) {
             continue;
         }
         interference_.add(arrival_at(sent, receiver));

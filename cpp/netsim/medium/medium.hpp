@@ -36,7 +36,7 @@ protected:
     ~MediumListener() = default;
 };
 
-// What the medium must know of a receiver.
+// What the medium must know of a radio as a receiver.
 struct Receiver {
     MediumListener* listener = nullptr;
     const Trajectory* trajectory = nullptr;
@@ -56,12 +56,16 @@ public:
     Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
            Hearing hearing = Hearing::what_matters, std::uint64_t seed = 0);
 
-    // Node ids are given in the order of attaching: 0, 1, …
-    NodeId attach(const Receiver& receiver, const MountedAntenna& antenna = {});
-    // What each arrival at the node touches in the layers above the radio: in a large network most of it is in no cache
+    // Radio ids are given in the order of attaching: 0, 1, …, node by node: all interfaces of node 0, those of node 1, …
+    // No node may have two radios of one centre frequency.
+    RadioId attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna = {});
+    // What each arrival at the radio touches in the layers above it: in a large network most of it is in no cache
     // by then, so the medium has it fetched ahead. Null: nothing.
-    void set_touched(NodeId node, const void* link, const void* upper_layer, const void* protocol) {
-        touched_[node] = Touched{link, upper_layer, protocol};
+    void set_touched(RadioId radio, const void* link, const void* upper_layer, const void* protocol) {
+        Touched& touched = touched_[radio];
+        touched.link = link;
+        touched.upper_layer = upper_layer;
+        touched.protocol = protocol;
     }
 
     // Puts a frame on the air now, at the sender's present position, and sees to its arrivals.
@@ -70,7 +74,7 @@ public:
 
     // What disturbs `arrival` at `receiver` from `start` until just before `end`. Only until the arrival has ended, and
     // for times until now; valid until the next call.
-    InterferenceSum& interference_with(NodeId receiver, const Arrival& arrival, SimTime start, SimTime end);
+    InterferenceSum& interference_with(RadioId receiver, const Arrival& arrival, SimTime start, SimTime end);
 
     const BackgroundNoise& background_noise() const { return background_noise_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
@@ -82,13 +86,14 @@ private:
         Receiver receiver;
     };
     struct Touched {
+        InterfaceId interface;
         const void* link = nullptr;
         const void* upper_layer = nullptr;
         const void* protocol = nullptr;
     };
     // Within reach of the transmission, or nearly.
     struct Candidate {
-        NodeId node = 0;
+        RadioId radio = 0;
         Position place;
         double squared_m2 = 0;
     };
@@ -101,7 +106,7 @@ private:
         double least_energy_w = 0;  // below that, the sum of several is not noticed either
         double most_energy_w = 0;   // from that on, the noise or one transmission is enough for all of them
         double most_antenna_gain = 0;
-        double most_power_w = -1;  // of the last reach worked out
+        double reached_gain = -1;  // of the last reach worked out
         double carrier_hz = 0;
         double reach_m = 0;
         Neighbours members;
@@ -109,19 +114,19 @@ private:
     // An arrival to come.
     struct Heard {
         SimTime start;
-        NodeId node = 0;
+        RadioId radio = 0;
         double power_w = 0;
     };
     struct OnAir {
         Transmission transmission;
-        SimTime last_end;                // at its most distant receiver, or later
-        Place first_place = 0;           // of its arrivals' events, two for each receiver
-        double odometer_m = 0;           // at its start
-        std::vector<Heard> heard;        // by those that notice it alone, in the order of their events
-        std::size_t started = 0;         // of `heard`
-        std::size_t ended = 0;           // of `heard`
-        std::vector<NodeId> told_later;  // receivers to whom it came to matter only with others beside it
-        std::vector<EnergyRing> rings;   // [audience]
+        SimTime last_end;                 // at its most distant receiver, or later
+        Place first_place = 0;            // of its arrivals' events, two for each receiver
+        double odometer_m = 0;            // at its start
+        std::vector<Heard> heard;         // by those that notice it alone, in the order of their events
+        std::size_t started = 0;          // of `heard`
+        std::size_t ended = 0;            // of `heard`
+        std::vector<RadioId> told_later;  // receivers to whom it came to matter only with others beside it
+        std::vector<EnergyRing> rings;    // [audience]
     };
     // What a receiver gets while it gets one that it does not notice alone.
     struct Share {
@@ -133,30 +138,36 @@ private:
     };
 
     OnAir& put_on_air(Transmission transmission);
-    Arrival arrival_at(const Transmission& transmission, NodeId node) const;
+    Arrival arrival_at(const Transmission& transmission, RadioId radio) const;
+    // The radio of the label's destination that can decode the transmission, or -1: of a broadcast, of an addressee
+    // that has none, of the sender itself.
+    RadioId addressee_of(const Transmission& transmission) const;
     void tell_everybody(OnAir& entry);
     void tell_those_it_matters_to(OnAir& entry);
-    // At `node`, at `place` when the transmission starts.
-    double power_w(const Transmission& sent, NodeId node, const Position& place, double distance_m) const {
-        const double sent_w = sent.power_w * propagation_.gain(sent, node, place, distance_m);
-        return antennas_.all_isotropic() ? sent_w : sent_w * antennas_.gain(sent, node, place);
+    // At `radio`, at `place` when the transmission starts. `share` is that of the transmission in the radio's band.
+    double power_w(const Transmission& sent, double share, RadioId radio, const Position& place,
+                   double distance_m) const {
+        const double sent_w =
+            sent.power_w * share * propagation_.gain(sent, touched_[radio].interface, place, distance_m);
+        return antennas_.all_isotropic() ? sent_w : sent_w * antennas_.gain(sent, radio, place);
     }
     // With the best that both antennas can do; the way takes its share of that.
     double most_power_w(const Transmission& sent, const Audience& audience) const {
+        const double in_band_w = sent.power_w * sent.band.share_in(audience.band);
         return antennas_.all_isotropic()
-                   ? sent.power_w
-                   : sent.power_w * antennas_.max_gain(sent.sender) * audience.most_antenna_gain;
+                   ? in_band_w
+                   : in_band_w * antennas_.max_gain(sent.radio) * audience.most_antenna_gain;
     }
     // Beyond that, a transmission without others beside it cannot matter to the audience.
     double reach_m(Audience& audience, const Transmission& transmission) const;
     // Beyond that, nobody of the audience gets that power.
     double reach_of_power_m(const Transmission& transmission, const Audience& audience, double power_w) const;
-    void fetch(NodeId node, FrameKind kind) const;
+    void fetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(OnAir& entry);
     void schedule_next_start(OnAir& entry);
     void schedule_next_end(OnAir& entry);
-    void tell(NodeId node, const OnAir& on_air, const Arrival& arrival);
-    void begin(NodeId node, const OnAir& on_air, const Arrival& arrival);
+    void tell(RadioId radio, const OnAir& on_air, const Arrival& arrival);
+    void begin(RadioId radio, const OnAir& on_air, const Arrival& arrival);
     // Sums of energy: medium_energy.cpp.
     // Collects in `beside_` the others that are not over everywhere.
     void find_those_beside(const OnAir& newest);
@@ -169,11 +180,14 @@ private:
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
     // Tells the radio of as many as it takes to find its channel busy when it is, from now on, while `strongest` lasts.
     // Returns what more there must be, while it does, until there is somewhat to tell.
-    double tell_enough(NodeId node, OnAir& strongest, OnAir& newest);
+    double tell_enough(RadioId radio, OnAir& strongest, OnAir& newest);
     // The same for one moment of those that bring `shares_`. Returns what they bring, 0 if that is told.
-    double tell_enough_at(SimTime moment, NodeId node);
-    bool is_told_alone(const Receiver& receiver, double power_w) const {
-        return power_w >= receiver.sensitivity_w || is_loud(receiver, power_w);
+    double tell_enough_at(SimTime moment, RadioId radio);
+    static bool can_lock_on(const Receiver& receiver, const Transmission& sent, double power_w) {
+        return power_w >= receiver.sensitivity_w && sent.band.fits_in(receiver.band);
+    }
+    bool is_told_alone(const Receiver& receiver, const Transmission& sent, double power_w) const {
+        return can_lock_on(receiver, sent, power_w) || is_loud(receiver, power_w);
     }
     bool is_loud(const Receiver& receiver, double power_w) const {
         return receiver.noise_w + power_w >= receiver.energy_detection_w;
@@ -188,8 +202,9 @@ private:
     BackgroundNoise background_noise_;
     Hearing hearing_;
     std::vector<Attached> attached_;
-    std::vector<Touched> touched_;  // [node]
+    std::vector<Touched> touched_;  // [radio]
     std::vector<Candidate> candidates_;
+    std::vector<RadioId> first_radio_;  // [node]; its others come after it
     std::deque<Audience> audiences_;
     Odometer odometer_;
     std::deque<std::unique_ptr<OnAir>> on_air_;  // by start

@@ -42,7 +42,7 @@ void Medium::find_those_beside(const OnAir& newest) {
 void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {
     bool is_alone = true;
     for (OnAir* other : beside_) {
-        if (other->transmission.band.fits_in(audiences_[audience].band)) {
+        if (other->transmission.band.share_in(audiences_[audience].band) > 0) {
             is_alone = false;
             add_to_ring(*other, newest, audience);
         }
@@ -62,12 +62,12 @@ void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
             continue;
         }
         // The bound does not tell, perhaps the power does.
-        const double exact_w = newest.transmission.sender == watched.node
+        const double exact_w = newest.transmission.radio == watched.radio
                                    ? 0
-                                   : arrival_at(newest.transmission, watched.node).power_w;
+                                   : arrival_at(newest.transmission, watched.radio).power_w;
         watched.missing_w += most_w - exact_w;
         if (watched.missing_w <= 0) {
-            watched.missing_w = tell_enough(watched.node, here, newest);
+            watched.missing_w = tell_enough(watched.radio, here, newest);
         }
     }
     ring.add(bound_w);
@@ -85,7 +85,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
             visitor(newest);
         }
         for (const OnAir* other : beside_) {
-            if (other != &here && other->transmission.band.fits_in(audience.band)) {
+            if (other != &here && other->transmission.band.share_in(audience.band) > 0) {
                 visitor(*other);
             }
         }
@@ -101,23 +101,24 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
     const double radius_m = ring.radius_m();
     double others_w = 0;
     visit_others([&](const OnAir& other) { others_w += most_brought_w(other, here, audience)(radius_m); });
+    const double share = sent.band.share_in(audience.band);
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
-    audience.members.visit(sent.origin, radius_m + moved_m, [&](NodeId node, const Position& place) {
-        if (squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || node == sent.sender) {
+    audience.members.visit(sent.origin, radius_m + moved_m, [&](RadioId radio, const Position& place) {
+        if (squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || radio == sent.radio) {
             return;
         }
         const double received_w = moved_m > 0 || !odometer_.all_stand()
-                                      ? arrival_at(sent, node).power_w
-                                      : power_w(sent, node, place, distance(sent.origin, place));
-        const Receiver& receiver = attached_[node].receiver;
+                                      ? arrival_at(sent, radio).power_w
+                                      : power_w(sent, share, radio, place, distance(sent.origin, place));
+        const Receiver& receiver = attached_[radio].receiver;
         if (received_w < ring.least_power_w() || received_w >= watched_before_w ||
             is_loud(receiver, received_w * (1 - margin))) {
             return;
         }
         const double missing_w =
             receiver.energy_detection_w * (1 - margin) - (receiver.noise_w + received_w + others_w);
-        ring.watched().push_back({node, missing_w > 0 ? missing_w : tell_enough(node, here, newest)});
+        ring.watched().push_back({radio, missing_w > 0 ? missing_w : tell_enough(radio, here, newest)});
     });
 }
 
@@ -127,32 +128,32 @@ double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience
     if (!antennas_.all_isotropic()) {
         return 0;
     }
-    return propagation_.sure_reach_m(audience.most_energy_w * more / transmission.power_w,
+    return propagation_.sure_reach_m(audience.most_energy_w * more / most_power_w(transmission, audience),
                                      transmission.band.carrier_hz) /
            more;
 }
 
-double Medium::tell_enough(NodeId node, OnAir& strongest, OnAir& newest) {
-    const Receiver& receiver = attached_[node].receiver;
-    const Arrival here = arrival_at(strongest.transmission, node);
+double Medium::tell_enough(RadioId radio, OnAir& strongest, OnAir& newest) {
+    const Receiver& receiver = attached_[radio].receiver;
+    const Arrival here = arrival_at(strongest.transmission, radio);
     const SimTime begin = std::max(here.start, newest.transmission.start);
     double all_w = receiver.noise_w;
     shares_.clear();
     const auto add = [&](OnAir& other) {
         const Transmission& sent = other.transmission;
-        if (sent.sender == node || !sent.band.fits_in(receiver.band)) {
+        if (sent.radio == radio || sent.band.share_in(receiver.band) == 0) {
             return;
         }
-        const Arrival there = &other == &strongest ? here : arrival_at(sent, node);
+        const Arrival there = &other == &strongest ? here : arrival_at(sent, radio);
         // A radio leaves out a frame that it is detecting, which it then is told of anyway.
-        const bool may_be_left_out = there.power_w >= receiver.sensitivity_w;
+        const bool may_be_left_out = can_lock_on(receiver, sent, there.power_w);
         if (there.end < begin || there.start > here.end ||
             (may_be_left_out && is_loud(receiver, there.power_w))) {
             return;
         }
         const bool is_told =
-            is_told_alone(receiver, there.power_w) ||
-            std::find(other.told_later.begin(), other.told_later.end(), node) != other.told_later.end();
+            is_told_alone(receiver, sent, there.power_w) ||
+            std::find(other.told_later.begin(), other.told_later.end(), radio) != other.told_later.end();
         shares_.push_back(Share{&other, there, is_told, is_told && !may_be_left_out});
         all_w += there.power_w;
     };
@@ -165,7 +166,7 @@ double Medium::tell_enough(NodeId node, OnAir& strongest, OnAir& newest) {
         return level_w - all_w * (1 + margin);
     }
     double most_w = 0;  // while it is not yet busy
-    const auto tell_at = [&](SimTime moment) { most_w = std::max(most_w, tell_enough_at(moment, node)); };
+    const auto tell_at = [&](SimTime moment) { most_w = std::max(most_w, tell_enough_at(moment, radio)); };
     tell_at(begin);
     for (const Share& share : shares_) {
         for (const SimTime moment : {share.arrival.start, share.arrival.end}) {
@@ -178,8 +179,8 @@ double Medium::tell_enough(NodeId node, OnAir& strongest, OnAir& newest) {
 }
 
 // Of those not yet told the strongest first: that takes the fewest. To be told for nothing does no harm.
-double Medium::tell_enough_at(SimTime moment, NodeId node) {
-    const Receiver& receiver = attached_[node].receiver;
+double Medium::tell_enough_at(SimTime moment, RadioId radio) {
+    const Receiver& receiver = attached_[radio].receiver;
     // Where an arrival begins in the moment in which another one ends, there is an instant with both of them or one
     // without any.
     const auto happens = [&](SimTime Arrival::* when) {
@@ -212,8 +213,8 @@ double Medium::tell_enough_at(SimTime moment, NodeId node) {
         }
         strongest->is_told = true;
         strongest->surely_counts = true;
-        strongest->on_air->told_later.push_back(node);
-        tell(node, *strongest->on_air, strongest->arrival);
+        strongest->on_air->told_later.push_back(radio);
+        tell(radio, *strongest->on_air, strongest->arrival);
     }
 }
 

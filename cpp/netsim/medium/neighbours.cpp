@@ -5,8 +5,8 @@
 
 namespace netsim {
 
-void Neighbours::add(NodeId node, const Trajectory& trajectory) {
-    nodes_.push_back(Node{node, &trajectory});
+void Neighbours::add(RadioId radio, const Trajectory& trajectory) {
+    radios_.push_back(Radio{radio, &trajectory});
     slack_m_ = -1;
 }
 
@@ -31,7 +31,7 @@ void Neighbours::prepare(SimTime now, Odometer& odometer, double reach_m) {
 
 bool Neighbours::is_of_wrong_size() const {
     const double wanted_m = reaches_m_ / static_cast<double>(asked_) / 2;
-    return columns_ > 1 && asked_ > 1000 + 10 * nodes_.size() &&
+    return columns_ > 1 && asked_ > 1000 + 10 * radios_.size() &&
            (wanted_m < cell_m_ / 2 || wanted_m > cell_m_ * 2);
 }
 
@@ -39,26 +39,26 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
     reaches_m_ = 0;
     asked_ = 0;
     // Half the reach: most of those who are looked at are within it, and there are few cells to look at.
-    const bool is_small = nodes_.size() < 32 || !(reach_m > 0);
+    const bool is_small = radios_.size() < 32 || !(reach_m > 0);
     cell_m_ = reach_m > 0 ? std::max(reach_m / 2, 1e-3) : 1000;
     slack_m_ = cell_m_ / 4;
-    columns_ = is_small ? 1 : std::bit_ceil(static_cast<std::size_t>(std::sqrt(nodes_.size())));
+    columns_ = is_small ? 1 : std::bit_ceil(static_cast<std::size_t>(std::sqrt(radios_.size())));
 
     constexpr double infinite = std::numeric_limits<double>::infinity();
     lowest_ = {infinite, infinite, infinite};
     highest_ = {-infinite, -infinite, -infinite};
     std::vector<Entry> unsorted;
     std::vector<std::uint32_t> table_places;
-    unsorted.reserve(nodes_.size());
-    table_places.reserve(nodes_.size());
+    unsorted.reserve(radios_.size());
+    table_places.reserve(radios_.size());
     first_entry_.assign(columns_ * columns_ + 1, 0);
-    for (const Node& node : nodes_) {
-        const Position place = node.trajectory->position_at(now);
+    for (const Radio& radio : radios_) {
+        const Position place = radio.trajectory->position_at(now);
         lowest_ = {std::min(lowest_.x, place.x), std::min(lowest_.y, place.y), std::min(lowest_.z, place.z)};
         highest_ = {std::max(highest_.x, place.x), std::max(highest_.y, place.y),
                     std::max(highest_.z, place.z)};
         const std::size_t table_place = column_of(cell_of(place.y)) * columns_ + column_of(cell_of(place.x));
-        unsorted.push_back(Entry{place, node.id, node.trajectory});
+        unsorted.push_back(Entry{place, radio.id, radio.trajectory});
         table_places.push_back(static_cast<std::uint32_t>(table_place));
         ++first_entry_[table_place + 1];
     }
@@ -76,7 +76,7 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
 }
 
 double Neighbours::farthest_m(const Position& from) const {
-    if (nodes_.empty()) {
+    if (radios_.empty()) {
         return 0;
     }
     const Position to{std::max(from.x - lowest_.x, highest_.x - from.x),

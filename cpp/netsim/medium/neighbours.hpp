@@ -1,8 +1,8 @@
-// Who is near a place: a grid over the positions of nodes.
+// Who is near a place: a grid over the positions of radios.
 //
 // The plane is cut into square cells (heights do not count here), and the cells are folded on to a table of fixed
 // size, row by row, so that coordinates of any size will do: cells far from each other may share a place in the table,
-// which costs time but no truth. The nodes of a row of cells lie side by side in memory.
+// which costs time but no truth. The radios of a row of cells lie side by side in memory.
 //
 // Nodes move without telling the grid. It keeps the places where they were when it was laid out, looks so much
 // farther than it is asked to as they can have moved since, and is laid out anew when that is too much.
@@ -14,22 +14,22 @@
 #include <vector>
 
 #include "netsim/geometry/position.hpp"
+#include "netsim/medium/interface_id.hpp"
 #include "netsim/medium/odometer.hpp"
-#include "netsim/trace/frame_fates.hpp"
 
 namespace netsim {
 
 class Neighbours {
 public:
     // The trajectory must be watched by the odometer that `prepare` gets.
-    void add(NodeId node, const Trajectory& trajectory);
-    std::size_t size() const { return nodes_.size(); }
+    void add(RadioId radio, const Trajectory& trajectory);
+    std::size_t size() const { return radios_.size(); }
 
     // Before each instant's `visit` and `farthest_m`. `reach_m` is a distance that will be asked for: the size of
     // the cells follows those that are usual.
     void prepare(SimTime now, Odometer& odometer, double reach_m);
 
-    // Calls visitor(node, position now) for all nodes within `radius_m` of `centre`, and some others near by, in an
+    // Calls visitor(radio, position now) for all radios within `radius_m` of `centre`, and some others near by, in an
     // order that depends on nothing but the nodes' positions. An infinite radius visits all.
     template <typename Visitor>
     void visit(const Position& centre, double radius_m, Visitor&& visitor) const;
@@ -38,13 +38,13 @@ public:
     double farthest_m(const Position& from) const;
 
 private:
-    struct Node {
-        NodeId id;
+    struct Radio {
+        RadioId id;
         const Trajectory* trajectory;
     };
     struct Entry {
         Position place;  // where it was when the grid was laid out
-        NodeId id = 0;
+        RadioId id = 0;
         const Trajectory* trajectory = nullptr;
     };
 
@@ -63,7 +63,7 @@ private:
     void visit_row(std::size_t row, std::size_t first, std::size_t end, const Position& centre,
                    double squared_radius_m2, Visitor&& visitor) const;
 
-    std::vector<Node> nodes_;
+    std::vector<Radio> radios_;
     std::vector<Entry> entries_;              // by place in the table
     std::vector<std::uint32_t> first_entry_;  // of each place in the table, and the end
     std::size_t columns_ = 1;                 // and as many rows

@@ -24,9 +24,10 @@ public:
     // `seed` is that of the run. Throws ConfigError for a path loss of an unknown name.
     Propagation(const MediumConfig& config, std::uint64_t seed);
 
-    // Received over transmitted power for node `receiver`, at `place` when the transmission starts, `distance_m` from
+    // Received over transmitted power for the interface `receiver`, at `place` when the transmission starts, `distance_m` from
     // its origin. A function of its arguments: no order, no memory. Reciprocal, if start and id are the same.
-    double gain(const Transmission& sent, NodeId receiver, const Position& place, double distance_m) const {
+    double gain(const Transmission& sent, InterfaceId receiver, const Position& place,
+                double distance_m) const {
         if (is_power_law_) {
             return path_loss_.gain(distance_m, sent.band.carrier_hz);
         }
@@ -53,7 +54,7 @@ public:
     bool is_random() const { return !fading_.is_none(); }
 
 private:
-    double other_gain(const Transmission& sent, NodeId receiver, const Position& place,
+    double other_gain(const Transmission& sent, InterfaceId receiver, const Position& place,
                       double distance_m) const;
 
     PathLoss path_loss_;  // of the two-ray models: their bound

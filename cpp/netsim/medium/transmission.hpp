@@ -3,11 +3,14 @@
 // The medium knows only the physical side. `mode` and `frame` belong to the layers above and are handed through.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 
 #include "netsim/geometry/position.hpp"
 #include "netsim/kernel/sim_time.hpp"
+#include "netsim/medium/interface_id.hpp"
 #include "netsim/trace/frame_fates.hpp"
 
 namespace netsim {
@@ -22,15 +25,28 @@ struct Band {
 
     bool operator==(const Band&) const = default;
 
-    // A receiver in band `listener` gets a signal only if the centre frequencies are equal and the signal fits.
+    // A receiver in band `listener` can decode a signal only if the centre frequencies are equal and the signal fits.
     bool fits_in(const Band& listener) const {
         return carrier_hz == listener.carrier_hz && bandwidth_hz <= listener.bandwidth_hz;
+    }
+
+    // The part of a signal's power that a receiver in band `listener` gets, 0 to 1: it is spread evenly over the
+    // signal's bandwidth, and the receiver's filter has sharp edges. What it gets of a signal that does not fit in is
+    // noise to it.
+    double share_in(const Band& listener) const {
+        if (fits_in(listener)) {
+            return 1;
+        }
+        const double overlap_hz =
+            (bandwidth_hz + listener.bandwidth_hz) / 2 - std::abs(carrier_hz - listener.carrier_hz);
+        return std::clamp(overlap_hz, 0.0, std::min(bandwidth_hz, listener.bandwidth_hz)) / bandwidth_hz;
     }
 };
 
 struct Transmission {
     std::uint64_t id = 0;  // 0, 1, 2, … in the order of starting
-    NodeId sender = 0;
+    InterfaceId sender;
+    RadioId radio = 0;  // the sender's
     SimTime start;
     SimTime duration;
     double power_w = 0;

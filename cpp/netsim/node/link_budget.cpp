@@ -33,18 +33,25 @@ const NodeConfig& checked(const NodeConfig& config) {
     return config;
 }
 
-bool is_narrowband(const NodeConfig& node) {
-    return node.interface_type == ieee802154_interface;
+const InterfaceConfig& interface_of(const NodeConfig& node, std::size_t index) {
+    if (index >= node.wlan.size()) {
+        throw ConfigError(node.name + " has no interface wlan[" + std::to_string(index) + "]");
+    }
+    return node.wlan[index];
 }
 
-const Mode& broadcast_mode(const NodeConfig& node) {
-    return is_narrowband(node) ? oqpsk_250_kbps : Dcf::broadcast_mode(node.mac);
+bool is_narrowband(const InterfaceConfig& interface) {
+    return interface.type_name == ieee802154_interface;
 }
 
-int psdu_bytes_of(const NodeConfig& node, int payload_bytes) {
-    const int mtu_bytes = is_narrowband(node) ? narrowband_mtu_bytes : node.mac.mtu_bytes;
+const Mode& broadcast_mode(const InterfaceConfig& interface) {
+    return is_narrowband(interface) ? oqpsk_250_kbps : Dcf::broadcast_mode(interface.mac);
+}
+
+int psdu_bytes_of(const InterfaceConfig& interface, int payload_bytes) {
+    const int mtu_bytes = is_narrowband(interface) ? narrowband_mtu_bytes : interface.mac.mtu_bytes;
     check_between("payload_bytes", payload_bytes, 0, mtu_bytes - datagram_bytes(0), "B");
-    return is_narrowband(node) ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
+    return is_narrowband(interface) ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
 }
 
 double most_antenna_gain(const RadioConfig& radio) {
@@ -55,18 +62,19 @@ double most_antenna_gain(const RadioConfig& radio) {
 }  // namespace
 
 LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, const NodeConfig& receiver,
-                       int payload_bytes)
+                       int payload_bytes, std::size_t interface)
     : propagation_(without_obstacles(medium), 0),
-      receiver_(checked(receiver).radio),
-      band_{sender.radio.carrier_hz, sender.radio.bandwidth_hz},
+      sender_(interface_of(sender, interface)),
+      receiver_(interface_of(checked(receiver), interface).radio),
+      band_{sender_.radio.carrier_hz, sender_.radio.bandwidth_hz},
       sender_height_m_(checked(sender).initial_position.z),
       receiver_height_m_(receiver.initial_position.z),
-      antenna_gain_(most_antenna_gain(sender.radio) * most_antenna_gain(receiver.radio)),
-      noise_w_(BackgroundNoise(medium).power_w(receiver.radio.bandwidth_hz, receiver.radio.noise_figure)),
-      error_model_(make_error_model(receiver.radio)),
-      preamble_detection_(receiver.radio),
-      mode_(&broadcast_mode(sender)),
-      psdu_bytes_(psdu_bytes_of(sender, payload_bytes)),
+      antenna_gain_(most_antenna_gain(sender_.radio) * most_antenna_gain(receiver_)),
+      noise_w_(BackgroundNoise(medium).power_w(receiver_.bandwidth_hz, receiver_.noise_figure)),
+      error_model_(make_error_model(receiver_)),
+      preamble_detection_(receiver_),
+      mode_(&broadcast_mode(sender_)),
+      psdu_bytes_(psdu_bytes_of(sender_, payload_bytes)),
       states_(propagation_.is_random() ? states_of_a_random_link : 1) {
     if (!band_.fits_in(Band{receiver_.carrier_hz, receiver_.bandwidth_hz})) {
         throw ConfigError("radio.carrier_hz: " + receiver.name + " does not receive the channel of " +
@@ -85,10 +93,10 @@ std::vector<double> LinkBudget::gains(double distance_m) const {
     std::vector<double> all(static_cast<std::size_t>(states_));
     for (int state = 0; state < states_; ++state) {
         // Each from another pair of nodes, so that they are independent.
-        sent.sender = 2 * state;
+        sent.sender.node = 2 * state;
         sent.id = static_cast<std::uint64_t>(state);
         all[static_cast<std::size_t>(state)] =
-            antenna_gain_ * propagation_.gain(sent, 2 * state + 1, place, distance_m);
+            antenna_gain_ * propagation_.gain(sent, InterfaceId{2 * state + 1, 0}, place, distance_m);
     }
     return all;
 }

@@ -23,11 +23,11 @@ namespace netsim {
 
 class LinkBudget {
 public:
-    // For messages of `payload_bytes` ≥ 0. The heights of the nodes are the z of their initial positions. Throws
+    // For messages of `payload_bytes` ≥ 0 through wlan[interface] of both. The heights of the nodes are the z of their initial positions. Throws
     // ConfigError for a value out of its range, for a medium without path loss (UnitDiskRadioMedium), for nodes of
     // different bands and for a message that does not fit into a frame.
     LinkBudget(const MediumConfig& medium, const NodeConfig& sender, const NodeConfig& receiver,
-               int payload_bytes);
+               int payload_bytes, std::size_t interface = 0);
 
     // The share of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0, from 0 to 1.
     double reception_ratio(double distance_m, double tx_power_w) const;
@@ -47,6 +47,7 @@ private:
     double reception_ratio(const std::vector<double>& gains, double tx_power_w) const;
 
     Propagation propagation_;
+    InterfaceConfig sender_;
     RadioConfig receiver_;
     Band band_;
     double sender_height_m_;

@@ -28,17 +28,14 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
-    check_with_medium(config);
-    if (!perfect_channel_) {
-        make_error_model(config.radio);  // before anything is built, so that a refused node leaves no trace
-    }
-    if (!perfect_channel_ && config.interface_type == ieee80211_interface) {
-        Dcf::check(config.mac);
-    }
+    check_with_medium(config);  // all of it before anything is built, so that a refused node leaves no trace
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
-    node.set_link(make_link(config, node));
+    for (std::size_t index = 0; index < config.wlan.size(); ++index) {
+        const InterfaceId id{node.id(), static_cast<std::int32_t>(index)};
+        node.add_link(make_link(config.wlan[index], id, node));
+    }
     const SimTime telemetry_interval = SimTime::from_seconds(config.mobility.telemetry_interval_s);
     if (telemetry_interval > SimTime{}) {
         add_to_telemetry_clock(node, telemetry_interval);
@@ -46,16 +43,16 @@ Node& Network::add_node(const NodeConfig& config) {
     return node;
 }
 
-std::unique_ptr<Link> Network::make_link(const NodeConfig& config, Node& node) {
+std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, InterfaceId id, Node& node) {
     if (perfect_channel_) {
-        return std::make_unique<UnitDiskLink>(simulator_, unit_disk_, config.radio.communication_range_m,
+        return std::make_unique<UnitDiskLink>(simulator_, unit_disk_, id, config.radio.communication_range_m,
                                               node.trajectory(), frame_fates_, message_fates_, fingerprint_,
                                               node.link_listener());
     }
-    interface_types_.try_emplace(config.radio.carrier_hz, config.interface_type);
-    Radio& radio = radios_.emplace_back(simulator_, medium_, config.radio, node.trajectory(), seed_,
+    interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
+    Radio& radio = radios_.emplace_back(simulator_, medium_, id, config.radio, node.trajectory(), seed_,
                                         frame_fates_, fingerprint_, node.attitude());
-    if (config.interface_type == ieee802154_interface) {
+    if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,
                                               node.link_listener());
@@ -65,6 +62,21 @@ std::unique_ptr<Link> Network::make_link(const NodeConfig& config, Node& node) {
 }
 
 void Network::check_with_medium(const NodeConfig& config) const {
+    if (node_count_ == InterfaceId::most_nodes) {
+        throw ConfigError("there are " + text_of(node_count_) + " nodes: no network can have more");
+    }
+    for (std::size_t index = 0; index < config.wlan.size(); ++index) {
+        try {
+            check_with_medium(config.name, config.wlan[index]);
+        } catch (const ConfigError& error) {
+            throw config.wlan.size() == 1
+                ? error
+                : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
+        }
+    }
+}
+
+void Network::check_with_medium(const std::string& node, const InterfaceConfig& config) const {
     const RadioConfig& radio = config.radio;
     if (perfect_channel_) {
         check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
@@ -76,13 +88,17 @@ void Network::check_with_medium(const NodeConfig& config) const {
                           " W: expected more than the background noise of " + text_of(noise_w) +
                           " W, which would keep the channel busy for ever");
     }
+    make_error_model(radio);
+    if (config.type_name == ieee80211_interface) {
+        Dcf::check(config.mac);
+    }
     // No channel of the one has the centre of a channel of the other: who sets it so has mistaken something, and
     // neither could make anything of what it locks on to.
     const auto there = interface_types_.find(radio.carrier_hz);
-    if (there != interface_types_.end() && there->second != config.interface_type) {
+    if (there != interface_types_.end() && there->second != config.type_name) {
         throw ConfigError("radio.carrier_hz = " + text_of(radio.carrier_hz) +
-                          " Hz: expected another one for " + config.name + " with its " +
-                          config.interface_type + ", as a node with an " + there->second + " is at this one");
+                          " Hz: expected another one for " + node + " with its " + config.type_name +
+                          ", as a node with an " + there->second + " is at this one");
     }
 }
 
@@ -97,24 +113,36 @@ void Network::add_to_telemetry_clock(Node& node, SimTime interval) {
     clock->add(node);
 }
 
-void Network::capture(NodeId node, const std::string& path) {
+Radio& Network::radio(InterfaceId id) {
+    const auto found = std::ranges::lower_bound(radios_, id, {}, &Radio::interface);
+    NETSIM_ASSERT(found != radios_.end() && found->interface() == id);
+    return *found;
+}
+
+void Network::capture(NodeId node, const std::string& path, std::int32_t interface) {
     const std::string& name = this->node(node).name();
     if (perfect_channel_) {
         throw ConfigError("cannot capture the frames of " + name +
                           ": a medium of typename UnitDiskRadioMedium has no radios; expected " +
                           "Ieee80211ScalarRadioMedium or another radio medium");
     }
-    if (captures_.contains(node)) {
+    const std::size_t count = this->node(node).links().size();
+    if (interface < 0 || static_cast<std::size_t>(interface) >= count) {
+        throw ConfigError("cannot capture the frames of wlan[" + std::to_string(interface) + "] of " + name +
+                          ", which has " + std::to_string(count) + " interfaces, from wlan[0] on");
+    }
+    const InterfaceId id{node, interface};
+    if (captures_.contains(id)) {
         throw ConfigError("the frames of " + name + " are captured already");
     }
-    radios_.at(static_cast<std::size_t>(node))
-        .set_observer(&captures_.try_emplace(node, path, link_types_[node]).first->second);
+    Radio& captured = radio(id);
+    captured.set_observer(&captures_.try_emplace(id, path, link_types_[captured.id()]).first->second);
 }
 
 void Network::close_captures() {
     std::exception_ptr failure;
-    for (auto& [node, capture] : captures_) {
-        radios_[static_cast<std::size_t>(node)].set_observer(nullptr);
+    for (auto& [id, capture] : captures_) {
+        radio(id).set_observer(nullptr);
         try {
             capture.close();
         } catch (const SimulationError&) {
@@ -128,10 +156,11 @@ void Network::close_captures() {
 }
 
 void Network::initialize() {
+    for (const Radio& radio : radios_) {
+        Node& node = nodes_[radio.node()];
+        medium_.set_touched(radio.id(), node.links()[radio.interface().index].get(), &node, node.protocol());
+    }
     for (Node& node : nodes_) {
-        if (!perfect_channel_) {
-            medium_.set_touched(node.id(), &node.link(), &node, node.protocol());
-        }
         node.initialize();
     }
     for (TelemetryClock& clock : telemetry_clocks_) {

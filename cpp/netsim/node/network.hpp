@@ -40,10 +40,10 @@ public:
     const Node& node(NodeId id) const { return nodes_.at(static_cast<std::size_t>(id)); }
     std::int32_t node_count() const { return node_count_; }
 
-    // Writes what the node's radio sends and receives from now on to a pcap file, until close_captures() or the end
-    // of the network. Throws ConfigError for a path that cannot be written, for a second capture of a node, and for
-    // the unit disk medium, which has no radios.
-    void capture(NodeId node, const std::string& path);
+    // Writes what the radio of the node's wlan[interface] sends and receives from now on to a pcap file, until
+    // close_captures() or the end of the network. Throws ConfigError for a path that cannot be written, for an interface
+    // that is not there or is captured already, and for the unit disk medium, which has no radios.
+    void capture(NodeId node, const std::string& path, std::int32_t interface = 0);
     // Completes the capture files. Throws SimulationError, after all are closed, if one could not be written.
     void close_captures();
 
@@ -73,7 +73,9 @@ public:
 
 private:
     void check_with_medium(const NodeConfig& config) const;
-    std::unique_ptr<Link> make_link(const NodeConfig& config, Node& node);
+    void check_with_medium(const std::string& node, const InterfaceConfig& config) const;
+    std::unique_ptr<Link> make_link(const InterfaceConfig& config, InterfaceId id, Node& node);
+    Radio& radio(InterfaceId id);
     void add_to_telemetry_clock(Node& node, SimTime interval);
 
     Simulator simulator_;
@@ -84,10 +86,10 @@ private:
     bool perfect_channel_;
     Medium medium_;
     UnitDiskChannel unit_disk_;
-    std::deque<Radio> radios_;
+    std::deque<Radio> radios_;                       // by interface
     std::deque<LinkType> link_types_;                // of the radios
     std::map<double, std::string> interface_types_;  // {centre frequency in Hz: the one there}
-    std::map<NodeId, RadioCapture> captures_;
+    std::map<InterfaceId, RadioCapture> captures_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
     ScheduledCalls scheduled_calls_{simulator_};

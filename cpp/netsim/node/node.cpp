@@ -34,11 +34,20 @@ void Node::finish() {
     }
 }
 
-void Node::broadcast(Payload payload) {
-    link_->send(broadcast_id, std::move(payload));
+Link& Node::link(std::int32_t interface) {
+    if (interface < 0 || static_cast<std::size_t>(interface) >= links_.size()) {
+        throw SimulationError("node " + std::to_string(id_) + " has no interface wlan[" +
+                              std::to_string(interface) + "]: it has " + std::to_string(links_.size()) +
+                              (links_.size() == 1 ? ", wlan[0]" : ", from wlan[0] on"));
+    }
+    return *links_[interface];
 }
 
-void Node::send(NodeId destination, Payload payload) {
+void Node::broadcast(Payload payload, std::int32_t interface) {
+    link(interface).send(broadcast_id, std::move(payload));
+}
+
+void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
     if (destination < 0 || destination >= *node_count_) {
         throw SimulationError("cannot send to node " + std::to_string(destination) + ": nodes are 0 … " +
                               std::to_string(*node_count_ - 1));
@@ -46,7 +55,7 @@ void Node::send(NodeId destination, Payload payload) {
     if (destination == id_) {
         throw SimulationError("node " + std::to_string(id_) + " cannot send a message to itself");
     }
-    link_->send(destination, std::move(payload));
+    link(interface).send(destination, std::move(payload));
 }
 
 void Node::schedule_timer(std::string timer, SimTime time) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "netsim/config/node_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
@@ -32,13 +33,13 @@ public:
     const Trajectory& trajectory() const { return mobility_->trajectory(); }
     const Attitude& attitude() const { return attitude_; }
 
-    // Wiring, before the run. The interface reports to `link_listener()`.
+    // Wiring, before the run. The interfaces, wlan[0] first, report to `link_listener()`.
     LinkListener& link_listener() { return *this; }
-    void set_link(std::unique_ptr<Link> link) { link_ = std::move(link); }
+    void add_link(std::unique_ptr<Link> link) { links_.push_back(std::move(link)); }
     void set_node_count(const std::int32_t* count) { node_count_ = count; }
     void set_protocol(std::unique_ptr<Protocol> protocol) { protocol_ = std::move(protocol); }
     Protocol* protocol() { return protocol_.get(); }
-    const Link& link() const { return *link_; }
+    const std::vector<std::unique_ptr<Link>>& links() const { return links_; }
 
     // Life cycle, driven by the Network.
     void initialize();
@@ -47,8 +48,9 @@ public:
 
     // What a protocol may ask for. All throw SimulationError for what cannot be done.
     SimTime now() const { return simulator_.now(); }
-    void broadcast(Payload payload);
-    void send(NodeId destination, Payload payload);
+    // Through wlan[interface].
+    void broadcast(Payload payload, std::int32_t interface = 0);
+    void send(NodeId destination, Payload payload, std::int32_t interface = 0);
     void go_to(Position target) { mobility_->go_to(simulator_.now(), target); }
     void set_speed(double speed_mps) { mobility_->set_speed(simulator_.now(), speed_mps); }
     // At `time`, not before now; equal names may be pending several times.
@@ -62,6 +64,7 @@ public:
     const TrackedVariables& tracked_variables() const { return tracked_variables_; }
 
 private:
+    Link& link(std::int32_t interface);
     void message_received(NodeId source, const Payload& payload) override;
     void timer_due(std::size_t number);
 
@@ -71,7 +74,7 @@ private:
     NodeId id_;
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Mobility> mobility_;
-    std::unique_ptr<Link> link_;
+    std::vector<std::unique_ptr<Link>> links_;
     std::unique_ptr<Protocol> protocol_;
     std::string name_;
     Attitude attitude_;

@@ -8,8 +8,9 @@
 
 namespace netsim {
 
-Radio::Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, const Trajectory& trajectory,
-             std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint, const Attitude& attitude)
+Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
+             const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
+             const Attitude& attitude)
     : simulator_(simulator),
       medium_(medium),
       config_(config),
@@ -22,10 +23,12 @@ Radio::Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, co
       antenna_(make_antenna(config.antenna, config.carrier_hz)),
       fates_(fates),
       fingerprint_(fingerprint),
-      id_(medium.attach(Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz},
+      interface_(interface),
+      id_(medium.attach(interface,
+                        Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz},
                                  config.sensitivity_w, config.energy_detection_w, noise_w_},
                         MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)})),
-      reception_draws_(seed, static_cast<std::uint32_t>(id_), Purpose::reception) {}
+      reception_draws_(seed, interface.stream(), Purpose::reception) {}
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                      SimTime duration) {
@@ -34,7 +37,8 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmitting_ = true;
     turned_ = false;
     Transmission transmission;
-    transmission.sender = id_;
+    transmission.sender = interface_;
+    transmission.radio = id_;
     transmission.duration = duration;
     transmission.power_w = config_.tx_power_w;
     transmission.band = Band{config_.carrier_hz, config_.bandwidth_hz};
@@ -73,7 +77,7 @@ void Radio::transmission_over() {
 
 void Radio::arrival_started(const Arrival& arrival) {
     present_.push_back(Present{arrival.transmission, arrival.power_w});
-    if (arrival.power_w >= config_.sensitivity_w) {
+    if (arrival.power_w >= config_.sensitivity_w && can_decode(*arrival.transmission)) {
         if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ == nullptr) {
@@ -181,7 +185,7 @@ void Radio::end_reception(const Arrival& arrival) {
         observer_->received(arrival, noise_w_, decoded);
     }
     if (culprits != nullptr) {
-        fates_.book_interference(id_, transmission.label, culprits->interferers);
+        fates_.book_interference(node(), transmission.label, culprits->interferers);
     } else {
         book(transmission, fate);
     }
@@ -231,11 +235,11 @@ bool Radio::header_survives() {
 
 void Radio::remember(const Transmission& transmission, FrameFate fate) {
     fingerprint_.add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
-    fingerprint_.add(static_cast<std::uint64_t>(id_));
+    fingerprint_.add(static_cast<std::uint64_t>(interface_.stream()));
 }
 
 void Radio::book(const Transmission& transmission, FrameFate fate) {
-    fates_.book(id_, transmission.label, fate);
+    fates_.book(node(), transmission.label, fate);
 }
 
 void Radio::update_busy() {

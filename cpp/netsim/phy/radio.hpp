@@ -5,6 +5,8 @@
 //        |   end of the frame      ^  ^                                      |
 //        +-------------------------+  +---- end of the arrival locked on <---+--> LOCKED
 //
+// Frames of other channels that overlap with its own never lock it: they are noise, and energy that makes the channel busy.
+//
 // Half duplex: what starts while it transmits is never received, and starting to transmit gives up a reception.
 // There is no capture: locked on one frame, the radio takes all others for interference.
 //
@@ -52,15 +54,18 @@ protected:
 
 class Radio final : public MediumListener {
 public:
-    Radio(Simulator& simulator, Medium& medium, const RadioConfig& config, const Trajectory& trajectory,
-          std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint, const Attitude& attitude = {});
+    Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
+          const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
+          const Attitude& attitude = {});
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
 
     void set_listener(RadioListener& listener) { listener_ = &listener; }
     // Who is told of every frame sent and received from now on; nobody, if null.
     void set_observer(RadioObserver* observer) { observer_ = observer; }
-    NodeId id() const { return id_; }
+    InterfaceId interface() const { return interface_; }
+    NodeId node() const { return interface_.node; }
+    RadioId id() const { return id_; }
 
     // Turns around to send: what comes before the end of the next transmission is not received. Only while not
     // transmitting. Radios that need no time for that go without.
@@ -88,6 +93,10 @@ private:
         EventHandle detection;
     };
 
+    // A frame of its channel: only those of others are nothing but energy to it.
+    bool can_decode(const Transmission& transmission) const {
+        return transmission.band.fits_in(Band{config_.carrier_hz, config_.bandwidth_hz});
+    }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
     bool is_candidate(const Transmission* transmission) {
@@ -125,7 +134,8 @@ private:
     Fingerprint& fingerprint_;
     RadioListener* listener_ = nullptr;
     RadioObserver* observer_ = nullptr;
-    NodeId id_;
+    InterfaceId interface_;
+    RadioId id_;
     RandomStream reception_draws_;
     std::vector<Present> present_;
     std::vector<Candidate> candidates_;

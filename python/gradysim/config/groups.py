@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from gradysim.config.keys import NETWORK_MODULES
+from gradysim.config.keys.interface import NUM_WLAN_INTERFACES
 from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS
 from gradysim.config.keys.options import IGNORED_MODULES
 from gradysim.config.lookup import Found, Lookup
@@ -96,7 +97,7 @@ def _names_single(found: Found) -> bool:
 
 
 def _is_size_key(name: str) -> bool:
-    return name.startswith("num") and name[3:4].isupper()
+    return name.startswith("num") and name[3:4].isupper() and name != NUM_WLAN_INTERFACES.path
 
 
 def _name_and_rest(found: Found) -> tuple[str | None, str | None]:

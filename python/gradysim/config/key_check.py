@@ -5,12 +5,14 @@ group is better reported than the missing class that follows from it.
 """
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from gradysim.config.error import ConfigError
 from gradysim.config.groups import Group
 from gradysim.config.key_suggestion import unknown_name_text, unknown_parameter_text
-from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
+from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.environment import OBSTACLE_KEYS, obstacle_path
+from gradysim.config.keys.interface import at_interface
 from gradysim.config.keys.node import GROUP_SIZE
 from gradysim.config.keys.options import OPTIONS, SECTION_OPTIONS
 from gradysim.config.lookup import Found, Lookup, is_ignored
@@ -19,6 +21,18 @@ from gradysim.config.pattern import Pattern
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.reader import Entry
 from gradysim.protocol.interface import IProtocol
+
+
+class NodeKind(NamedTuple):
+    """What decides which keys a node has.
+
+    Attributes:
+        protocol: The class that it runs.
+        interface_count: The number of its network interfaces.
+    """
+
+    protocol: type[IProtocol]
+    interface_count: int
 
 
 def check_option(entry: Entry) -> None:
@@ -55,13 +69,13 @@ def check_names(lookup: Lookup, groups: list[Group]) -> None:
 
 
 def check_parameters(
-    lookup: Lookup, groups: list[Group], classes: Mapping[str, type[IProtocol]], obstacles: int
+    lookup: Lookup, groups: list[Group], kinds: Mapping[str, NodeKind], obstacles: int
 ) -> None:
     """Raise ConfigError for the first key that names no parameter.
 
-    `classes` are those of the nodes; `obstacles` is the number of those that have keys.
+    `kinds` are those of the nodes, by name; `obstacles` is the number of those that have keys.
     """
-    check = _ParameterCheck(lookup.network, groups, classes, obstacles)
+    check = _ParameterCheck(lookup.network, groups, kinds, obstacles)
     for found in _in_order_of_text(lookup):
         if not check.matches(found):
             raise ConfigError(check.error_text(found), found.entry.source)
@@ -69,7 +83,7 @@ def check_parameters(
 
 class _ParameterCheck:
     def __init__(
-        self, network: str, groups: list[Group], classes: Mapping[str, type[IProtocol]], obstacles: int
+        self, network: str, groups: list[Group], kinds: Mapping[str, NodeKind], obstacles: int
     ) -> None:
         self._network = network
         self._network_paths = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
@@ -77,10 +91,10 @@ class _ParameterCheck:
             obstacle_path(key, index) for index in range(obstacles) for key in OBSTACLE_KEYS
         ]
         self._groups = groups
-        self._classes = classes
-        self._rests = {cls: _rests_of(cls) for cls in dict.fromkeys(classes.values())}
-        self._classes_of: dict[str, set[type[IProtocol]]] = {}
-        self._known: dict[tuple[type[IProtocol], str], bool] = {}
+        self._kinds = kinds
+        self._rests = {kind: _rests_of(kind) for kind in dict.fromkeys(kinds.values())}
+        self._kinds_of: dict[str, set[NodeKind]] = {}
+        self._known: dict[tuple[NodeKind, str], bool] = {}
 
     def matches(self, found: Found) -> bool:
         name, rest = found.name_pattern(), found.rest_pattern()
@@ -93,34 +107,35 @@ class _ParameterCheck:
             return True
         if rest.matches(GROUP_SIZE.path) and any(name.matches(group.name) for group in self._groups):
             return True
-        classes = self._classes_named(name)
-        if not classes:  # the group is empty, or smaller than this key was written for
+        kinds = self._kinds_named(name)
+        if not kinds:  # the group is empty, or smaller than this key was written for
             is_single_part = any(name.matches(other) for other in NETWORK_MODULES | self._indexed())
             return not is_single_part and (
                 rest.literal_prefix().startswith("protocol.")
                 or any(rest.matches(key.path) for key in NODE_KEYS)
             )
-        return any(self._is_known(cls, rest) for cls in classes)
+        return any(self._is_known(kind, rest) for kind in kinds)
 
     def error_text(self, found: Found) -> str:
         name = found.name_pattern()
-        classes = sorted(self._classes_named(name), key=lambda cls: cls.__name__) if name else []
-        return unknown_parameter_text(found, self._groups, classes or list(self._rests))
+        kinds = (self._kinds_named(name) if name else set()) or set(self._rests)
+        classes = sorted({kind.protocol for kind in kinds}, key=lambda cls: cls.__name__)
+        return unknown_parameter_text(found, self._groups, classes)
 
     def _indexed(self) -> set[str]:
         return {group.name for group in self._groups if group.size is not None}
 
-    def _classes_named(self, name: Pattern) -> set[type[IProtocol]]:
+    def _kinds_named(self, name: Pattern) -> set[NodeKind]:
         if name.literal is not None:
-            return {self._classes[name.literal]} if name.literal in self._classes else set()
-        if name.text not in self._classes_of:
-            self._classes_of[name.text] = {cls for node, cls in self._classes.items() if name.matches(node)}
-        return self._classes_of[name.text]
+            return {self._kinds[name.literal]} if name.literal in self._kinds else set()
+        if name.text not in self._kinds_of:
+            self._kinds_of[name.text] = {kind for node, kind in self._kinds.items() if name.matches(node)}
+        return self._kinds_of[name.text]
 
-    def _is_known(self, cls: type[IProtocol], rest: Pattern) -> bool:
-        if (cls, rest.text) not in self._known:
-            self._known[cls, rest.text] = any(map(rest.matches, self._rests[cls]))
-        return self._known[cls, rest.text]
+    def _is_known(self, kind: NodeKind, rest: Pattern) -> bool:
+        if (kind, rest.text) not in self._known:
+            self._known[kind, rest.text] = any(map(rest.matches, self._rests[kind]))
+        return self._known[kind, rest.text]
 
     def _paths_like(self, found: Found) -> Iterator[str]:
         """All paths but those that the end of the key excludes."""
@@ -130,13 +145,16 @@ class _ParameterCheck:
             yield f"{self._network}.{group.name}.{GROUP_SIZE.path}"
             if group.size == 0:
                 yield from (f"{self._network}.{group.name}[0].{key.path}" for key in NODE_KEYS)
-        rests = {cls: [rest for rest in all if found.may_end_in(rest)] for cls, all in self._rests.items()}
-        for node, cls in self._classes.items():
-            yield from (f"{self._network}.{node}.{rest}" for rest in rests[cls])
+        rests = {kind: [rest for rest in all if found.may_end_in(rest)] for kind, all in self._rests.items()}
+        for node, kind in self._kinds.items():
+            yield from (f"{self._network}.{node}.{rest}" for rest in rests[kind])
 
 
-def _rests_of(cls: type[IProtocol]) -> list[str]:
-    return [key.path for key in NODE_KEYS] + [f"protocol.{name}" for name in parameters_of(cls)]
+def _rests_of(kind: NodeKind) -> list[str]:
+    """The paths below a node."""
+    further = [at_interface(key.path, index) for index in range(1, kind.interface_count) for key in WLAN_KEYS]
+    parameters = [f"protocol.{name}" for name in parameters_of(kind.protocol)]
+    return [key.path for key in NODE_KEYS] + further + parameters
 
 
 def _in_order_of_text(lookup: Lookup) -> list[Found]:

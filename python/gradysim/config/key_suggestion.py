@@ -1,5 +1,6 @@
 """What to say about a key that matches nothing: what was expected there, and the nearest valid key."""
 
+import re
 from collections.abc import Sequence
 
 from gradysim.config.groups import Group
@@ -11,6 +12,7 @@ from gradysim.config.protocol_parameters import parameters_of
 from gradysim.protocol.interface import IProtocol
 
 _PROTOCOL = "protocol."
+_FURTHER_INTERFACE = re.compile(r"wlan\[[1-9]")
 
 
 def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> str:
@@ -49,6 +51,8 @@ def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Seque
     expected = "the name of one"
     if rest is not None and not names_node and rest.text.startswith("obstacle["):
         expected = "one of an obstacle that `*.environment.numObstacles` counts"
+    if rest is not None and names_node and _FURTHER_INTERFACE.match(rest.text):
+        expected = "one of an interface that `numWlanInterfaces` of the node counts"
     return f"`{key}` matches no parameter; expected {expected}{_hint(found, groups, classes)}"
 
 

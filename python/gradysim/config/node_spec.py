@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.setting import Setting
 from gradysim.config.source import Source
 from gradysim.protocol.interface import IProtocol
@@ -22,14 +23,9 @@ class NodeSpec:
         protocol_parameters: Values of class attributes, checked and converted.
         initial_position: x, y, z in metres.
         mobility: Fields of MobilityConfig that were set; the others keep their defaults.
-        radio: Fields of RadioConfig that were set.
-        mac: Fields of MacConfig that were set.
+        wlan: Its network interfaces, at least one.
         protocol_sources: Where the parameters were written, and under "" what chose the protocol.
-        csma: Fields of CsmaConfig that were set.
-        node: Fields of NodeConfig itself that were set.
-        antenna: Fields of AntennaConfig that were set.
-        range_sets_power: Whether transmitter.communicationRange comes before transmitter.power: on a medium
-            where power decides, the power is to be that for the range.
+        node: Where what is about the whole node was written: the number of its interfaces.
     """
 
     id: int
@@ -40,10 +36,6 @@ class NodeSpec:
     protocol_parameters: Mapping[str, object]
     initial_position: tuple[float, float, float]
     mobility: Mapping[str, Setting]
-    radio: Mapping[str, Setting]
-    mac: Mapping[str, Setting]
+    wlan: tuple[InterfaceSpec, ...] = (InterfaceSpec(),)
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
-    csma: Mapping[str, Setting] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
-    antenna: Mapping[str, Setting] = field(default_factory=dict)
-    range_sets_power: bool = False

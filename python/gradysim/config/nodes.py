@@ -9,8 +9,10 @@ from dataclasses import dataclass
 
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.groups import Group
+from gradysim.config.interface_spec import InterfaceSpec
+from gradysim.config.interfaces import InterfaceBuilder
 from gradysim.config.key import Key
-from gradysim.config.keys import NODE_KEYS
+from gradysim.config.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
 from gradysim.config.kinds import LARGEST_COORDINATE_M, Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
@@ -21,6 +23,7 @@ from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.setting import Setting, SettingReader
 from gradysim.config.source import Source
+from gradysim.config.struct_reader import read_struct
 from gradysim.protocol.interface import IProtocol
 
 _AXES = ("x", "y", "z")
@@ -38,12 +41,8 @@ class _Shared:
     line: tuple[tuple[float, float], ...]
     steps: tuple[Found | None, ...]
     mobility: Mapping[str, Setting]
-    radio: Mapping[str, Setting]
-    mac: Mapping[str, Setting]
-    csma: Mapping[str, Setting]
     node: Mapping[str, Setting]
-    antenna: Mapping[str, Setting]
-    range_sets_power: bool
+    wlan: tuple[InterfaceSpec, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,14 +78,18 @@ def load_protocols(
 
 
 def build_nodes(
-    lookup: Lookup, groups: list[Group], protocols: Mapping[str, ChosenProtocol], settings: SettingReader
+    lookup: Lookup,
+    groups: list[Group],
+    protocols: Mapping[str, ChosenProtocol],
+    interface_counts: Mapping[str, int],
+    settings: SettingReader,
 ) -> tuple[NodeSpec, ...]:
     """All nodes, in the order of their ids. Raises ConfigError for a value that is none."""
     builder = _NodeBuilder(lookup, settings)
     nodes: list[NodeSpec] = []
     for group in groups:
         for index, name in enumerate(group.node_names()):
-            shared = builder.shared(name, protocols[name])
+            shared = builder.shared(name, protocols[name], interface_counts[name])
             x, y, z = (
                 _coordinate(name, index, axis, line, step)
                 for axis, line, step in zip(_AXES, shared.line, shared.steps, strict=True)
@@ -101,13 +104,9 @@ def build_nodes(
                     protocol_parameters=shared.protocol_parameters,
                     initial_position=(x, y, z),
                     mobility=shared.mobility,
-                    radio=shared.radio,
-                    mac=shared.mac,
+                    wlan=shared.wlan,
                     protocol_sources=shared.protocol_sources,
-                    csma=shared.csma,
                     node=shared.node,
-                    antenna=shared.antenna,
-                    range_sets_power=shared.range_sets_power,
                 )
             )
     return tuple(nodes)
@@ -120,12 +119,13 @@ class _NodeBuilder:
         self._keys = [
             (key, candidates)
             for key in NODE_KEYS
-            if key not in PROTOCOL_KEYS and (candidates := lookup.candidates(key.path))
+            if key not in (*PROTOCOL_KEYS, *WLAN_KEYS) and (candidates := lookup.candidates(key.path))
         ]
         self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
+        self._interfaces = InterfaceBuilder(lookup, settings)
         self._shared: dict[object, _Shared] = {}
 
-    def shared(self, name: str, protocol: ChosenProtocol) -> _Shared:
+    def shared(self, name: str, protocol: ChosenProtocol, interface_count: int) -> _Shared:
         cls = protocol.cls
         parameters = self._parameters.get(cls)
         if parameters is None:
@@ -136,11 +136,13 @@ class _NodeBuilder:
             ]
         found = [candidates.first(name) for _, candidates in self._keys]
         found_parameters = [candidates.first(name) for _, _, candidates in parameters]
-        in_force = (protocol, *found, *found_parameters)
+        wlan = self._interfaces.interfaces(name, interface_count)
+        in_force = (protocol, *map(id, wlan), *found, *found_parameters)
         shared = self._shared.get(in_force)
         if shared is None:
             shared = self._shared[in_force] = self._make(
                 {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},
+                wlan,
                 protocol.source,
                 {
                     parameter: self._settings.setting(entry.entry, kind)
@@ -151,14 +153,14 @@ class _NodeBuilder:
         return shared
 
     def _make(
-        self, found: dict[Key, Found], chosen_at: Source, protocol_settings: dict[str, Setting]
+        self,
+        found: dict[Key, Found],
+        wlan: tuple[InterfaceSpec, ...],
+        chosen_at: Source,
+        protocol_settings: dict[str, Setting],
     ) -> _Shared:
         parameters = {name: setting.value for name, setting in protocol_settings.items()}
         sources = {name: setting.source for name, setting in protocol_settings.items()}
-        structs = {
-            struct: read_struct(struct, found, self._settings)
-            for struct in ("mobility", "radio", "mac", "csma", "node", "antenna")
-        }
         position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
         values = {
             field: float(setting.value)
@@ -171,29 +173,10 @@ class _NodeBuilder:
             {"": chosen_at, **sources},
             line,
             steps,
-            **structs,
-            range_sets_power=_range_comes_first(found),
+            mobility=read_struct("mobility", found, self._settings),
+            node=read_struct("node", found, self._settings),
+            wlan=wlan,
         )
-
-
-def read_struct(struct: str, found: Mapping[Key, Found], settings: SettingReader) -> dict[str, Setting]:
-    """The fields of one struct that entries set. Of two keys for one field the first entry is in force."""
-    first: dict[str, tuple[Found, Key]] = {}
-    for key, entry in found.items():
-        if key.struct == struct and (key.field not in first or entry.order < first[key.field][0].order):
-            first[key.field] = (entry, key)
-    return {
-        field: settings.setting(entry.entry, key.kind)
-        for field, (entry, key) in first.items()
-        if not entry.is_default
-    }
-
-
-def _range_comes_first(found: Mapping[Key, Found]) -> bool:
-    """Whether a range was given, and not after a power."""
-    orders = {key.field: entry.order for key, entry in found.items() if not entry.is_default}
-    at = orders.get("communication_range_m")
-    return at is not None and at <= orders.get("tx_power_w", at)
 
 
 def _axis_line(axis: str, found: Mapping[str, Found], values: Mapping[str, float]) -> tuple[float, float]:

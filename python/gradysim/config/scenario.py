@@ -6,13 +6,14 @@ from pathlib import Path
 
 from gradysim.config.error import ConfigError
 from gradysim.config.groups import find_groups
-from gradysim.config.key_check import check_names, check_option, check_parameters
+from gradysim.config.interfaces import interface_counts
+from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS
 from gradysim.config.keys.options import OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
-from gradysim.config.nodes import build_nodes, load_protocols, read_struct
+from gradysim.config.nodes import build_nodes, load_protocols
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacles import obstacle_count, read_obstacles
 from gradysim.config.protocol_loader import ProtocolLoader
@@ -21,6 +22,7 @@ from gradysim.config.run_numbers import select_runs
 from gradysim.config.sections import config_names, search_order, unused_sections
 from gradysim.config.setting import Setting, SettingReader, read_scalar
 from gradysim.config.source import Source
+from gradysim.config.struct_reader import read_struct
 from gradysim.config.variables import depends_on_run, run_variables, substitute
 
 __all__ = ["CommunicationMediumSpec", "NodeSpec", "Scenario", "Setting", "Source", "load_scenarios"]
@@ -208,8 +210,9 @@ def _network(
             raise ConfigError(error.message + instead, error.source) from None
         raise
     protocols = load_protocols(lookup, groups, settings, loader)
-    classes = {name: protocol.cls for name, protocol in protocols.items()}
-    check_parameters(lookup, groups, classes, obstacle_count(lookup, settings))
+    counts = interface_counts(lookup, groups, settings)
+    kinds = {name: NodeKind(protocol.cls, counts[name]) for name, protocol in protocols.items()}
+    check_parameters(lookup, groups, kinds, obstacle_count(lookup, settings))
     if not protocols:
         raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
 
@@ -223,7 +226,7 @@ def _network(
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
     )
     return _Network(
-        nodes=build_nodes(lookup, groups, protocols, settings),
+        nodes=build_nodes(lookup, groups, protocols, counts, settings),
         medium=read_struct("medium", found, settings),
         communication_medium=CommunicationMediumSpec(
             **{field: float(setting.value) for field, setting in communication.items()}

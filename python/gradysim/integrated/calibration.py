@@ -60,8 +60,9 @@ def calibrate(
 ) -> Calibration:
     """Find the transmitter power with which the share `ratio` of broadcast frames is received at `range_m`.
 
-    Nobody else sends meanwhile; antennas look at each other, nothing is in between. `sender` and `receiver`
-    are names of nodes; by default the first node sends, to another one of its kind.
+    It goes from wlan[0] to wlan[0]. Nobody else sends meanwhile; antennas look at each other, nothing is in
+    between. `sender` and `receiver` are names of nodes; by default the first node sends, to another one of
+    its kind.
 
     Raises:
         ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.
@@ -88,7 +89,7 @@ def calibrate(
 
 def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, message_bytes: int) -> "LinkBudget":
     """Return the chances of a message from one node to another. Raises ConfigError."""
-    settings = {**scenario.medium, **sender.radio, **sender.mac}
+    settings = {**scenario.medium, **sender.wlan[0].radio, **sender.wlan[0].mac}
     with errors_at(settings):
         budget: LinkBudget = load_netsim().LinkBudget(
             medium_config(scenario), node_config(sender), node_config(receiver), message_bytes

@@ -1,4 +1,4 @@
-"""Capture files: what the radios of some nodes sent and received, one pcap file for each node."""
+"""Capture files: what the radios of some nodes sent and received, one pcap file for each radio."""
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -27,6 +27,15 @@ def capture_files(scenario: Scenario, names: Iterable[str], directory: Path) -> 
     return {node_id: directory / f"{prefix}-{chosen[node_id].name}.pcap" for node_id in sorted(chosen)}
 
 
+def files_of_interfaces(scenario: Scenario, files: Mapping[int, Path]) -> dict[tuple[int, int], Path]:
+    """Return {(id of a node, index of its interface): file}: that of wlan[1] is FILE-wlan1.pcap."""
+    return {
+        (node_id, index): file.with_name(f"{file.stem}-wlan{index}{file.suffix}") if index else file
+        for node_id, file in files.items()
+        for index in range(len(scenario.nodes[node_id].wlan))
+    }
+
+
 def nodes_named(scenario: Scenario, name: str) -> list[NodeSpec]:
     """Return the node or the nodes of the group of that name."""
     found = [node for node in scenario.nodes if name in (node.name, node.group)]
@@ -46,14 +55,14 @@ def nodes_named(scenario: Scenario, name: str) -> list[NodeSpec]:
 
 
 def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, Path]) -> None:
-    """Open the capture files, whose folders are made when missing.
+    """Open the capture files of all interfaces of these nodes; folders are made when missing.
 
     Raises ConfigError for a file that cannot be written, and for a medium without radios.
     """
-    for node_id, file in files.items():
+    for (node_id, index), file in files_of_interfaces(scenario, files).items():
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise ConfigError(f"cannot write the capture file '{file}': {error}") from error
         with errors_at(scenario.medium):
-            network.capture(node_id, str(file))
+            network.capture(node_id, str(file), index)

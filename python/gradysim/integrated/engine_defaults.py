@@ -12,7 +12,7 @@ def engine_defaults() -> Structs:
             "": netsim.MediumConfig(),
             "802.15.4": netsim.MediumConfig("Ieee802154NarrowbandScalarRadioMedium"),
         },
-        "node": {"": netsim.NodeConfig("node")},
+        "interface": {"": netsim.NodeConfig("node").wlan[0]},
         "radio": {
             "": netsim.RadioConfig(),
             "802.15.4": netsim.RadioConfig("Ieee802154NarrowbandInterface"),

@@ -4,10 +4,13 @@ The settings of the scenario have the names of the fields of the engine's passiv
 one by one; what the engine's own check then finds wrong is reported where the .ini file says it.
 """
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
+from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
@@ -17,6 +20,8 @@ from gradysim.integrated.power_for_range import PowersForRanges
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
+
+DEFAULT_INTERFACE = "Ieee80211Interface"
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
@@ -46,9 +51,8 @@ def check_scenario(scenario: Scenario) -> None:
 def add_node(network: "Network", spec: NodeSpec, powers: PowersForRanges) -> "Node":
     """Add one node to `network`; what only the whole configuration shows to be wrong is found now."""
     config = node_config(spec)
-    with errors_at(_all_settings(spec)):
-        if spec.range_sets_power:
-            powers.set_power(config, spec)
+    with node_errors_at(spec):
+        powers.set_powers(config, spec)
         return network.add_node(config)
 
 
@@ -83,25 +87,38 @@ def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
 
 
 def node_config(spec: NodeSpec) -> "NodeConfig":
-    """Return the checked configuration of one node, whose interface sets the defaults of its radio."""
-    netsim = load_netsim()
-    chosen = spec.node.get("interface")
-    config: NodeConfig = (
-        netsim.NodeConfig(spec.name) if chosen is None else netsim.NodeConfig(spec.name, chosen.value)
-    )
-    set_fields(config.radio, spec.radio)
-    set_fields(config.mac, spec.mac)
-    set_fields(config.csma, spec.csma)
+    """Return the checked configuration of one node, whose interfaces set the defaults of their radios."""
+    config: NodeConfig = load_netsim().NodeConfig(spec.name, [_typename(wlan) for wlan in spec.wlan])
+    for interface, wlan in zip(config.wlan, spec.wlan, strict=True):
+        set_fields(interface.radio, wlan.radio)
+        set_fields(interface.radio.antenna, wlan.antenna)
+        set_fields(interface.mac, wlan.mac)
+        set_fields(interface.csma, wlan.csma)
     set_fields(config.mobility, spec.mobility)
-    set_fields(config.radio.antenna, spec.antenna)
     config.initial_position = spec.initial_position
-    with errors_at(_all_settings(spec)):
+    with node_errors_at(spec):
         config.validate()
     return config
 
 
-def _all_settings(spec: NodeSpec) -> dict[str, Setting]:
-    return {**spec.node, **spec.radio, **spec.mac, **spec.csma, **spec.mobility, **spec.antenna}
+def _typename(wlan: InterfaceSpec) -> str:
+    chosen = wlan.interface.get("typename")
+    return DEFAULT_INTERFACE if chosen is None else str(chosen.value)
+
+
+@contextmanager
+def node_errors_at(spec: NodeSpec) -> Iterator[None]:
+    """Turn an error of the engine about a node into a ConfigError, at the line that sets the field it names.
+
+    The engine says which of several interfaces it means: "wlan[1].radio.tx_power_w = -1 W: ...".
+    """
+    try:
+        yield
+    except ValueError as error:
+        named = re.match(r"wlan\[(\d+)\]", str(error))
+        wlan = spec.wlan[int(named[1]) if named else 0]
+        with errors_at({**spec.node, **spec.mobility, **wlan.settings()}):
+            raise
 
 
 def set_fields(config: object, settings: Mapping[str, Setting]) -> None:

@@ -1,7 +1,8 @@
-"""Transmitter powers of nodes that were given a range instead."""
+"""Transmitter powers of interfaces that were given a range instead."""
 
 from typing import TYPE_CHECKING
 
+from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
 
@@ -22,20 +23,24 @@ class PowersForRanges:
         self._has_powers = medium.typename != "UnitDiskRadioMedium"
         self._known: dict[object, float] = {}
 
-    def set_power(self, config: "NodeConfig", spec: NodeSpec) -> None:
-        """Set the power with which a node like this one, at the same height, is at the end of the range.
+    def set_powers(self, config: "NodeConfig", spec: NodeSpec) -> None:
+        """Set the powers with which a node like this one, at the same height, is at the end of the range.
 
-        On a medium where the range itself counts, nothing is set. Raises the engine's ConfigError if no power
-        would do.
+        Those of the interfaces that were given a range. On a medium where the range itself counts, nothing is
+        set. Raises the engine's ConfigError if no power would do.
         """
         if not self._has_powers:
             return
-        # Nodes with the same lines in force share their mappings.
-        settings = (spec.radio, spec.mac, spec.node, spec.antenna)
-        key = (*map(id, settings), spec.initial_position[2])
+        for index, wlan in enumerate(spec.wlan):
+            if wlan.range_sets_power:
+                config.wlan[index].radio.tx_power_w = self._power_w(config, index, wlan)
+
+    def _power_w(self, config: "NodeConfig", index: int, wlan: InterfaceSpec) -> float:
+        # Interfaces with the same lines in force share their specification.
+        key = (id(wlan), config.initial_position[2])
         power_w = self._known.get(key)
         if power_w is None:
-            budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES)
-            power_w = budget.tx_power_w_for(config.radio.communication_range_m, RATIO)
+            budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)
+            power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)
             self._known[key] = power_w
-        config.radio.tx_power_w = power_w
+        return power_w

@@ -3,7 +3,6 @@
 from collections.abc import Container, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from gradysim.config.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
 from gradysim.config.setting import Setting
 from gradysim.config.source import Source
@@ -33,31 +32,30 @@ def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
         lines.add(obstacle.sources, chosen)
     # Nodes with the same lines in force share their mappings: one of them stands for all.
     alike = {
-        (spec.group, id(spec.protocol_sources), *map(id, _settings(spec).values())): spec
+        (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan)): spec
         for spec in scenario.nodes
     }
     for spec in alike.values():
         config = node_config(spec)
-        structs = {
-            "medium": medium,
-            "node": config,
-            "radio": config.radio,
-            "antenna": config.radio.antenna,
-            "mac": config.mac,
-            "csma": config.csma,
-            "mobility": config.mobility,
-        }
         name = f"{spec.group}[*]" if spec.name.endswith("]") else spec.name
         sources = {f"protocol.{field}": source for field, source in spec.protocol_sources.items()}
-        for struct, settings in _settings(spec).items():
-            sources |= _sources(struct, settings)
-        lines.add(sources, _chosen(structs, {*of_network, *sources}), name)
+        sources |= _sources("mobility", spec.mobility)
+        of_node = {"medium": medium, "mobility": config.mobility}
+        lines.add(sources, _chosen(of_node, {*of_network, *sources}), name)
+        for interface, wlan in zip(config.wlan, spec.wlan, strict=True):
+            sources = {}
+            for struct, settings in wlan.structs().items():
+                sources |= _sources(struct, settings)
+            structs = {
+                "medium": medium,
+                "interface": interface,
+                "radio": interface.radio,
+                "antenna": interface.radio.antenna,
+                "mac": interface.mac,
+                "csma": interface.csma,
+            }
+            lines.add(sources, _chosen(structs, {*of_network, *sources}), name)
     return lines.texts()
-
-
-def _settings(spec: NodeSpec) -> dict[str, Mapping[str, Setting]]:
-    structs = ("node", "radio", "antenna", "mac", "csma", "mobility")
-    return {struct: getattr(spec, struct) for struct in structs}
 
 
 def _sources(struct: str, settings: Mapping[str, Setting]) -> dict[str, Source]:

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -26,37 +27,36 @@ TEST(NodeConfig, PositionMustBeInTheScene) {
               "node.initial_position.z = inf m: expected from -10000000 m to 10000000 m");
 }
 
-TEST(NodeConfig, ChecksItsRadio) {
+TEST(NodeConfig, ChecksItsInterface) {
     NodeConfig config("uavs[0]");
-    config.radio.tx_power_w = -1;
+    config.wlan[0].radio.tx_power_w = -1;
     EXPECT_EQ(error_text([&] { config.validate(); }), "radio.tx_power_w = -1 W: expected at least 0 W");
 }
 
-TEST(NodeConfig, ChecksItsMac) {
-    NodeConfig config("uavs[0]");
-    config.mac.short_retry_limit = 0;
-    EXPECT_EQ(error_text([&] { config.validate(); }), "mac.short_retry_limit = 0: expected from 1 to 255");
+TEST(NodeConfig, SaysWhichOfSeveralInterfacesIsWrong) {
+    NodeConfig config("relay", {std::string(ieee80211_interface), std::string(ieee802154_interface)});
+    EXPECT_NO_THROW(config.validate());
+    config.wlan[1].radio.tx_power_w = -1;
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "wlan[1].radio.tx_power_w = -1 W: expected at least 0 W");
 }
 
-TEST(NodeConfig, ItsInterfaceSetsTheDefaultsOfTheRadio) {
-    const NodeConfig config("sensors[0]", std::string(ieee802154_interface));
-    EXPECT_EQ(config.radio.carrier_hz, 2.45e9);
+TEST(NodeConfig, ItsInterfacesAreOnDifferentChannels) {
+    NodeConfig config("relay", {std::string(ieee80211_interface), std::string(ieee80211_interface)});
+    EXPECT_EQ(
+        error_text([&] { config.validate(); }),
+        "wlan[1].radio.carrier_hz = 2412000000 Hz: expected another channel than that of wlan[0] of the same "
+        "node");
+    config.wlan[1].radio.carrier_hz = 2.437e9;
     EXPECT_NO_THROW(config.validate());
 }
 
-TEST(NodeConfig, ChecksItsCsma) {
-    NodeConfig config("sensors[0]");
-    config.csma.min_be = -1;
-    EXPECT_EQ(error_text([&] { config.validate(); }), "csma.min_be = -1: expected from 0 to 5");
-}
-
-TEST(NodeConfig, TheErrorModelHasToFitTheInterface) {
-    NodeConfig config("sensors[0]", std::string(ieee802154_interface));
-    config.radio.error_model = "Ieee80211NistErrorModel";
-    EXPECT_EQ(error_text([&] { config.validate(); }),
-              "radio.error_model = \"Ieee80211NistErrorModel\": expected \"Ieee802154ErrorModel\", the one "
-              "for a node "
-              "with an Ieee802154NarrowbandInterface");
+TEST(NodeConfig, HasAtLeastOneInterfaceAndNotTooMany) {
+    EXPECT_EQ(error_text([] { NodeConfig("uavs[0]", {}).validate(); }),
+              "node.wlan: 0 interfaces; expected 1 to 16");
+    const std::vector<std::string> many(most_interfaces + 1, std::string(ieee80211_interface));
+    EXPECT_EQ(error_text([&] { NodeConfig("uavs[0]", many).validate(); }),
+              "node.wlan: 17 interfaces; expected 1 to 16");
 }
 
 TEST(NodeConfig, ChecksItsMobility) {

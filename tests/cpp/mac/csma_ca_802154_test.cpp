@@ -50,10 +50,11 @@ struct Device final : LinkListener {
            std::uint64_t seed)
         : air(air_),
           trajectory(place),
-          radio(air.simulator, air.medium, radio_config, trajectory, seed, air.frame_fates, air.fingerprint),
+          radio(air.simulator, air.medium, air.next_node(), radio_config, trajectory, seed, air.frame_fates,
+                air.fingerprint),
           csma(air.simulator, radio, config, seed, air.message_fates, *this) {}
 
-    NodeId id() const { return radio.id(); }
+    NodeId id() const { return radio.node(); }
     void send(NodeId destination, std::size_t bytes) {
         csma.send(destination, std::make_shared<const std::string>(bytes, 'x'));
     }
@@ -72,7 +73,6 @@ protected:
 
     Device& add_device(Position place, const CsmaConfig& config = CsmaConfig(),
                        const RadioConfig& radio = narrowband()) {
-        air.frame_fates.add_node();
         return devices_.emplace_back(air, place, config, radio, seed);
     }
     Sniffer& add_sniffer(Position place) { return air.add_sniffer(place, narrowband()); }

@@ -40,9 +40,9 @@ public:
     };
 
     Listener(Air& air, FrameKind kind) : kind_(kind) {
-        air.frame_fates.add_node();
         const RadioConfig radio;
-        air.medium.attach(Receiver{this, &trajectory_, Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
+        air.medium.attach(air.next_node(),
+                          Receiver{this, &trajectory_, Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
     }
 
     void arrival_started(const Arrival&) override {}

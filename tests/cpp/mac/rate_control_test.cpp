@@ -19,7 +19,7 @@ MacConfig config_of(const char* rate_control, double bitrate_bps = -1, double in
 }
 
 std::int64_t first_bitrate_bps(const MacConfig& config) {
-    return make_rate_control(config, 1, 0)->mode_for({1, 100, 0, 7}, SimTime()).bitrate_bps;
+    return make_rate_control(config, 1, {0, 0})->mode_for({1, 100, 0, 7}, SimTime()).bitrate_bps;
 }
 
 class EachAdaptiveRateControl : public testing::TestWithParam<const char*> {};
@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Table, EachAdaptiveRateControl,
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(RateControl, WithoutOneTheRateIsThatOfDataFramesWhateverHappens) {
-    const auto control = make_rate_control(config_of("", 36e6, 9e6), 1, 0);
+    const auto control = make_rate_control(config_of("", 36e6, 9e6), 1, {0, 0});
     SimTime now;
     for (int number = 0; number < 7; ++number) {
         const RateAttempt attempt{1, 100, number, 7};

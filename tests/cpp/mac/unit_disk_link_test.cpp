@@ -22,7 +22,7 @@ protected:
     Recorder& add_node(Position position, double range_m = 100) {
         NodeConfig config("node");
         config.initial_position = position;
-        config.radio.communication_range_m = range_m;
+        config.wlan[0].radio.communication_range_m = range_m;
         config.mobility.telemetry_interval_s = 0;
         return test::add_recorder(network, config);
     }

@@ -11,6 +11,7 @@
 
 #include "support/far_flung_scenario.hpp"
 #include "support/narrowband_scenario.hpp"
+#include "support/random_interfaces.hpp"
 #include "support/random_path_loss.hpp"
 #include "support/random_scenario.hpp"
 #include "support/random_surroundings.hpp"
@@ -116,6 +117,21 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObsta
     }
 }
 
+TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
+    constexpr std::uint64_t scenarios = 100;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        RandomScenario scenario =
+            test::with_random_interfaces(test::make_random_scenario(GetParam() * scenarios + i));
+        if (i % 4 == 0) {
+            scenario = test::with_random_surroundings(test::with_random_path_loss(scenario));
+        }
+        expect_same_course(scenario);
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
@@ -144,6 +160,17 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObs
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_surroundings(test::make_far_flung_scenario(GetParam() * scenarios + i)));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
+    constexpr std::uint64_t scenarios = 5;
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(
+            test::with_random_interfaces(test::make_far_flung_scenario(GetParam() * scenarios + i)));
         if (HasFatalFailure()) {
             return;
         }

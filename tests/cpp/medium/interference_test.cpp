@@ -19,7 +19,7 @@ class Frames {
 public:
     const Arrival& add(NodeId sender, SimTime start, SimTime end, double power_w) {
         Transmission& transmission = transmissions_.emplace_back();
-        transmission.sender = sender;
+        transmission.sender.node = sender;
         return all.emplace_back(Arrival{&transmission, start, end, power_w});
     }
 
@@ -51,7 +51,7 @@ Interference plain_worst(const Frames& frames, SimTime start, SimTime end) {
         }
     }
     for (const Arrival& frame : frames.all) {
-        const NodeId sender = frame.transmission->sender;
+        const NodeId sender = frame.transmission->sender.node;
         if (worst.max_power_w > 0 && frame.start <= when && when < frame.end &&
             std::ranges::find(worst.interferers, sender) == worst.interferers.end()) {
             worst.interferers.push_back(sender);

@@ -59,7 +59,7 @@ TEST(LinkGaussians, HaveMeanZeroVarianceOneAndNoCorrelationAtAnyTime) {
         double sum = 0;
         double squares = 0;
         double products = 0;
-        for (NodeId node = 1; node <= links; ++node) {
+        for (std::uint32_t node = 1; node <= links; ++node) {
             const GaussianPair pair = gaussians.at(0, node, SimTime::from_us(us), 0);
             sum += pair.first;
             squares += pair.first * pair.first;

@@ -1,5 +1,6 @@
 #include "netsim/medium/medium.hpp"
 
+#include <map>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,48 @@ TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
     EXPECT_NEAR(sniffer.heard.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
+}
+
+// Of 22 MHz, channels that are 15 MHz apart share 7.
+RadioConfig three_channels_up(RadioConfig config = {}) {
+    config.carrier_hz += 15e6;
+    return config;
+}
+
+TEST(Medium, OnAnOverlappingChannelTheShareOfItsPowerArrives) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
+    Sniffer& same = air.add_sniffer({50, 0, 0});
+    Sniffer& next = air.add_sniffer({0, 50, 0}, three_channels_up());
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.run();
+    EXPECT_DOUBLE_EQ(next.heard.at(0).power_w, same.heard.at(0).power_w * 7 / 22);
+}
+
+TEST(Medium, AFrameOfAnOverlappingChannelMakesTheChannelBusyAndIsNotReceived) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    BareRadio& receiver = air.add_radio({50, 0, 0}, three_channels_up());
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.at(us(60), [&] {
+        EXPECT_TRUE(receiver.radio.is_channel_busy());
+        EXPECT_FALSE(receiver.radio.is_receiving());
+    });
+    air.run();
+    EXPECT_FALSE(receiver.radio.is_channel_busy());
+    EXPECT_EQ(air.frame_fates.copies(FrameKind::broadcast, false), 0U);
+}
+
+TEST(Medium, AFrameOfAnOverlappingChannelIsInterference) {
+    Air air;
+    BareRadio& sender = air.add_radio({0, 0, 0});
+    BareRadio& receiver = air.add_radio({300, 0, 0});
+    BareRadio& disturber = air.add_radio({310, 0, 0}, three_channels_up());
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.at(us(50), [&] { disturber.send(us(20)); });
+    air.run();
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::interference), 1U);
+    EXPECT_EQ(air.frame_fates.interferers_at(receiver.id()), (std::map<NodeId, std::uint64_t>{{2, 1}}));
 }
 
 TEST(Medium, AtNoDistanceTheFrameArrivesAtOnceAndWhole) {
@@ -224,7 +267,7 @@ public:
 
     void arrival_started(const Arrival&) override {}
     void arrival_ended(const Arrival& arrival) override {
-        if (arrival.transmission->sender == 2) {
+        if (arrival.transmission->sender.node == 2) {
             order_.push_back(name_);
         }
     }
@@ -241,10 +284,8 @@ TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
     const Band band{RadioConfig().carrier_hz, RadioConfig().bandwidth_hz};
     EndListener told_later(0, order);
     EndListener told_alone(1, order);
-    air.medium.attach(Receiver{&told_later, &place, band, 1, 1e-10});
-    air.medium.attach(Receiver{&told_alone, &place, band, 1, 1e-12});
-    air.frame_fates.add_node();
-    air.frame_fates.add_node();
+    air.medium.attach(air.next_node(), Receiver{&told_later, &place, band, 1, 1e-10});
+    air.medium.attach(air.next_node(), Receiver{&told_alone, &place, band, 1, 1e-12});
     BareRadio& first = air.add_radio({light_microsecond_m, 0, 0},
                                      test::radio_of_power(test::power_for(6e-11, light_microsecond_m)));
     BareRadio& second = air.add_radio({0, light_microsecond_m, 0},

@@ -16,7 +16,7 @@ Transmission sent_from(const Position& origin, NodeId sender = 0, SimTime start 
                        std::uint64_t id = 0) {
     Transmission sent;
     sent.id = id;
-    sent.sender = sender;
+    sent.sender.node = sender;
     sent.start = start;
     sent.band = {2.412e9, 22e6};
     sent.origin = origin;
@@ -57,7 +57,7 @@ TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
         const Position a = place();
         const Position b = place();
         const double distance_m = distance(a, b);
-        const double gain = propagation.gain(sent_from(a, 0, SimTime::from_us(i)), 1, b, distance_m);
+        const double gain = propagation.gain(sent_from(a, 0, SimTime::from_us(i)), {1, 0}, b, distance_m);
         ASSERT_GE(gain, 0);
         ASSERT_LE(gain, propagation.most_gain_beyond(distance_m, 2.412e9) * (1 + 1e-12));
         ASSERT_LE(gain, propagation.most_gain_beyond(between(0, distance_m), 2.412e9) * (1 + 1e-12));
@@ -73,8 +73,8 @@ TEST_P(EveryPathLoss, IsReciprocal) {
         const Position a = place();
         const Position b = place();
         const SimTime time = SimTime::from_us(i);
-        EXPECT_EQ(propagation.gain(sent_from(a, 4, time), 9, b, distance(a, b)),
-                  propagation.gain(sent_from(b, 9, time), 4, a, distance(a, b)));
+        EXPECT_EQ(propagation.gain(sent_from(a, 4, time), {9, 0}, b, distance(a, b)),
+                  propagation.gain(sent_from(b, 9, time), {4, 0}, a, distance(a, b)));
     }
 }
 
@@ -93,10 +93,11 @@ TEST(Propagation, FadingIsAFactorOnFreeSpace) {
     const Propagation faded(config, 5);
     const Propagation free(MediumConfig(), 5);
     const Transmission sent = sent_from({0, 0, 10}, 2, SimTime::from_us(777));
-    const double factor = faded.gain(sent, 6, {50, 0, 10}, 50) / free.gain(sent, 6, {50, 0, 10}, 50);
+    const double factor =
+        faded.gain(sent, {6, 0}, {50, 0, 10}, 50) / free.gain(sent, {6, 0}, {50, 0, 10}, 50);
     EXPECT_NEAR(factor, Fading(config, 5).gain(2, 6, SimTime::from_us(777), 0), 1e-12);
-    EXPECT_NEAR(faded.gain(sent, 6, {500, 0, 10}, 500) / free.gain(sent, 6, {500, 0, 10}, 500), factor,
-                1e-12);
+    EXPECT_NEAR(faded.gain(sent, {6, 0}, {500, 0, 10}, 500) / free.gain(sent, {6, 0}, {500, 0, 10}, 500),
+                factor, 1e-12);
 }
 
 TEST(Propagation, ObstaclesAreAFactorOnIt) {
@@ -104,19 +105,19 @@ TEST(Propagation, ObstaclesAreAFactorOnIt) {
     config.path_loss = "TwoRayInterference";
     const Position place{100, 0, 2};
     const Transmission sent = sent_from({0, 0, 2});
-    const double in_sight = Propagation(config, 1).gain(sent, 1, place, 100);
+    const double in_sight = Propagation(config, 1).gain(sent, {1, 0}, place, 100);
     ObstacleConfig wall;
     wall.rings = {{{40, -10}, {40.2, -10}, {40.2, 10}, {40, 10}}};
     wall.top_m = 5;
     config.obstacles = {wall};
-    EXPECT_EQ(Propagation(config, 1).gain(sent, 1, place, 100), in_sight);
+    EXPECT_EQ(Propagation(config, 1).gain(sent, {1, 0}, place, 100), in_sight);
     config.obstacle_loss = "DielectricObstacleLoss";
     const double share = Obstacles(config).gain(sent.origin, place, sent.band.carrier_hz);
     EXPECT_LT(share, 0.1);
     EXPECT_GT(share, 0.01);
-    EXPECT_DOUBLE_EQ(Propagation(config, 1).gain(sent, 1, place, 100), in_sight * share);
+    EXPECT_DOUBLE_EQ(Propagation(config, 1).gain(sent, {1, 0}, place, 100), in_sight * share);
     config.obstacle_loss = "IdealObstacleLoss";
-    EXPECT_EQ(Propagation(config, 1).gain(sent, 1, place, 100), 0);
+    EXPECT_EQ(Propagation(config, 1).gain(sent, {1, 0}, place, 100), 0);
 }
 
 TEST(Propagation, DelayIsThatOfLight) {

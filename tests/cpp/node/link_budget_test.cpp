@@ -16,7 +16,7 @@ namespace {
 constexpr int payload_bytes = 90;  // as many as fit into a frame of 802.15.4
 
 NodeConfig node(std::string_view interface_type = ieee80211_interface) {
-    NodeConfig config("node", std::string(interface_type));
+    NodeConfig config("node", {std::string(interface_type)});
     config.mobility.telemetry_interval_s = 0;
     return config;
 }
@@ -57,8 +57,8 @@ TEST(LinkBudget, OfDefaultsEndsAtTheSensitivity) {
 
 TEST(LinkBudget, ThePowerForARangeIsTheLeastThatDoes) {
     NodeConfig config = node();
-    config.radio.sensitivity_w = 1e-20;  // noise decides
-    config.radio.snir_threshold = 0;
+    config.wlan[0].radio.sensitivity_w = 1e-20;  // noise decides
+    config.wlan[0].radio.snir_threshold = 0;
     const LinkBudget budget = budget_of(config);
     for (const double range_m : {0.5, 50.0, 5000.0}) {
         for (const double ratio : {0.01, 0.5, 0.99}) {
@@ -83,14 +83,14 @@ TEST_P(LinkBudgets, ForetellWhatARunShows) {
     medium.coherence_time_s = 0;  // each frame meets another state of the link
     NodeConfig config = node(GetParam().interface_type);
     config.initial_position.z = 10;
-    config.radio.sensitivity_w = 1e-20;  // noise decides
-    config.radio.snir_threshold = 0;
+    config.wlan[0].radio.sensitivity_w = 1e-20;  // noise decides
+    config.wlan[0].radio.snir_threshold = 0;
     const LinkBudget budget = budget_of(config, medium);
     constexpr double range_m = 60;
-    config.radio.tx_power_w = budget.tx_power_w_for(range_m, 0.7);
+    config.wlan[0].radio.tx_power_w = budget.tx_power_w_for(range_m, 0.7);
     // Five standard errors of a share of 2000 frames, and as many of a mean over 2000 states.
     EXPECT_NEAR(ratio_in_a_run(medium, config, range_m, 2000),
-                budget.reception_ratio(range_m, config.radio.tx_power_w), 0.07);
+                budget.reception_ratio(range_m, config.wlan[0].radio.tx_power_w), 0.07);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, LinkBudgets,
@@ -105,23 +105,23 @@ INSTANTIATE_TEST_SUITE_P(Models, LinkBudgets,
 TEST(LinkBudget, AntennasHelpWithTheirLargestGain) {
     NodeConfig config = node();
     const double power_w = budget_of(config).tx_power_w_for(100, 0.5);
-    config.radio.antenna.type_name = "ConstantGainAntenna";
-    config.radio.antenna.gain = 2;
+    config.wlan[0].radio.antenna.type_name = "ConstantGainAntenna";
+    config.wlan[0].radio.antenna.gain = 2;
     EXPECT_NEAR(budget_of(config).tx_power_w_for(100, 0.5), power_w / 4, power_w * 1e-6);
 }
 
 TEST(LinkBudget, RefusesWhatHasNoAnswer) {
     EXPECT_THROW(budget_of(node(), MediumConfig(std::string(unit_disk_medium))), ConfigError);
     NodeConfig elsewhere = node();
-    elsewhere.radio.carrier_hz = 2.437e9;
+    elsewhere.wlan[0].radio.carrier_hz = 2.437e9;
     EXPECT_THROW(LinkBudget(MediumConfig(), node(), elsewhere, payload_bytes), ConfigError);
     EXPECT_THROW(LinkBudget(MediumConfig(), node(), node(), 3000), ConfigError);
     const LinkBudget budget = budget_of(node());
     EXPECT_THROW(budget.tx_power_w_for(-1, 0.5), ConfigError);
     EXPECT_THROW(budget.tx_power_w_for(50, 1), ConfigError);
     NodeConfig deaf = node();
-    deaf.radio.antenna.type_name = "ConstantGainAntenna";
-    deaf.radio.antenna.gain = 0;
+    deaf.wlan[0].radio.antenna.type_name = "ConstantGainAntenna";
+    deaf.wlan[0].radio.antenna.gain = 0;
     EXPECT_THROW(budget_of(deaf).tx_power_w_for(50, 0.5), ConfigError);
 }
 

@@ -65,14 +65,14 @@ TEST(Network, ChecksItsConfigurations) {
     EXPECT_THROW(Network(medium, 1), ConfigError);
     Network network(MediumConfig(), 1);
     NodeConfig node = silent_node();
-    node.radio.tx_power_w = -1;
+    node.wlan[0].radio.tx_power_w = -1;
     EXPECT_THROW(network.add_node(node), ConfigError);
 }
 
 TEST(Network, ARefusedNodeLeavesNoTrace) {
     Network network(MediumConfig(), 1);
     NodeConfig wrong = silent_node();
-    wrong.mac.bitrate_bps = 7e6;  // found out only when the layers are built
+    wrong.wlan[0].mac.bitrate_bps = 7e6;  // found out only when the layers are built
     EXPECT_THROW(network.add_node(wrong), ConfigError);
     EXPECT_EQ(network.node_count(), 0);
     Recorder& sender = test::add_recorder(network, silent_node());
@@ -85,7 +85,7 @@ TEST(Network, ARefusedNodeLeavesNoTrace) {
 }
 
 NodeConfig device(Position position = {}) {
-    NodeConfig config("sensor", std::string(ieee802154_interface));
+    NodeConfig config("sensor", {std::string(ieee802154_interface)});
     config.initial_position = position;
     config.mobility.telemetry_interval_s = 0;
     return config;
@@ -121,11 +121,91 @@ TEST(Network, AMessageToANodeOfAnotherBandIsGivenUp) {
               1U);
 }
 
+constexpr double channel_1_hz = 2.412e9;
+constexpr double channel_6_hz = 2.437e9;
+
+NodeConfig node_on(const std::vector<double>& carriers_hz, Position position = {}) {
+    NodeConfig config("node", std::vector<std::string>(carriers_hz.size(), std::string(ieee80211_interface)));
+    for (std::size_t index = 0; index < carriers_hz.size(); ++index) {
+        config.wlan[index].radio.carrier_hz = carriers_hz[index];
+    }
+    config.initial_position = position;
+    config.mobility.telemetry_interval_s = 0;
+    return config;
+}
+
+TEST(Network, ANodeWithTwoInterfacesHearsBothChannelsAndSendsOnTheOneItIsTold) {
+    Network network(MediumConfig(), 1);
+    Recorder& low = test::add_recorder(network, node_on({channel_1_hz}));
+    Recorder& relay = test::add_recorder(network, node_on({channel_1_hz, channel_6_hz}, {10, 0, 0}));
+    Recorder& high = test::add_recorder(network, node_on({channel_6_hz}, {20, 0, 0}));
+    low.on_initialize = [](Recorder& self) { self.send(1, "from below"); };
+    high.on_initialize = [](Recorder& self) { self.send(1, "from above"); };
+    relay.on_packet = [](Recorder& self, const std::string& text) {
+        self.broadcast("heard " + text, text == "from below" ? 1 : 0);
+    };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(low.packet_texts(), std::vector<std::string>{"heard from above"});
+    EXPECT_EQ(high.packet_texts(), std::vector<std::string>{"heard from below"});
+    EXPECT_EQ(network.message_fates().counts(
+                  MessageKind::unicast)[static_cast<std::size_t>(MessageFate::acknowledged)],
+              2U);
+    // The sender's other interface has no part in it.
+    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 2U);
+}
+
+TEST(Network, AnInterfaceThatIsNotThereCannotSend) {
+    Network network(MediumConfig(), 1);
+    Recorder& sender = test::add_recorder(network, node_on({channel_1_hz, channel_6_hz}));
+    network.initialize();
+    for (const std::int32_t interface : {-1, 2}) {
+        try {
+            sender.broadcast("text", interface);
+            FAIL();
+        } catch (const SimulationError& error) {
+            EXPECT_EQ(std::string(error.what()), "node 0 has no interface wlan[" + std::to_string(interface) +
+                                                     "]: it has 2, from wlan[0] on");
+        }
+    }
+}
+
+TEST(Network, AnInterfaceThatNobodyUsesLeavesTheCourseOfARunUnchanged) {
+    const auto fingerprint_with = [](const std::vector<double>& carriers_hz) {
+        MediumConfig medium;
+        medium.path_loss = "RayleighFading";
+        Network network(medium, 7);
+        for (int i = 0; i < 10; ++i) {
+            Recorder& node = test::add_recorder(network, node_on(carriers_hz, {i * 150.0, 0, 0}));
+            node.on_initialize = [](Recorder& self) {
+                for (int j = 0; j < 10; ++j) self.broadcast("text");
+            };
+        }
+        network.initialize();
+        network.run_until(s(1));
+        return network.fingerprint();
+    };
+    EXPECT_EQ(fingerprint_with({channel_1_hz}), fingerprint_with({channel_1_hz, channel_6_hz}));
+}
+
+TEST(Network, OnAPerfectChannelItMakesNoDifferenceWhichInterfaceSends) {
+    Network network(MediumConfig(std::string(unit_disk_medium)), 1);
+    Recorder& sender = test::add_recorder(network, node_on({channel_1_hz, channel_6_hz}));
+    Recorder& receiver = test::add_recorder(network, node_on({channel_1_hz, channel_6_hz}, {10, 0, 0}));
+    sender.on_initialize = [](Recorder& self) {
+        self.broadcast("first");
+        self.send(1, "second", 1);
+    };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(receiver.packet_texts(), (std::vector<std::string>{"first", "second"}));
+}
+
 TEST(Network, InterfacesOfTwoKindsCannotShareACentreFrequency) {
     Network network(MediumConfig(), 1);
     network.add_node(silent_node());
     NodeConfig config = device();
-    config.radio.carrier_hz = 2.412e9;
+    config.wlan[0].radio.carrier_hz = 2.412e9;
     try {
         network.add_node(config);
         FAIL();
@@ -277,7 +357,9 @@ protected:
         }
         std::uint64_t census = 0;
         for (NodeId id = 0; id < network.node_count(); ++id) {
-            census += network.node(id).link().queued_messages();
+            for (const auto& link : network.node(id).links()) {
+                census += link->queued_messages();
+            }
         }
         EXPECT_EQ(queued, census);
     }

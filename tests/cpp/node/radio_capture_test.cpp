@@ -94,7 +94,7 @@ TEST_F(RadioCaptureTest, WhatFailedIsFlagged) {
     const TemporaryFile file;
     NodeConfig far = at(29.9792458);
     far.name = "far";
-    far.radio.snir_threshold = 1e12;  // locks on to every frame and decodes none
+    far.wlan[0].radio.snir_threshold = 1e12;  // locks on to every frame and decodes none
     network.add_node(far);
     sender.on_initialize = [](Recorder& self) { self.broadcast("hello"); };
     network.capture(2, file.path());

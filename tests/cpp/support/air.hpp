@@ -50,21 +50,21 @@ public:
     void arrival_ended(const Arrival& arrival) override {
         const Transmission& transmission = *arrival.transmission;
         heard.push_back(
-            {arrival.start, arrival.end, transmission.label.kind, transmission.sender, arrival.power_w});
+            {arrival.start, arrival.end, transmission.label.kind, transmission.sender.node, arrival.power_w});
     }
 };
 
 // A radio without a MAC.
 struct BareRadio {
-    BareRadio(Simulator& simulator, Medium& medium, const RadioConfig& config, Position place,
-              std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint)
+    BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
+              Position place, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint)
         : trajectory(place),
-          radio(simulator, medium, config, trajectory, seed, fates, fingerprint),
+          radio(simulator, medium, interface, config, trajectory, seed, fates, fingerprint),
           log(simulator) {
         radio.set_listener(log);
     }
 
-    NodeId id() const { return radio.id(); }
+    NodeId id() const { return radio.node(); }
     // Broadcasts a frame of the slowest OFDM mode.
     void send(SimTime duration, int psdu_bytes = 100) { send(duration, FrameLabel(), psdu_bytes); }
     void send(SimTime duration, FrameLabel label, int psdu_bytes = 100) {
@@ -104,15 +104,15 @@ struct Received {
 
 // A radio with a MAC.
 struct Station final : LinkListener {
-    Station(Simulator& simulator_, Medium& medium, const RadioConfig& radio_config,
+    Station(Simulator& simulator_, Medium& medium, InterfaceId interface, const RadioConfig& radio_config,
             const MacConfig& mac_config, Position place, std::uint64_t seed, FrameFates& frame_fates,
             MessageFates& message_fates, Fingerprint& fingerprint)
         : simulator(simulator_),
           trajectory(place),
-          radio(simulator_, medium, radio_config, trajectory, seed, frame_fates, fingerprint),
+          radio(simulator_, medium, interface, radio_config, trajectory, seed, frame_fates, fingerprint),
           dcf(simulator_, radio, mac_config, seed, message_fates, *this) {}
 
-    NodeId id() const { return radio.id(); }
+    NodeId id() const { return radio.node(); }
     void send(NodeId destination, const std::string& text) {
         dcf.send(destination, std::make_shared<const std::string>(text));
     }
@@ -144,21 +144,24 @@ public:
                  std::uint64_t seed = 1)
         : medium(simulator, config, frame_fates, fingerprint, hearing, seed), seed_(seed) {}
 
-    BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
+    // The first interface of one more node.
+    InterfaceId next_node() {
         frame_fates.add_node();
-        return radios_.emplace_back(simulator, medium, config, place, seed_, frame_fates, fingerprint);
+        return InterfaceId{node_count_++, 0};
+    }
+    BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
+        return radios_.emplace_back(simulator, medium, next_node(), config, place, seed_, frame_fates,
+                                    fingerprint);
     }
     Station& add_station(Position place, const MacConfig& mac = MacConfig(),
                          const RadioConfig& radio = RadioConfig()) {
-        frame_fates.add_node();
-        return stations_.emplace_back(simulator, medium, radio, mac, place, seed_, frame_fates, message_fates,
-                                      fingerprint);
+        return stations_.emplace_back(simulator, medium, next_node(), radio, mac, place, seed_, frame_fates,
+                                      message_fates, fingerprint);
     }
     Sniffer& add_sniffer(Position place, const RadioConfig& radio = RadioConfig()) {
         Sniffer& sniffer = sniffers_.emplace_back(place);
-        frame_fates.add_node();
-        medium.attach(
-            Receiver{&sniffer, &sniffer.trajectory, Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
+        medium.attach(next_node(), Receiver{&sniffer, &sniffer.trajectory,
+                                            Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
         return sniffer;
     }
 
@@ -186,6 +189,7 @@ public:
 
 private:
     std::uint64_t seed_;
+    NodeId node_count_ = 0;
     std::deque<BareRadio> radios_;
     std::deque<Station> stations_;
     std::deque<Sniffer> sniffers_;

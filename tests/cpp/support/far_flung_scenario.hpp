@@ -60,18 +60,20 @@ inline RandomScenario make_far_flung_scenario(std::uint64_t seed) {
             return std::clamp(coordinate_m, -largest_m, largest_m);
         };
         node.initial_position = {within(corner.x + place.x), within(corner.y + place.y), place.z};
-        node.radio.tx_power_w *= ratio_from_db(between(-power_spread_db, power_spread_db / 2));
-        node.radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
-        node.radio.energy_detection_w *=
+        RadioConfig& radio = node.wlan[0].radio;
+        MacConfig& mac = node.wlan[0].mac;
+        radio.tx_power_w *= ratio_from_db(between(-power_spread_db, power_spread_db / 2));
+        radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
+        radio.energy_detection_w *=
             ratio_from_db(detection_offset_db + between(-detection_spread_db, detection_spread_db));
-        node.radio.energy_detection_w =
-            std::max(node.radio.energy_detection_w, 1.01 * scenario.medium.background_noise_w);
-        node.radio.carrier_hz += 25e6 * draws.uniform_int(channels);
+        radio.energy_detection_w =
+            std::max(radio.energy_detection_w, 1.01 * scenario.medium.background_noise_w);
+        radio.carrier_hz += 25e6 * draws.uniform_int(channels);
         if (two_bandwidths && chance(0.5)) {
-            node.radio.bandwidth_hz = 20e6;
+            radio.bandwidth_hz = 20e6;
         }
-        node.mac.bitrate_bps = slow_frames ? 1e6 : -1;
-        node.mac.short_retry_limit = 2;
+        mac.bitrate_bps = slow_frames ? 1e6 : -1;
+        mac.short_retry_limit = 2;
         node.mobility.telemetry_interval_s = 0;
         scenario.nodes.push_back(node);
     }

@@ -41,7 +41,7 @@ public:
 
     void channel_busy_changed(bool busy) override { note(busy ? RadioWord::busy : RadioWord::free); }
     void frame_received(const Transmission& transmission) override {
-        received_from.push_back(transmission.sender);
+        received_from.push_back(transmission.sender.node);
         note(RadioWord::received);
     }
     void frame_corrupted() override { note(RadioWord::corrupted); }

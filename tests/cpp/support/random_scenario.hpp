@@ -73,45 +73,46 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
             node.initial_position = {std::round(node.initial_position.x / lattice_m) * lattice_m,
                                      std::round(node.initial_position.y / lattice_m) * lattice_m, 0};
         }
-        node.radio.tx_power_w *= ratio_from_db(between(-power_spread_db, power_spread_db / 3));
-        node.radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
-        node.radio.energy_detection_w *=
+        RadioConfig& radio = node.wlan[0].radio;
+        MacConfig& mac = node.wlan[0].mac;
+        radio.tx_power_w *= ratio_from_db(between(-power_spread_db, power_spread_db / 3));
+        radio.sensitivity_w *= ratio_from_db(between(-sensitivity_spread_db, sensitivity_spread_db));
+        radio.energy_detection_w *=
             ratio_from_db(detection_offset_db + between(-detection_spread_db, detection_spread_db));
         if (two_channels && chance(0.5)) {
-            node.radio.carrier_hz = 2.437e9;
+            radio.carrier_hz = 2.437e9;
         }
         if (two_bandwidths && chance(0.5)) {
-            node.radio.bandwidth_hz = 20e6;
+            radio.bandwidth_hz = 20e6;
         }
         if (with_options) {
-            node.mac.skip_backoff_if_idle = option(0.3);
-            node.radio.noise_figure = 1 + 9 * option_draws.uniform();
-            node.radio.snir_mode = option(0.5) ? "chunks" : "min";
-            node.radio.snir_threshold *= option(0.5) ? 1 : option_draws.uniform();
-            node.radio.preamble_detection = option(0.5) ? "ThresholdPreambleDetection" : "";
-            node.radio.preamble_threshold = ratio_from_db(-5 + 12 * option_draws.uniform());
-            node.radio.preamble_minimum_power_w *= ratio_from_db(-15 + 20 * option_draws.uniform());
-            node.radio.preamble_duration_s = option(0.8) ? 4e-6 : 300e-6 * (0.001 + option_draws.uniform());
-            node.radio.frame_capture = option(0.5) ? "SimpleFrameCapture" : "";
-            node.radio.capture_margin = ratio_from_db(10 * option_draws.uniform());
-            node.radio.capture_window_s = option(0.5) ? 16e-6 : 1e-3 * option_draws.uniform();
+            mac.skip_backoff_if_idle = option(0.3);
+            radio.noise_figure = 1 + 9 * option_draws.uniform();
+            radio.snir_mode = option(0.5) ? "chunks" : "min";
+            radio.snir_threshold *= option(0.5) ? 1 : option_draws.uniform();
+            radio.preamble_detection = option(0.5) ? "ThresholdPreambleDetection" : "";
+            radio.preamble_threshold = ratio_from_db(-5 + 12 * option_draws.uniform());
+            radio.preamble_minimum_power_w *= ratio_from_db(-15 + 20 * option_draws.uniform());
+            radio.preamble_duration_s = option(0.8) ? 4e-6 : 300e-6 * (0.001 + option_draws.uniform());
+            radio.frame_capture = option(0.5) ? "SimpleFrameCapture" : "";
+            radio.capture_margin = ratio_from_db(10 * option_draws.uniform());
+            radio.capture_window_s = option(0.5) ? 16e-6 : 1e-3 * option_draws.uniform();
         }
-        node.radio.energy_detection_w =
-            std::max(node.radio.energy_detection_w,
-                     1.01 * noise.power_w(node.radio.bandwidth_hz, node.radio.noise_figure));
-        node.mac.op_mode = op_mode;
-        node.mac.bitrate_bps = static_cast<double>(
+        radio.energy_detection_w =
+            std::max(radio.energy_detection_w, 1.01 * noise.power_w(radio.bandwidth_hz, radio.noise_figure));
+        mac.op_mode = op_mode;
+        mac.bitrate_bps = static_cast<double>(
             modes[draws.uniform_int(static_cast<std::uint32_t>(modes.size()))].bitrate_bps);
         if (short_backoffs) {
-            node.mac.cw_min = 0;
-            node.mac.cw_max = 3;
+            mac.cw_min = 0;
+            mac.cw_max = 3;
         }
-        node.mac.backoff_optimization = chance(0.8);
-        node.mac.queue_capacity = chance(0.8) ? 100 : 2;
+        mac.backoff_optimization = chance(0.8);
+        mac.queue_capacity = chance(0.8) ? 100 : 2;
         if (with_rts) {
-            node.mac.rts_threshold_bytes = static_cast<int>(rts_draws.uniform_int(600));
-            node.mac.control_bitrate_bps = rts_draws.uniform() < 0.5 ? -1 : node.mac.bitrate_bps;
-            node.mac.own_frames_set_nav = rts_draws.uniform() < 0.7;
+            mac.rts_threshold_bytes = static_cast<int>(rts_draws.uniform_int(600));
+            mac.control_bitrate_bps = rts_draws.uniform() < 0.5 ? -1 : mac.bitrate_bps;
+            mac.own_frames_set_nav = rts_draws.uniform() < 0.7;
         }
         node.mobility.telemetry_interval_s = 0;
         scenario.nodes.push_back(node);

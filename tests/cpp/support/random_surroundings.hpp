@@ -24,7 +24,7 @@ inline RandomScenario with_random_surroundings(RandomScenario scenario) {
     const double highest_gain_db = between(0, 25);
     for (NodeConfig& node : scenario.nodes) {
         if (chance(share_of_patterns)) {
-            AntennaConfig& antenna = node.radio.antenna;
+            AntennaConfig& antenna = node.wlan[0].radio.antenna;
             antenna.type_name = antenna_type_names[draws.uniform_int(antenna_type_names.size())];
             antenna.gain = ratio_from_db(between(-10, highest_gain_db));
             antenna.max_gain = ratio_from_db(between(-3, highest_gain_db));

@@ -30,9 +30,11 @@ public:
 
     std::vector<std::string> timer_names() const { return texts_of(timers); }
     std::vector<std::string> packet_texts() const { return texts_of(packets); }
-    void broadcast(const std::string& text) { node.broadcast(std::make_shared<const std::string>(text)); }
-    void send(NodeId destination, const std::string& text) {
-        node.send(destination, std::make_shared<const std::string>(text));
+    void broadcast(const std::string& text, std::int32_t interface = 0) {
+        node.broadcast(std::make_shared<const std::string>(text), interface);
+    }
+    void send(NodeId destination, const std::string& text, std::int32_t interface = 0) {
+        node.send(destination, std::make_shared<const std::string>(text), interface);
     }
 
     void initialize() override {

@@ -1,5 +1,5 @@
-// A protocol that talks at random: bursts of messages at random times and changes of course, from a stream of
-// its own.
+// A protocol that talks at random, through all its interfaces: bursts of messages at random times and changes of
+// course, from a stream of its own.
 #pragma once
 
 #include <memory>
@@ -67,10 +67,10 @@ public:
             text.resize(text.size() + draws_.uniform_int(talk_.longest_text + 1), '.');
             auto payload = std::make_shared<const std::string>(std::move(text));
             if (draws_.uniform() < talk_.broadcast_share) {
-                node_.broadcast(std::move(payload));
+                node_.broadcast(std::move(payload), interface());
             } else {
                 const auto other = static_cast<NodeId>(draws_.uniform_int(talk_.node_count - 1));
-                node_.send(other < node_.id() ? other : other + 1, std::move(payload));
+                node_.send(other < node_.id() ? other : other + 1, std::move(payload), interface());
             }
         }
     }
@@ -81,6 +81,12 @@ public:
     void finish() override {}
 
 private:
+    // Who has only one draws nothing, so that scenarios without further ones stay as they are.
+    std::int32_t interface() {
+        const auto count = static_cast<std::uint32_t>(node_.links().size());
+        return count == 1 ? 0 : static_cast<std::int32_t>(draws_.uniform_int(count));
+    }
+
     Node& node_;
     Talk talk_;
     std::vector<Delivery>& deliveries_;

@@ -3,6 +3,7 @@ from typing import Any
 
 import pytest
 
+from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.scenario import Scenario
 
 LINE = """\
@@ -51,12 +52,7 @@ def test_of_line_and_place_the_first_in_search_order_counts(folder: Any) -> None
 
 def test_only_what_was_written_is_set(folder: Any) -> None:
     node = folder.load().nodes[0]
-    assert (node.mobility, node.radio, node.mac, node.protocol_parameters) == (
-        {},
-        {},
-        {},
-        {},
-    )
+    assert (node.mobility, node.wlan, node.protocol_parameters) == ({}, (InterfaceSpec(),), {})
 
 
 @pytest.mark.parametrize(
@@ -148,7 +144,7 @@ def test_keys_reach_their_fields(
     folder: Any, key: str, text: str, struct: str, field: str, value: object
 ) -> None:
     node = folder.load(f"*.uavs[*].{key} = {text}\n").nodes[1]
-    setting = getattr(node, struct)[field]
+    setting = (node.mobility if struct == "mobility" else node.wlan[0].structs()[struct])[field]
     assert (
         setting.value == pytest.approx(value, rel=1e-14)
         if isinstance(value, float)
@@ -188,8 +184,8 @@ def test_default_stops_the_search(folder: Any) -> None:
 
 def test_of_two_keys_for_one_field_the_first_in_search_order_counts(folder: Any) -> None:
     added = "**.channelNumber = 5\n[X]\n**.centerFrequency = 2.5GHz\n"
-    assert folder.load(added).nodes[0].radio["carrier_hz"].value == 2.437e9
-    assert folder.load(added, "X").nodes[0].radio["carrier_hz"].value == 2.5e9
+    assert folder.load(added).nodes[0].wlan[0].radio["carrier_hz"].value == 2.437e9
+    assert folder.load(added, "X").nodes[0].wlan[0].radio["carrier_hz"].value == 2.5e9
 
 
 def test_protocol_parameters_are_converted(folder: Any) -> None:
@@ -290,7 +286,8 @@ def test_errors(folder: Any, added: str, message: str) -> None:
 def test_ten_thousand_nodes_share_what_is_the_same(folder: Any) -> None:
     scenario = folder.load("*.uavs[3].mobility.speed = 3mps\n**.power = 1mW\n[X]\n*.numUavs = 10000\n", "X")
     assert len(scenario.nodes) == 10001
-    assert len({id(node.radio) for node in scenario.nodes if node.group == "uavs"}) == 2
+    assert len({id(node.mobility) for node in scenario.nodes if node.group == "uavs"}) == 2
+    assert len({id(node.wlan[0]) for node in scenario.nodes if node.group == "uavs"}) == 1
 
 
 def test_a_thousand_keys_of_any_kind_take_no_time(folder: Any) -> None:

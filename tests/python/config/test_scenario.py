@@ -214,4 +214,4 @@ def test_a_run_that_does_not_exist(folder: Any) -> None:
 
 def test_settings_can_be_pickled(folder: Any) -> None:
     node = folder.load("**.power = 1mW\n").nodes[0]
-    assert pickle.loads(pickle.dumps(node.radio)) == node.radio
+    assert pickle.loads(pickle.dumps(node.wlan)) == node.wlan

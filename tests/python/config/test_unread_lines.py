@@ -9,15 +9,19 @@ from gradysim.config.unread_lines import Chosen, UnreadLines, unmet_choice
 DEFAULTS: dict[str, str | None] = {
     "medium.typename": "Ieee80211ScalarRadioMedium",
     "medium.path_loss": "FreeSpacePathLoss",
-    "node.interface": "Ieee80211Interface",
+    "interface.typename": "Ieee80211Interface",
     "mac.rate_control": "",
 }
 
 
 def chosen(**others: str | None) -> Chosen:
     """What is in force: `chosen(path_loss="RicianFading")`."""
-    by_field = {target.partition(".")[2]: name for target, name in DEFAULTS.items()} | others
-    return lambda target: by_field[target.partition(".")[2]]
+    in_force = {short(target): name for target, name in DEFAULTS.items()} | others
+    return lambda target: in_force[short(target)]
+
+
+def short(target: str) -> str:
+    return "interface" if target == "interface.typename" else target.partition(".")[2]
 
 
 def line(number: int, key: str = "**.key", file: str = "a.ini") -> Source:
@@ -44,7 +48,7 @@ def texts() -> Callable[..., list[str]]:
         ("medium.sigma_db", chosen(typename="UnitDiskRadioMedium"), "medium.typename"),
         ("mac.rate_interval_s", chosen(), "mac.rate_control"),
         ("mac.rate_interval_s", chosen(rate_control=None), None),
-        ("mac.rate_interval_s", chosen(interface="Ieee802154NarrowbandInterface"), "node.interface"),
+        ("mac.rate_interval_s", chosen(interface="Ieee802154NarrowbandInterface"), "interface.typename"),
         ("mobility.initial_heading_rad", chosen(), None),
         ("protocol.speed", chosen(), None),
     ],

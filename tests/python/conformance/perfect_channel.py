@@ -6,6 +6,7 @@ from pathlib import Path
 
 import gradysim.integrated.run
 import gradysim.prototype.run
+from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.scenario import CommunicationMediumSpec, NodeSpec, Scenario, Setting, Source
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
@@ -56,8 +57,7 @@ class Case:
                     "telemetry_interval_s": _setting(self.telemetry_interval_s),
                     "speed_mps": _setting(self.speed_mps),
                 },
-                radio={"communication_range_m": _setting(self.range_m)},
-                mac={},
+                wlan=(InterfaceSpec(radio={"communication_range_m": _setting(self.range_m)}),),
             )
             for index, position in enumerate(self.positions)
         )

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"
 LIMIT_S = 2.5
 
-CASES = {  # file in configs: (configuration, reach in metres, more settings)
+CASES = {  # file in configs, up to a comma: (configuration, reach in metres, more settings)
     "reference/beacons": ("Python100", 300, ()),
     "reference/capture": ("General", 100, ()),
     "reference/flood": ("Python", 50, ()),
@@ -39,11 +39,12 @@ CASES = {  # file in configs: (configuration, reach in metres, more settings)
     "reference/sir": ("General", 1000, ()),
     "reference/synchronised": ("General", 100, ()),
     "sensor_field": ("Spread", 20, ("sim-time-limit = 20s",)),
+    "sensor_field, again": ("Gateway", 150, ("sim-time-limit = 20s",)),
 }
 
 
 def scenario_of(name: str) -> Scenario:
-    file = CONFIGS / f"{name}.ini"
+    file = CONFIGS / f"{name.partition(',')[0]}.ini"
     config, reach_m, settings = CASES[name]
     scenarios = load_scenarios(
         file,

@@ -19,7 +19,11 @@ import pytest
 NO_CONFIGURATION = "None instead of one default object that all callers would share; it means the same"
 SEEDED = "new last parameter: the stream of random numbers, that of Python if there is none"
 
+INTERFACE = "new keyword argument: through which network interface of the node it goes"
 DELIBERATE = {
+    "CommunicationCommand": ("(command_type, message, destination=None, *, interface=0)", INTERFACE),
+    "SendMessageCommand": ("(message, destination, *, interface=0)", INTERFACE),
+    "BroadcastMessageCommand": ("(message, *, interface=0)", INTERFACE),
     "ConsequenceType": (
         ": COMMUNICATION=0, MOBILITY=1, TIMER=2, TRACK_VARIABLE=3, CANCEL_TIMER=4",
         "new member",

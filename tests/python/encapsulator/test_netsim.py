@@ -60,7 +60,7 @@ class Pair:
         self.encapsulators = []
         for index in range(2):
             config = _netsim.NodeConfig(f"node[{index}]")
-            config.radio.communication_range_m = 100.0
+            config.wlan[0].radio.communication_range_m = 100.0
             config.initial_position = (10.0 * index, 0.0, 0.0)
             config.mobility.telemetry_interval_s = 0.0
             node = self.network.add_node(config)

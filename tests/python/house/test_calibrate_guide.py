@@ -46,4 +46,4 @@ def test_a_mistake_is_told_with_its_option(root: Path, capsys: pytest.CaptureFix
 def test_its_line_is_understood(root: Path, guide: str) -> None:
     (line,) = re.findall(r"^```ini\n(.*)\n```", guide, re.MULTILINE)
     scenario = load_scenarios(root / "configs/zigzag.ini", "ZigZag5", overrides=[line])[0]
-    assert all(node.range_sets_power for node in scenario.nodes)
+    assert all(node.wlan[0].range_sets_power for node in scenario.nodes)

@@ -18,7 +18,7 @@ def test_its_lines_run(
         for block in code_blocks("docs/guides/propagation.md", "ini")
     )
     assert set(fading.medium) >= {"path_loss", "k_db"}
-    assert antennas.nodes[0].antenna["typename"].value == "ParabolicAntenna"
+    assert antennas.nodes[0].wlan[0].antenna["typename"].value == "ParabolicAntenna"
     assert len(obstacles.obstacles) == 2
     for scenario in (fading, antennas, obstacles):
         assert run(scenario).fates["messages"]["broadcast"]["sent"] > 0

@@ -49,7 +49,7 @@ def test_the_curve_goes_on_to_twice_the_range_and_falls() -> None:
 )
 def test_of_range_and_power_the_first_line_is_in_force(settings: tuple[str, ...], is_for_range: bool) -> None:
     scenario = link(*settings)
-    assert scenario.nodes[0].range_sets_power == is_for_range
+    assert scenario.nodes[0].wlan[0].range_sets_power == is_for_range
     expected_w = calibrate(scenario, 150).tx_power_w if is_for_range else 1e-3
     power = f"**.wlan[*].radio.transmitter.power = {expected_w * 1000!r}mW"
     assert run(scenario).fingerprint == run(link(power)).fingerprint
@@ -58,7 +58,7 @@ def test_of_range_and_power_the_first_line_is_in_force(settings: tuple[str, ...]
 def test_a_range_alone_sets_no_power_where_the_range_itself_counts() -> None:
     medium = '*.radioMedium.typename = "UnitDiskRadioMedium"'
     scenario = link(RANGE, medium)
-    assert node_config(scenario.nodes[0]).radio.communication_range_m == 150
+    assert node_config(scenario.nodes[0]).wlan[0].radio.communication_range_m == 150
     sender, nearest = run(scenario).nodes[:2]
     assert nearest.tracked_variables["received"] == sender.tracked_variables["sent"]
 

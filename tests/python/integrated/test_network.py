@@ -34,7 +34,8 @@ def test_settings_reach_their_structs(make_scenario):
         "*.uavs[*].mobility.speed = 3mps",
     )
     config = node_config(scenario.nodes[1])
-    assert (config.radio.tx_power_w, config.mac.op_mode, config.mobility.speed_mps) == (0.002, "b", 3.0)
+    radio, mac = config.wlan[0].radio, config.wlan[0].mac
+    assert (radio.tx_power_w, mac.op_mode, config.mobility.speed_mps) == (0.002, "b", 3.0)
 
 
 def test_settings_of_the_medium(make_scenario):

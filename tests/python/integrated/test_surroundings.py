@@ -50,7 +50,7 @@ def test_the_engine_is_given_what_the_file_says() -> None:
         'Two halls")',
         'Glass pavilion")',
     ]
-    antenna = node_config(scenario.nodes[0]).radio.antenna
+    antenna = node_config(scenario.nodes[0]).wlan[0].radio.antenna
     assert (antenna.typename, antenna.max_gain) == ("ParabolicAntenna", pytest.approx(10**1.5))
 
 

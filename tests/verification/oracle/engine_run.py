@@ -127,10 +127,10 @@ def _node_config(case: Case, index: int, station: Station) -> "NodeConfig":
     config = NodeConfig(f"stations[{index}]")
     config.initial_position = station.position
     config.mobility.telemetry_interval_s = 0.0
-    config.mac.op_mode = case.op_mode
-    config.mac.bitrate_bps = station.bitrate_mbps * 1e6
-    config.mac.rts_threshold_bytes = case.rts_threshold_bytes
-    radio, receiver = config.radio, station.receiver
+    mac, radio, receiver = config.wlan[0].mac, config.wlan[0].radio, station.receiver
+    mac.op_mode = case.op_mode
+    mac.bitrate_bps = station.bitrate_mbps * 1e6
+    mac.rts_threshold_bytes = case.rts_threshold_bytes
     radio.carrier_hz = station.carrier_hz
     radio.bandwidth_hz = station.bandwidth_hz
     radio.tx_power_w = station.tx_power_w

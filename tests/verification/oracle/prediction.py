@@ -10,7 +10,7 @@ from verification.oracle.engine_run import EngineRun
 from verification.oracle.flight import Flight
 from verification.oracle.physics import noise_w
 from verification.oracle.radio import Arrival, Heard, Radio, Transmission
-from verification.oracle.transmissions import arrival_at, is_in_band, transmissions
+from verification.oracle.transmissions import arrival_at, share_in_band, transmissions
 
 RECEPTION = 2
 """The number of the random streams from which receptions are drawn."""
@@ -38,14 +38,16 @@ def predict(case: Case, run: EngineRun) -> Prediction:
         arrivals = [
             arrival_at(case, flights, sent, index)
             for sent in all_sent
-            if sent.sender != index and is_in_band(case.stations[sent.sender], station)
+            if sent.sender != index and share_in_band(case.stations[sent.sender], station) > 0
         ]
         noise = noise_w(case.air, station)
         draws = RandomStream(case.seed, index, RECEPTION)
         heard.append(Radio(station.receiver, noise, draws, arrivals, own).heard)
         certain.append(_is_certain(arrivals, own))
         noises_w.append(noise)
-        below_sensitivity += sum(arrival.power_w < station.receiver.sensitivity_w for arrival in arrivals)
+        below_sensitivity += sum(
+            arrival.is_of_channel and arrival.power_w < station.receiver.sensitivity_w for arrival in arrivals
+        )
     return Prediction(heard, certain, noises_w, below_sensitivity)
 
 

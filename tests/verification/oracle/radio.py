@@ -5,9 +5,10 @@ looking at all arrivals. Nothing here comes from the engine; only the random str
 part of a scenario's result, is the same: one number for each decision about a frame, or about a part of it.
 
 A radio that is not transmitting and not locked locks on to an arrival that reaches its sensitivity. Locked,
-it takes all others for interference. What starts while it transmits is never received, and a transmission of
-its own ends a reception. A frame survives if its SNIR is above the threshold, strictly, and the number drawn
-is below the chance that all its bits are right.
+it takes all others for interference, and so it does with frames of channels that only overlap with its own.
+What starts while it transmits is never received, and a transmission of its own ends a reception. A frame
+survives if its SNIR is above the threshold, strictly, and the number drawn is below the chance that all its
+bits are right.
 
 Options: the PHY header and the data each for itself, with all changes of the interference ("chunks");
 detection of preambles, where the strongest of those that begin together wins; frame capture by a stronger
@@ -55,6 +56,9 @@ class Arrival:
     sent: Transmission
     start_ps: int
     power_w: float
+    """What of it is in the receiver's band."""
+    is_of_channel: bool
+    """Whether the receiver can decode it; otherwise it is noise."""
 
     @property
     def end_ps(self) -> int:
@@ -157,7 +161,7 @@ class Radio:
 
     def _begin(self, arrival: Arrival) -> None:
         self._present.append(arrival)
-        if arrival.power_w < self._receiver.sensitivity_w:
+        if not arrival.is_of_channel or arrival.power_w < self._receiver.sensitivity_w:
             return
         if self._transmitting:
             self._book(arrival, "receiver_transmitting")

@@ -33,7 +33,8 @@ RATES_MBPS = {
     "g(mixed)": DSSS_RATES_MBPS + OFDM_RATES_MBPS,
     "a": OFDM_RATES_MBPS,
 }
-CARRIERS_HZ = (2.412e9, 2.437e9)
+CARRIERS_HZ = (2.412e9, 2.437e9, 2.422e9)
+"""The third overlaps with both others."""
 BANDWIDTH_HZ = 22e6
 BURST_NS = 4_000_000
 DEAF_W = 1e9
@@ -85,7 +86,7 @@ class _Style:
             sensitivity_w=sensitivity_w,
             tx_power_w=at_half_w / gain(air, size_m / 2, CARRIERS_HZ[0]),
             air=air,
-            bands=draw.choice([1, 1, 1, 2]),
+            bands=draw.choice([1, 1, 1, 2, 3]),
             bursts=draw.randint(2, 8),
             snir_threshold=10**0.4 if draw.random() < 0.6 else _wide(draw, -1, 1.5),
             unicast=draw.choice([0, 0, 0.4]),

@@ -55,13 +55,20 @@ def arrival_at(case: Case, flights: Sequence[Flight], sent: Transmission, receiv
     distance_m = dist(
         flights[sent.sender].position_at(sent.start_ps), flights[receiver].position_at(sent.start_ps)
     )
-    power_w = sender.tx_power_w * gain(case.air, distance_m, sender.carrier_hz)
-    return Arrival(sent, sent.start_ps + delay_ps(distance_m), power_w)
+    there = case.stations[receiver]
+    is_of_channel = sender.carrier_hz == there.carrier_hz and sender.bandwidth_hz <= there.bandwidth_hz
+    power_w = sender.tx_power_w * share_in_band(sender, there) * gain(case.air, distance_m, sender.carrier_hz)
+    return Arrival(sent, sent.start_ps + delay_ps(distance_m), power_w, is_of_channel)
 
 
-def is_in_band(sender: Station, receiver: Station) -> bool:
-    """Whether the receiver's band has room for what the sender sends."""
-    return sender.carrier_hz == receiver.carrier_hz and sender.bandwidth_hz <= receiver.bandwidth_hz
+def share_in_band(sender: Station, receiver: Station) -> float:
+    """Of a power spread evenly over the sender's band, what lies in the receiver's."""
+    edges = [
+        (station.carrier_hz - station.bandwidth_hz / 2, station.carrier_hz + station.bandwidth_hz / 2)
+        for station in (sender, receiver)
+    ]
+    low, high = max(low for low, _ in edges), min(high for _, high in edges)
+    return max(high - low, 0.0) / sender.bandwidth_hz
 
 
 def _possible_starts(station: Station, frame: CapturedFrame, instants_ps: Sequence[int]) -> Sequence[int]:
@@ -82,5 +89,5 @@ def _happened_at(
             continue
         if sent.sender == station:
             yield sent.start_ps
-        elif is_in_band(case.stations[sent.sender], case.stations[station]):
+        elif share_in_band(case.stations[sent.sender], case.stations[station]) > 0:
             yield arrival_at(case, flights, sent, station).start_ps

@@ -10,22 +10,18 @@ from gradysim.config.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
 from gradysim.config.keys.coordinate_system import COORDINATE_SYSTEM_KEYS
 from gradysim.config.keys.csma import CSMA_KEYS
 from gradysim.config.keys.environment import ENVIRONMENT_KEYS
-from gradysim.config.keys.interface import INTERFACE_KEYS
+from gradysim.config.keys.interface import INTERFACE_KEYS, NUM_WLAN_INTERFACES
 from gradysim.config.keys.mac import MAC_KEYS
 from gradysim.config.keys.medium import MEDIUM_KEYS
 from gradysim.config.keys.mobility import MOBILITY_KEYS
 from gradysim.config.keys.node import PROTOCOL_KEYS
 from gradysim.config.keys.radio import RADIO_KEYS
 
-NODE_KEYS: tuple[Key, ...] = (
-    *PROTOCOL_KEYS,
-    *MOBILITY_KEYS,
-    *INTERFACE_KEYS,
-    *MAC_KEYS,
-    *CSMA_KEYS,
-    *RADIO_KEYS,
-)
-"""Those below a node."""
+WLAN_KEYS: tuple[Key, ...] = (*INTERFACE_KEYS, *MAC_KEYS, *CSMA_KEYS, *RADIO_KEYS)
+"""Those below a network interface, here wlan[0]."""
+
+NODE_KEYS: tuple[Key, ...] = (*PROTOCOL_KEYS, *MOBILITY_KEYS, NUM_WLAN_INTERFACES, *WLAN_KEYS)
+"""Those below a node, as if each had one interface."""
 
 NETWORK_KEYS: tuple[Key, ...] = (
     *MEDIUM_KEYS,

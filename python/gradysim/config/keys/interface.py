@@ -1,24 +1,37 @@
-"""Keys of which network interface a node has."""
+"""Keys of which network interfaces a node has."""
 
 from gradysim.config.key import Key, ReadBy
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import choice
+from gradysim.config.kinds import choice, integer
 
 WLAN = "wlan[0]"
-"""What the paths of all keys of the interface begin with."""
+"""What the paths of all keys of an interface begin with; for the others see `at_interface`."""
 
-IEEE80211 = ReadBy("node.interface", ("Ieee80211Interface",), shown="")
-IEEE802154 = ReadBy("node.interface", ("Ieee802154NarrowbandInterface",), shown="802.15.4")
+IEEE80211 = ReadBy("interface.typename", ("Ieee80211Interface",), shown="")
+IEEE802154 = ReadBy("interface.typename", ("Ieee802154NarrowbandInterface",), shown="802.15.4")
 """Of which interface a key is."""
 
-_own = Below(WLAN, "node", RADIO_MEDIA)
+NUM_WLAN_INTERFACES = Key(
+    "numWlanInterfaces",
+    "node.num_wlan_interfaces",
+    integer(1, 16),
+    "Number of its network interfaces: wlan[0], wlan[1], and so on, each on a channel of its own",
+    default="1",
+)
+
+_own = Below(WLAN, "interface", RADIO_MEDIA)
 
 INTERFACE_KEYS: tuple[Key, ...] = (
     _own(
         "typename",
-        "interface",
+        "typename",
         choice(*IEEE80211.names, *IEEE802154.names),
-        "Its network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
+        "The network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
     ),
 )
+
+
+def at_interface(path: str, index: int) -> str:
+    """The path of a key of wlan[0] for another interface."""
+    return path.replace(WLAN, f"wlan[{index}]", 1)

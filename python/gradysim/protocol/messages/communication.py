@@ -1,6 +1,6 @@
 """Commands with which a protocol sends a message to other nodes."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 
@@ -21,22 +21,25 @@ class CommunicationCommand:
         command_type: How the message finds its receivers.
         message: Any text. Its length in UTF-8 counts where airtime is simulated.
         destination: Id of the receiving node; only for `SEND`.
+        interface: Index of the node's network interface that sends it: 1 for wlan[1]. Prototype mode has one
+            medium, which all interfaces share.
     """
 
     command_type: CommunicationCommandType
     message: str
     destination: int | None = None
+    interface: int = field(default=0, kw_only=True)
 
 
 class SendMessageCommand(CommunicationCommand):
     """Sends `message` to the node `destination` alone."""
 
-    def __init__(self, message: str, destination: int) -> None:
-        super().__init__(CommunicationCommandType.SEND, message, destination)
+    def __init__(self, message: str, destination: int, *, interface: int = 0) -> None:
+        super().__init__(CommunicationCommandType.SEND, message, destination, interface=interface)
 
 
 class BroadcastMessageCommand(CommunicationCommand):
     """Sends `message` to every node in reach."""
 
-    def __init__(self, message: str) -> None:
-        super().__init__(CommunicationCommandType.BROADCAST, message)
+    def __init__(self, message: str, *, interface: int = 0) -> None:
+        super().__init__(CommunicationCommandType.BROADCAST, message, interface=interface)

@@ -39,12 +39,30 @@ def test_synchronised_sensors_find_the_channel_busy() -> None:
     assert messages["channel_access_failure"] > 0.1 * sum(messages.values())
 
 
+def test_where_the_spectrum_is_shared_reports_are_disturbed() -> None:
+    lost = [
+        result_of("SharedSpectrum", *overrides).fates["frames"]["unicast"]["interference"]
+        for overrides in ((), ("*.uavs[*].wlan[*].radio.centerFrequency = 2.412GHz",))
+    ]
+    assert lost[0] >= 5
+    assert lost[1] == 0
+
+
+def test_the_gateway_hands_every_report_on() -> None:
+    result = result_of("Gateway")
+    assert ground_station(result)["sensors_heard"] == SENSORS
+    messages = result.fates["messages"]["unicast"]
+    assert messages["acknowledged"] >= 0.99 * sum(messages.values()) >= 2 * SENSORS * 6 * 0.99
+
+
 def test_a_report_that_is_too_long_is_refused() -> None:
     with pytest.raises(Exception, match="a message of 91 bytes does not fit: the longest is 90 bytes"):
         result_of("Spread", "*.sensors[*].protocol.payload_bytes = 91")
 
 
-def test_it_runs_in_prototype_mode() -> None:
-    (scenario,) = load_scenarios(FILE, "Spread", overrides=["sim-time-limit = 60s"])
+@pytest.mark.parametrize("config", ["Spread", "Gateway"])
+def test_it_runs_in_prototype_mode(config: str) -> None:
+    overrides = ["sim-time-limit = 60s", "*.communicationMedium.transmissionRange = 100m"]
+    (scenario,) = load_scenarios(FILE, config, overrides=overrides)
     result = gradysim.prototype.run.run(scenario)
     assert ground_station(result)["sensors_heard"] == SENSORS

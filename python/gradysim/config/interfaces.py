@@ -1,0 +1,67 @@
+"""The network interfaces of nodes: how many each has, and what the entries in force say of each.
+
+Interfaces with the same entries in force share one InterfaceSpec, also those of one node: `wlan[*]` stands
+for all of them.
+"""
+
+from collections.abc import Mapping
+
+from gradysim.config.groups import Group
+from gradysim.config.interface_spec import STRUCTS, InterfaceSpec
+from gradysim.config.key import Key
+from gradysim.config.keys import WLAN_KEYS
+from gradysim.config.keys.interface import NUM_WLAN_INTERFACES, at_interface
+from gradysim.config.lookup import Candidates, Found, Lookup
+from gradysim.config.setting import SettingReader
+from gradysim.config.struct_reader import read_struct
+
+
+def interface_counts(lookup: Lookup, groups: list[Group], settings: SettingReader) -> dict[str, int]:
+    """The number of interfaces of each node, by name. Raises ConfigError for what is no such number."""
+    given = lookup.candidates(NUM_WLAN_INTERFACES.path)
+    counts: dict[str, int] = {}
+    for group in groups:
+        for name in group.node_names():
+            found = given.first(name)
+            if found is None or found.is_default:
+                counts[name] = 1
+            else:
+                counts[name] = int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind))
+    return counts
+
+
+class InterfaceBuilder:
+    """Makes the interfaces of nodes."""
+
+    def __init__(self, lookup: Lookup, settings: SettingReader) -> None:
+        """For the nodes that the entries in `lookup` are about."""
+        self._lookup = lookup
+        self._settings = settings
+        self._keys: list[list[tuple[Key, Candidates]]] = []  # of each interface: those that some entry sets
+        self._known: dict[object, InterfaceSpec] = {}
+
+    def interfaces(self, node: str, count: int) -> tuple[InterfaceSpec, ...]:
+        """Return the `count` interfaces of that node."""
+        return tuple(self._interface(node, index) for index in range(count))
+
+    def _interface(self, node: str, index: int) -> InterfaceSpec:
+        while len(self._keys) <= index:
+            paths = ((key, at_interface(key.path, len(self._keys))) for key in WLAN_KEYS)
+            self._keys.append(
+                [(key, candidates) for key, path in paths if (candidates := self._lookup.candidates(path))]
+            )
+        in_force = [(key, candidates.first(node)) for key, candidates in self._keys[index]]
+        found = {key: entry for key, entry in in_force if entry is not None}
+        known = tuple((key.path, entry) for key, entry in found.items())
+        spec = self._known.get(known)
+        if spec is None:
+            structs = {struct: read_struct(struct, found, self._settings) for struct in STRUCTS}
+            spec = self._known[known] = InterfaceSpec(**structs, range_sets_power=_range_comes_first(found))
+        return spec
+
+
+def _range_comes_first(found: Mapping[Key, Found]) -> bool:
+    """Whether a range was given, and not after a power."""
+    orders = {key.field: entry.order for key, entry in found.items() if not entry.is_default}
+    at = orders.get("communication_range_m")
+    return at is not None and at <= orders.get("tx_power_w", at)

@@ -1,0 +1,49 @@
+#include "netsim/config/interface_config.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "config/error_text.hpp"
+
+namespace netsim {
+namespace {
+
+TEST(InterfaceConfig, DefaultsAreValid) {
+    for (const std::string_view type : interface_type_names) {
+        EXPECT_NO_THROW(InterfaceConfig(std::string(type)).validate());
+    }
+}
+
+TEST(InterfaceConfig, ChecksItsRadio) {
+    InterfaceConfig config;
+    config.radio.tx_power_w = -1;
+    EXPECT_EQ(error_text([&] { config.validate(); }), "radio.tx_power_w = -1 W: expected at least 0 W");
+}
+
+TEST(InterfaceConfig, ChecksItsMac) {
+    InterfaceConfig config;
+    config.mac.short_retry_limit = 0;
+    EXPECT_EQ(error_text([&] { config.validate(); }), "mac.short_retry_limit = 0: expected from 1 to 255");
+}
+
+TEST(InterfaceConfig, ChecksItsCsma) {
+    InterfaceConfig config;
+    config.csma.min_be = -1;
+    EXPECT_EQ(error_text([&] { config.validate(); }), "csma.min_be = -1: expected from 0 to 5");
+}
+
+TEST(InterfaceConfig, ItsTypeSetsTheDefaultsOfTheRadio) {
+    EXPECT_EQ(InterfaceConfig(std::string(ieee802154_interface)).radio.carrier_hz, 2.45e9);
+}
+
+TEST(InterfaceConfig, TheErrorModelHasToFitTheType) {
+    InterfaceConfig config{std::string(ieee802154_interface)};
+    config.radio.error_model = "Ieee80211NistErrorModel";
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "radio.error_model = \"Ieee80211NistErrorModel\": expected \"Ieee802154ErrorModel\", the one "
+              "for an Ieee802154NarrowbandInterface");
+}
+
+}  // namespace
+}  // namespace netsim

@@ -1,0 +1,70 @@
+"""Nodes with several network interfaces, as .ini files say them."""
+
+from typing import Any
+
+import pytest
+
+TWO = "*.uavs[*].numWlanInterfaces = 2\n"
+
+
+def carriers(node: Any) -> list[float | None]:
+    return [wlan.radio["carrier_hz"].value if wlan.radio else None for wlan in node.wlan]
+
+
+def test_a_node_has_one_interface_unless_something_else_is_said(folder: Any) -> None:
+    assert [len(node.wlan) for node in folder.load().nodes] == [1, 1, 1]
+
+
+def test_each_node_has_as_many_interfaces_as_the_first_entry_says(folder: Any) -> None:
+    scenario = folder.load("*.uavs[1].numWlanInterfaces = 3\n**.numWlanInterfaces = 2\n")
+    assert {node.name: len(node.wlan) for node in scenario.nodes} == {
+        "groundStation": 2,
+        "uavs[0]": 2,
+        "uavs[1]": 3,
+    }
+
+
+def test_keys_reach_the_interface_they_name(folder: Any) -> None:
+    scenario = folder.load(TWO + "*.uavs[*].wlan[1].radio.channelNumber = 5\n")
+    assert [carriers(node) for node in scenario.nodes if node.group == "uavs"] == [[None, 2.437e9]] * 2
+
+
+def test_a_star_stands_for_all_interfaces(folder: Any) -> None:
+    scenario = folder.load(TWO + "*.uavs[*].wlan[*].radio.transmitter.power = 1mW\n")
+    for node in scenario.nodes:
+        if node.group == "uavs":
+            assert [wlan.radio["tx_power_w"].value for wlan in node.wlan] == [0.001, 0.001]
+            assert node.wlan[0] is node.wlan[1]
+
+
+def test_a_range_of_indices_stands_for_those_interfaces(folder: Any) -> None:
+    scenario = folder.load('**.numWlanInterfaces = 3\n**.wlan[1..2].opMode = "a"\n')
+    modes = [
+        [wlan.mac["op_mode"].value if wlan.mac else None for wlan in node.wlan] for node in scenario.nodes
+    ]
+    assert modes == [[None, "a", "a"]] * 3
+
+
+def test_interfaces_of_both_kinds(folder: Any) -> None:
+    scenario = folder.load(TWO + '*.uavs[*].wlan[1].typename = "Ieee802154NarrowbandInterface"\n')
+    typenames = [wlan.interface.get("typename") for wlan in scenario.nodes[1].wlan]
+    assert [setting and setting.value for setting in typenames] == [None, "Ieee802154NarrowbandInterface"]
+
+
+@pytest.mark.parametrize(
+    ("added", "message"),
+    [
+        (
+            "*.uavs[*].wlan[1].radio.bandwidth = 20MHz\n",
+            "`*.uavs[*].wlan[1].radio.bandwidth` matches no parameter; expected one of an interface that "
+            "`numWlanInterfaces` of the node counts",
+        ),
+        (
+            "*.uavs[*].numWlanInterfaces = 0\n",
+            "= 0: it is out of range; expected a whole number, at least 1 and at most 16",
+        ),
+    ],
+)
+def test_errors(folder: Any, added: str, message: str) -> None:
+    assert folder.error(added).startswith("test.ini:6: ")
+    assert message in folder.error(added)
