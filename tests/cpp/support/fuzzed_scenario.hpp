@@ -138,6 +138,12 @@ private:
             mac.queue_capacity = bytes_.integer(mac.queue_capacity);
             mac.backoff_optimization = bytes_.flag();
             mac.own_frames_set_nav = bytes_.flag();
+            while (bytes_.below(4) == 1) {
+                InterfaceConfig further = config.wlan[0];
+                further.radio.carrier_hz += 5e6 * bytes_.below(6);
+                further.radio.bandwidth_hz = bytes_.number(further.radio.bandwidth_hz);
+                config.wlan.push_back(further);
+            }
             config.mobility.speed_mps = bytes_.number(config.mobility.speed_mps);
             config.mobility.telemetry_interval_s = bytes_.flag() ? bytes_.number(1) : 0;
             try {
@@ -174,10 +180,10 @@ private:
     void act(Node& node) {
         switch (bytes_.below(7)) {
             case 0:
-                return node.broadcast(text());
+                return node.broadcast(text(), interface());
             case 1:
             case 2:
-                return node.send(bytes_.integer(bytes_.byte() % 6), text());
+                return node.send(bytes_.integer(bytes_.byte() % 6), text(), interface());
             case 3:
                 return node.go_to(position());
             case 4:
@@ -195,6 +201,8 @@ private:
         const double y = bytes_.number(10.0 * bytes_.byte());
         return {x, y, bytes_.number(0)};
     }
+
+    std::int32_t interface() { return bytes_.flag() ? 0 : static_cast<std::int32_t>(bytes_.below(4)); }
 
     Payload text() { return std::make_shared<const std::string>(bytes_.below(70'000), 'x'); }
 
