@@ -74,10 +74,12 @@ build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the
 verify: build $(STAMPS)/verify  ## Compare with INET, ns-3 and closed forms; draws docs/verification.
 	$(BIN)/python -m pytest tests/verification --verify
 
-bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals.
+bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals, and a profile by layer.
 	cmake -S cpp --preset bench --log-level=WARNING
 	cmake --build build/bench
 	build/bench/netsim_bench
+	build/bench/netsim_layers 1000
+	build/bench/netsim_layers 10000
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
 
 fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
