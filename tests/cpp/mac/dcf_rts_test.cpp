@@ -1,5 +1,4 @@
-// RTS and CTS of the Dcf. As in dcf_test.cpp, the instants are worked out by hand from the durations of IEEE
-// 802.11, which are written out here.
+// RTS and CTS of the Dcf, in instants worked out by hand as in dcf_test.cpp.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -8,20 +7,22 @@
 
 #include "netsim/mac/dcf.hpp"
 #include "support/air.hpp"
+#include "support/dcf_instants.hpp"
 
 namespace netsim {
 namespace {
 
+using test::ack_duration;
 using test::Air;
 using test::BareRadio;
+using test::data_duration;
+using test::difs;
 using test::Heard;
 using test::light_microsecond_m;
+using test::sifs;
 using test::Sniffer;
 using test::Station;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
+using test::us;
 
 // Every unicast with RTS and CTS.
 MacConfig with_rts(const char* op_mode = "g(mixed)", double bitrate_bps = -1) {
@@ -34,19 +35,14 @@ MacConfig with_rts(const char* op_mode = "g(mixed)", double bitrate_bps = -1) {
 
 // No backoff: every wait is an interframe space.
 MacConfig with_rts_without_backoff() {
-    MacConfig config = with_rts();
-    config.cw_min = 0;
-    config.cw_max = 0;
+    MacConfig config = test::without_backoff();
+    config.rts_threshold_bytes = 0;
     return config;
 }
 
 // g(mixed), all at 24 Mbps, a payload of 100 B.
-constexpr SimTime sifs = us(10);
-constexpr SimTime difs = us(50);
 constexpr SimTime rts_duration = us(34);
 constexpr SimTime cts_duration = us(34);
-constexpr SimTime data_duration = us(82);
-constexpr SimTime ack_duration = us(34);
 constexpr SimTime cts_timeout = us(55);
 constexpr SimTime rts_field = sifs + cts_duration + sifs + data_duration + sifs + ack_duration;
 

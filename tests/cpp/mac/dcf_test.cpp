@@ -1,5 +1,5 @@
-// The instants are worked out by hand from the durations and intervals of IEEE 802.11, which are written out
-// here.
+// The instants are worked out by hand: support/dcf_instants.hpp. RTS and CTS, the NAV, rate control and the contention
+// window have files of their own.
 #include "netsim/mac/dcf.hpp"
 
 #include <algorithm>
@@ -10,49 +10,32 @@
 
 #include "netsim/error.hpp"
 #include "support/air.hpp"
+#include "support/dcf_instants.hpp"
 
 namespace netsim {
 namespace {
 
+using test::ack_duration;
+using test::ack_timeout;
 using test::Air;
+using test::data_duration;
+using test::difs;
+using test::eifs;
 using test::Heard;
 using test::light_microsecond_m;
+using test::of_kind;
+using test::sifs;
+using test::slot;
 using test::Sniffer;
 using test::Station;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
+using test::us;
+using test::without_backoff;
 
 MacConfig mac_of(const char* op_mode, double bitrate_bps) {
     MacConfig config;
     config.op_mode = op_mode;
     config.bitrate_bps = bitrate_bps;
     return config;
-}
-
-// No backoff: every wait is an interframe space.
-MacConfig without_backoff() {
-    MacConfig config;
-    config.cw_min = 0;
-    config.cw_max = 0;
-    return config;
-}
-
-// g(mixed) at 24 Mbps, a payload of 100 B.
-constexpr SimTime slot = us(20);
-constexpr SimTime sifs = us(10);
-constexpr SimTime difs = us(50);
-constexpr SimTime eifs = us(364);
-constexpr SimTime data_duration = us(82);
-constexpr SimTime ack_duration = us(34);
-constexpr SimTime ack_timeout = us(55);
-
-std::vector<Heard> of_kind(const Sniffer& sniffer, FrameKind kind) {
-    std::vector<Heard> frames;
-    std::copy_if(sniffer.heard.begin(), sniffer.heard.end(), std::back_inserter(frames),
-                 [kind](const Heard& heard) { return heard.kind == kind; });
-    return frames;
 }
 
 struct Exchange {
@@ -390,137 +373,6 @@ TEST_F(DcfTest, AfterGivingUpTheNextMessageHasItsTurn) {
     EXPECT_EQ(b->texts(), std::vector<std::string>{"next"});
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
-}
-
-// The slots before each attempt of a message that is never acknowledged, and before the next message.
-class ContentionWindow : public testing::Test {
-protected:
-    static constexpr int seeds = 150;
-
-    // slots[attempt] of all seeds; the last one belongs to the next message.
-    static std::vector<std::vector<std::int64_t>> slots_of_attempts(const MacConfig& mac) {
-        std::vector<std::vector<std::int64_t>> slots(8);
-        for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-            Air air(MediumConfig(), Hearing::what_matters, seed);
-            Station& sender = air.add_station({0, 0, 0}, mac);
-            Station& gone = air.add_station({1e7, 0, 0}, mac);
-            Sniffer& sniffer = air.add_sniffer({0, 0, 0});
-            sender.send(gone.id(), 100);
-            sender.send(gone.id(), 100);
-            air.run(SimTime::from_seconds(1));
-            const std::vector<Heard> frames = of_kind(sniffer, FrameKind::unicast);
-            EXPECT_EQ(frames.size(), 14U);
-            for (std::size_t attempt = 1; attempt < slots.size(); ++attempt) {
-                const SimTime waited =
-                    frames[attempt].start - frames[attempt - 1].end - sifs - ack_duration - difs;
-                EXPECT_EQ(waited.ps() % slot.ps(), 0);
-                slots[attempt].push_back(waited.ps() / slot.ps());
-            }
-        }
-        return slots;
-    }
-    static void expect_draws_up_to(const std::vector<std::int64_t>& slots, std::int64_t window) {
-        const auto [least, most] = std::minmax_element(slots.begin(), slots.end());
-        EXPECT_GE(*least, 0);
-        EXPECT_LE(*most, window);
-        EXPECT_GT(*most, window * 9 / 10);  // misses with a chance of 0.9^150
-    }
-};
-
-TEST_F(ContentionWindow, DoublesWithEveryFailureUpToItsMaximum) {
-    const auto slots = slots_of_attempts(MacConfig());
-    const std::vector<std::int64_t> windows{63, 127, 255, 511, 1023, 1023};
-    for (std::size_t retry = 1; retry <= windows.size(); ++retry) {
-        SCOPED_TRACE("retry " + std::to_string(retry));
-        expect_draws_up_to(slots[retry], windows[retry - 1]);
-    }
-}
-
-TEST_F(ContentionWindow, IsItsMinimumAgainForTheNextMessage) {
-    expect_draws_up_to(slots_of_attempts(MacConfig())[7], 31);
-}
-
-TEST_F(ContentionWindow, IsItsMinimumAgainAfterAnAck) {
-    std::vector<std::int64_t> slots;
-    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-        Air air(MediumConfig(), Hearing::what_matters, seed);
-        Station& sender = air.add_station({0, 0, 0});
-        Station& receiver = air.add_station({20'000, 0, 0});
-        Sniffer& sniffer = air.add_sniffer({0, 0, 0});
-        sender.send(receiver.id(), 100);
-        sender.send(receiver.id(), 100);
-        while (sniffer.heard.size() < 4) {
-            air.run(air.simulator.now() + us(100));
-        }
-        receiver.trajectory.go_to(air.simulator.now(), {light_microsecond_m, 0, 0}, 1e15);
-        air.run();
-        const SimTime first_ack = of_kind(sniffer, FrameKind::ack).at(0).end;
-        const SimTime waited = of_kind(sniffer, FrameKind::unicast).back().start - first_ack - difs;
-        slots.push_back(waited.ps() / slot.ps());
-    }
-    expect_draws_up_to(slots, 31);
-}
-
-TEST_F(ContentionWindow, HasTheBoundsThatItIsGiven) {
-    MacConfig mac;
-    mac.cw_min = 7;
-    mac.cw_max = 20;
-    const auto slots = slots_of_attempts(mac);
-    expect_draws_up_to(slots[1], 15);
-    expect_draws_up_to(slots[2], 20);
-    expect_draws_up_to(slots[6], 20);
-    expect_draws_up_to(slots[7], 7);
-}
-
-// Station c hears a, but not b's answer to it.
-class HiddenResponder : public testing::Test {
-protected:
-    static constexpr double hop_m = light_microsecond_m;
-
-    void SetUp() override {
-        RadioConfig radio;
-        radio.sensitivity_w = 1.5 * at(2 * hop_m);
-        radio.energy_detection_w = radio.sensitivity_w;
-        b = &air.add_station({0, 0, 0}, without_backoff(), radio);
-        a = &air.add_station({hop_m, 0, 0}, without_backoff(), radio);
-        c = &air.add_station({2 * hop_m, 0, 0}, without_backoff(), radio);
-        at_c = &air.add_sniffer({2 * hop_m, 0, 0});
-    }
-    static double at(double distance_m) {
-        return RadioConfig().tx_power_w *
-               make_path_loss(MediumConfig()).gain(distance_m, RadioConfig().carrier_hz);
-    }
-
-    Air air;
-    Station* a = nullptr;
-    Station* b = nullptr;
-    Station* c = nullptr;
-    Sniffer* at_c = nullptr;
-};
-
-TEST_F(HiddenResponder, TheNavKeepsTheThirdStationSilentUntilTheAckIsOver) {
-    a->send(b->id(), 100);
-    air.at(us(40), [&] { c->send(broadcast_id, 100); });
-    air.run();
-    const SimTime data_end_at_c = data_duration + us(1);
-    ASSERT_EQ(of_kind(*at_c, FrameKind::broadcast).size(), 1U);
-    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast)[0].start, data_end_at_c + sifs + ack_duration + difs);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
-}
-
-TEST_F(HiddenResponder, TheNavCountsAsBusyForImmediateAccess) {
-    a->send(b->id(), 100);
-    const SimTime data_end_at_c = data_duration + us(1);
-    air.at(data_end_at_c + us(5), [&] { c->send(broadcast_id, 100); });
-    air.run();
-    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(0).start, data_end_at_c + sifs + ack_duration + difs);
-}
-
-TEST_F(HiddenResponder, ABroadcastLeavesNoNav) {
-    a->send(broadcast_id, 100);
-    air.at(us(40), [&] { c->send(broadcast_id, 100); });
-    air.run();
-    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(1).start, data_duration + us(1) + difs);
 }
 
 TEST_F(DcfTest, TheQueueHoldsAHundredAndTheOneInProgress) {
