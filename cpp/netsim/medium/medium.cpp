@@ -92,6 +92,8 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.transmission.start = now;
     entry.transmission.origin = attached_[entry.transmission.radio].receiver.trajectory->position_at(now);
     entry.last_end = now;
+    entry.reach_m = 0;
+    entry.others_w = 0;
     entry.first_place = simulator_.reserve_places(2 * attached_.size());
     entry.odometer_m = odometer_.reading_m(now);
     entry.heard.clear();
@@ -108,6 +110,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
 // The plain model.
 void Medium::tell_everybody(OnAir& entry) {
     const Transmission& sent = entry.transmission;
+    entry.others_w = std::numeric_limits<double>::infinity();
     CopyCount addressed;
     CopyCount overheard;
     for (RadioId radio = 0; radio < static_cast<RadioId>(attached_.size()); ++radio) {
@@ -146,6 +149,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         copies += sent.band.fits_in(audience.band) ? audience.members.size() : 0;
         const double within_m = reach_m(audience, sent);
         audience.members.prepare(now, odometer_, within_m);
+        entry.reach_m = std::max(entry.reach_m, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
         candidates_.clear();
         audience.members.visit(sent.origin, within_m, [&](RadioId radio, const Position& place) {
@@ -174,6 +178,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
     schedule_arrivals(entry);
     if (!beside_.empty()) {
+        bound_interference(entry);
         for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
             if (sent.band.share_in(audiences_[audience].band) > 0) {
                 tell_where_energy_adds_up(entry, audience);
@@ -244,16 +249,6 @@ double Medium::reach_of_power_m(const Transmission& transmission, const Audience
                                               transmission.band.carrier_hz) *
                              margin
                        : std::numeric_limits<double>::infinity();
-}
-
-Arrival Medium::arrival_at(const Transmission& transmission, RadioId radio) const {
-    const Receiver& receiver = attached_[radio].receiver;
-    const Position there = receiver.trajectory->position_at(transmission.start);
-    const double distance_m = distance(transmission.origin, there);
-    const SimTime start = transmission.start + propagation_delay(distance_m);
-    return Arrival{
-        &transmission, start, start + transmission.duration,
-        power_w(transmission, transmission.band.share_in(receiver.band), radio, there, distance_m)};
 }
 
 // The events of an arrival have their places in the order of equal times since its transmission began: the

@@ -76,6 +76,12 @@ public:
     // for times until now; valid until the next call.
     InterferenceSum& interference_with(RadioId receiver, const Arrival& arrival, SimTime start, SimTime end);
 
+    // In W, no less than its largest sum over the time of the arrival, for one that reached the sensitivity: known at
+    // once. Infinite if that says nothing.
+    double most_interference_w(const Arrival& arrival) const {
+        return on_air_[arrival.transmission->id - on_air_.front()->transmission.id]->others_w;
+    }
+
     const BackgroundNoise& background_noise() const { return background_noise_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
     // check.
@@ -122,23 +128,41 @@ private:
         SimTime last_end;                 // at its most distant receiver, or later
         Place first_place = 0;            // of its arrivals' events, two for each receiver
         double odometer_m = 0;            // at its start
+        double reach_m = 0;               // nobody locks on to it farther away
+        double others_w = 0;              // within that, at most, of all that are on the air beside it
         std::vector<Heard> heard;         // by those that notice it alone, in the order of their events
         std::size_t started = 0;          // of `heard`
         std::size_t ended = 0;            // of `heard`
         std::vector<RadioId> told_later;  // receivers to whom it came to matter only with others beside it
         std::vector<EnergyRing> rings;    // [audience]
     };
+    // What a transmission can bring to any of the receivers that are to be watched.
+    struct Bound {
+        const Transmission* transmission;
+        double most_w;
+        double rest_w = 0;  // with those after it
+    };
     // What a receiver gets while it gets one that it does not notice alone.
     struct Share {
         OnAir* on_air;
         Arrival arrival;
         bool is_told;
-        bool
-            surely_counts;  // is told, and no frame that the radio may leave out of the energy while it detects it
+        // Is told, and is no frame that the radio may leave out of the energy while it detects it.
+        bool surely_counts;
+        bool is_end_checked;
     };
 
     OnAir& put_on_air(Transmission transmission);
-    Arrival arrival_at(const Transmission& transmission, RadioId radio) const;
+    // In the header, as sums over all that is on the air call it for each.
+    Arrival arrival_at(const Transmission& transmission, RadioId radio) const {
+        const Receiver& receiver = attached_[radio].receiver;
+        const Position there = receiver.trajectory->position_at(transmission.start);
+        const double distance_m = distance(transmission.origin, there);
+        const SimTime start = transmission.start + propagation_delay(distance_m);
+        return Arrival{
+            &transmission, start, start + transmission.duration,
+            power_w(transmission, transmission.band.share_in(receiver.band), radio, there, distance_m)};
+    }
     // The radio of the label's destination that can decode the transmission, or -1: of a broadcast, of an addressee
     // that has none, of the sender itself.
     RadioId addressee_of(const Transmission& transmission) const;
@@ -171,12 +195,18 @@ private:
     // Sums of energy: medium_energy.cpp.
     // Collects in `beside_` the others that are not over everywhere.
     void find_those_beside(const OnAir& newest);
+    // Adds to what the others can bring to the receivers of each.
+    void bound_interference(OnAir& newest);
     void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
     void add_to_ring(OnAir& here, OnAir& newest, std::size_t audience);
     // Adds up anew what the others can bring, and watches whoever that calls for.
     void widen_ring(OnAir& here, OnAir& newest, std::size_t audience);
-    // A function of the radius: the most that `there` brings to receivers within that of where `here` began.
-    auto most_brought_w(const OnAir& there, const OnAir& here, const Audience& audience) const;
+    // A function of the radius: the most that `there`, sent with at most that power, antennas included, brings to
+    // receivers within the radius of where `here` began.
+    auto most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const;
+    double brought_w(const Transmission& sent, RadioId radio) const {
+        return sent.radio == radio ? 0 : arrival_at(sent, radio).power_w;
+    }
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
     // Tells the radio of as many as it takes to find its channel busy when it is, from now on, while `strongest` lasts.
     // Returns what more there must be, while it does, until there is somewhat to tell.
@@ -212,6 +242,7 @@ private:
     std::uint64_t next_id_ = 0;
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
+    std::vector<Bound> bounds_;
     std::vector<Share> shares_;
 };
 

@@ -1,12 +1,14 @@
 // The part of the medium that finds the radios at which several transmissions, none of which matters alone, make the
 // channel busy together.
 //
-// Each transmission has rings of receivers that it has to watch (energy_ring.hpp), one for each audience. At each of those
-// holds, for as long as it lasts there: at any moment, the radio has been told of enough to find its channel busy, or all
-// that is on the air stays below the level, by what the ring says is missing.
+// Each transmission has rings of receivers that it has to watch (energy_ring.hpp), one for each audience. At each of
+// them, as long as the transmission lasts there, one of two things holds at any moment: the radio was told of enough to
+// find its channel busy, or all that is on the air stays below the level, by what the ring says is missing.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <ranges>
 
 #include "netsim/medium/medium.hpp"
 
@@ -20,11 +22,11 @@ constexpr double margin = 1e-9;
 }  // namespace
 
 // At any receiver that gets `there` and is within a radius, in m, of where `here` began when that did.
-auto Medium::most_brought_w(const OnAir& there, const OnAir& here, const Audience& audience) const {
+auto Medium::most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const {
     const double moved_m = std::abs(there.odometer_m - here.odometer_m);
     const double between_m =
         distance(here.transmission.origin, there.transmission.origin) * (1 - margin) - moved_m;
-    const double sent_w = most_power_w(there.transmission, audience) * (1 + margin);
+    const double sent_w = most_sent_w * (1 + margin);
     return [this, between_m, sent_w, carrier_hz = there.transmission.band.carrier_hz](double radius_m) {
         return sent_w * propagation_.most_gain_beyond(std::max(between_m - radius_m, 0.0), carrier_hz);
     };
@@ -36,6 +38,17 @@ void Medium::find_those_beside(const OnAir& newest) {
         if (other.get() != &newest && other->last_end > newest.transmission.start) {
             beside_.push_back(other.get());
         }
+    }
+}
+
+void Medium::bound_interference(OnAir& newest) {
+    const bool is_known = antennas_.all_isotropic();
+    for (OnAir* other : beside_) {
+        const double infinite = std::numeric_limits<double>::infinity();
+        newest.others_w +=
+            is_known ? most_brought_w(*other, newest, other->transmission.power_w)(newest.reach_m) : infinite;
+        other->others_w +=
+            is_known ? most_brought_w(newest, *other, newest.transmission.power_w)(other->reach_m) : infinite;
     }
 }
 
@@ -54,18 +67,16 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {
 
 void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
     EnergyRing& ring = here.rings[audience];
-    const auto bound_w = most_brought_w(newest, here, audiences_[audience]);
+    const auto bound_w =
+        most_brought_w(newest, here, most_power_w(newest.transmission, audiences_[audience]));
     const double most_w = bound_w(ring.radius_m());
     for (EnergyRing::Watched& watched : ring.watched()) {
-        watched.missing_w -= most_w;
-        if (watched.missing_w > 0) {
+        if (watched.missing_w > most_w) {
+            watched.missing_w -= most_w;
             continue;
         }
         // The bound does not tell, perhaps the power does.
-        const double exact_w = newest.transmission.radio == watched.radio
-                                   ? 0
-                                   : arrival_at(newest.transmission, watched.radio).power_w;
-        watched.missing_w += most_w - exact_w;
+        watched.missing_w -= brought_w(newest.transmission, watched.radio);
         if (watched.missing_w <= 0) {
             watched.missing_w = tell_enough(watched.radio, here, newest);
         }
@@ -92,15 +103,26 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
     };
     ring.forget_others(beside_.size(), audience.least_energy_w * (1 - margin),
                        [&](double power_w) { return reach_of_power_m(sent, audience, power_w); });
-    visit_others([&](const OnAir& other) { ring.add(most_brought_w(other, here, audience)); });
+    visit_others([&](const OnAir& other) {
+        ring.add(most_brought_w(other, here, most_power_w(other.transmission, audience)));
+    });
     if (!ring.is_too_narrow()) {
         return;
     }
     const double watched_before_w = ring.least_power_w();
     ring.widen();
     const double radius_m = ring.radius_m();
-    double others_w = 0;
-    visit_others([&](const OnAir& other) { others_w += most_brought_w(other, here, audience)(radius_m); });
+    bounds_.clear();
+    visit_others([&](const OnAir& other) {
+        const double most_sent_w = most_power_w(other.transmission, audience);
+        bounds_.push_back({&other.transmission, most_brought_w(other, here, most_sent_w)(radius_m)});
+    });
+    // The largest bounds are those of the nearest, and the farthest from the truth.
+    std::ranges::sort(bounds_, std::greater(), &Bound::most_w);
+    double rest_w = 0;
+    for (Bound& bound : bounds_ | std::views::reverse) {
+        rest_w = bound.rest_w = rest_w + bound.most_w;
+    }
     const double share = sent.band.share_in(audience.band);
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
@@ -116,8 +138,14 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
             is_loud(receiver, received_w * (1 - margin))) {
             return;
         }
-        const double missing_w =
-            receiver.energy_detection_w * (1 - margin) - (receiver.noise_w + received_w + others_w);
+        // Bounds give way to powers, one after the other, until it is known that something is missing.
+        double known_w = receiver.noise_w + received_w;
+        const double level_w = receiver.energy_detection_w * (1 - margin);
+        auto bound = bounds_.begin();
+        for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
+            known_w += brought_w(*bound->transmission, radio);
+        }
+        const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
         ring.watched().push_back({radio, missing_w > 0 ? missing_w : tell_enough(radio, here, newest)});
     });
 }
@@ -154,7 +182,7 @@ double Medium::tell_enough(RadioId radio, OnAir& strongest, OnAir& newest) {
         const bool is_told =
             is_told_alone(receiver, sent, there.power_w) ||
             std::find(other.told_later.begin(), other.told_later.end(), radio) != other.told_later.end();
-        shares_.push_back(Share{&other, there, is_told, is_told && !may_be_left_out});
+        shares_.push_back(Share{&other, there, is_told, is_told && !may_be_left_out, false});
         all_w += there.power_w;
     };
     for (OnAir* other : beside_) {
@@ -165,13 +193,23 @@ double Medium::tell_enough(RadioId radio, OnAir& strongest, OnAir& newest) {
     if (all_w * (1 + margin) < level_w) {
         return level_w - all_w * (1 + margin);
     }
-    double most_w = 0;  // while it is not yet busy
-    const auto tell_at = [&](SimTime moment) { most_w = std::max(most_w, tell_enough_at(moment, radio)); };
-    tell_at(begin);
+    // What is told falls short where something begins, or where something that was told ends.
+    double most_w = tell_enough_at(begin, radio);  // of what it is not told
+    const auto tell_within = [&](SimTime moment) {
+        if (moment > begin && moment <= here.end) {
+            most_w = std::max(most_w, tell_enough_at(moment, radio));
+        }
+    };
     for (const Share& share : shares_) {
-        for (const SimTime moment : {share.arrival.start, share.arrival.end}) {
-            if (moment > begin && moment <= here.end) {
-                tell_at(moment);
+        tell_within(share.arrival.start);
+    }
+    for (bool is_complete = false; !is_complete;) {
+        is_complete = true;
+        for (Share& share : shares_) {
+            if (share.is_told && !share.is_end_checked) {
+                share.is_end_checked = true;
+                is_complete = false;
+                tell_within(share.arrival.end);
             }
         }
     }

@@ -173,6 +173,23 @@ TEST(NistErrorModel, BitErrorsAreAtMostOneAndFallWithTheSnir) {
 
 // Above some SNIR the model stops computing: there the longest frame succeeds to the last digit already. The
 // SNIR are 0.9 of those at which it stops.
+TEST(NistErrorModel, SuccessRisesWithTheSnirWhereItIsSaidTo) {
+    int rising = 0;
+    for (const Mode& each : mode_set("g(mixed)").modes()) {
+        if (!NistErrorModel().rises_with_snir(each)) {
+            continue;
+        }
+        ++rising;
+        double before = 0;
+        for (double snir = 1e-6; snir < 1e4; snir *= 1.001) {
+            const double success = NistErrorModel().success_probability(each, snir, 1000);
+            EXPECT_GE(success, before * (1 - 1e-10)) << each.name << " at " << snir;
+            before = success;
+        }
+    }
+    EXPECT_GE(rising, 8);  // of OFDM
+}
+
 TEST(NistErrorModel, ShortCutForStrongSignalsChangesNoDigit) {
     for (const auto& [mbps, snir] :
          {std::pair{6.0, 13 * 0.9}, std::pair{9.0, 24 * 0.9}, std::pair{12.0, 26 * 0.9},
