@@ -99,7 +99,7 @@ private:
     };
     struct Interferer {
         NodeId node = 0;
-        std::uint64_t copies = 0;
+        std::uint32_t copies = 0;  // there are many pairs of nodes; that many copies of one take years of frames
     };
 
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
