@@ -175,7 +175,8 @@ double Medium::tell_enough(RadioId radio, OnAir& strongest, OnAir& newest) {
         const Arrival there = &other == &strongest ? here : arrival_at(sent, radio);
         // A radio leaves out a frame that it is detecting, which it then is told of anyway.
         const bool may_be_left_out = can_lock_on(receiver, sent, there.power_w);
-        if (there.end < begin || there.start > here.end ||
+        // What ends in this very instant does so before the newest can begin, or has done so already.
+        if (there.end < begin || there.end <= newest.transmission.start || there.start > here.end ||
             (may_be_left_out && is_loud(receiver, there.power_w))) {
             return;
         }
@@ -219,13 +220,14 @@ double Medium::tell_enough(RadioId radio, OnAir& strongest, OnAir& newest) {
 // Of those not yet told the strongest first: that takes the fewest. To be told for nothing does no harm.
 double Medium::tell_enough_at(SimTime moment, RadioId radio) {
     const Receiver& receiver = attached_[radio].receiver;
-    // Where an arrival begins in the moment in which another one ends, there is an instant with both of them or one
-    // without any.
-    const auto happens = [&](SimTime Arrival::* when) {
-        return std::any_of(shares_.begin(), shares_.end(),
-                           [&](const Share& share) { return share.arrival.*when == moment; });
-    };
-    const bool is_crowded = happens(&Arrival::start) && happens(&Arrival::end);
+    // Where several begin or end in one moment, one after the other, there are instants with some of them and instants
+    // with others: what is told has to be enough without any of them, if all with all of them is too much.
+    int changes = 0;
+    for (const Share& share : shares_) {
+        changes +=
+            static_cast<int>(share.arrival.start == moment) + static_cast<int>(share.arrival.end == moment);
+    }
+    const bool is_crowded = changes > 1;
     for (;;) {
         double all_w = receiver.noise_w;
         double told_w = receiver.noise_w;
