@@ -214,7 +214,7 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
 
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void Medium::fetch(RadioId radio, FrameKind kind) const {
-    constexpr std::ptrdiff_t radio_lines = 5;
+    constexpr std::ptrdiff_t radio_lines = 4;
     constexpr std::ptrdiff_t link_lines = 2;
     const Receiver& receiver = attached_[radio].receiver;
     fetch_lines(receiver.listener, radio_lines);

@@ -11,24 +11,27 @@ namespace netsim {
 Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
              const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
              const Attitude& attitude)
-    : simulator_(simulator),
-      medium_(medium),
-      config_(config),
-      noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
-      error_model_(make_error_model(config)),
-      reception_{*error_model_, config.snir_threshold, noise_w_},
+    : noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
+      energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
-      preamble_detection_(config),
-      frame_capture_(config),
-      antenna_(make_antenna(config.antenna, config.carrier_hz)),
+      sensitivity_w_(config.sensitivity_w),
+      band_{config.carrier_hz, config.bandwidth_hz},
+      medium_(medium),
+      reception_draws_(seed, interface.stream(), Purpose::reception),
       fates_(fates),
       fingerprint_(fingerprint),
       interface_(interface),
-      id_(medium.attach(interface,
-                        Receiver{this, &trajectory, Band{config.carrier_hz, config.bandwidth_hz},
-                                 config.sensitivity_w, config.energy_detection_w, noise_w_},
-                        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)})),
-      reception_draws_(seed, interface.stream(), Purpose::reception) {}
+      simulator_(simulator),
+      frame_capture_(config),
+      preamble_detection_(config),
+      tx_power_w_(config.tx_power_w),
+      error_model_(make_error_model(config)),
+      antenna_(make_antenna(config.antenna, config.carrier_hz)) {
+    reception_ = {error_model_.get(), config.snir_threshold, noise_w_};
+    id_ = medium.attach(interface,
+                        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_},
+                        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
+}
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                      SimTime duration) {
@@ -40,8 +43,8 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.sender = interface_;
     transmission.radio = id_;
     transmission.duration = duration;
-    transmission.power_w = config_.tx_power_w;
-    transmission.band = Band{config_.carrier_hz, config_.bandwidth_hz};
+    transmission.power_w = tx_power_w_;
+    transmission.band = band_;
     transmission.label = label;
     transmission.psdu_bytes = psdu_bytes;
     transmission.mode = &mode;
@@ -77,7 +80,7 @@ void Radio::transmission_over() {
 
 void Radio::arrival_started(const Arrival& arrival) {
     present_.push_back(Present{arrival.transmission, arrival.power_w});
-    if (arrival.power_w >= config_.sensitivity_w && can_decode(*arrival.transmission)) {
+    if (arrival.power_w >= sensitivity_w_ && can_decode(*arrival.transmission)) {
         if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ == nullptr) {
@@ -203,7 +206,7 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& cul
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
     // not be known. The margin is for rounding.
     constexpr double surely = 1 - 1e-9;
-    if (error_model_->rises_with_snir(*arrival.transmission->mode) &&
+    if (reception_.errors->rises_with_snir(*arrival.transmission->mode) &&
         draw < reception_.success(arrival, medium_.most_interference_w(arrival)) * surely) {
         return FrameFate::delivered;
     }
@@ -258,7 +261,7 @@ void Radio::update_busy() {
                 energy_w += present.power_w;
             }
         }
-        busy = energy_w >= config_.energy_detection_w;
+        busy = energy_w >= energy_detection_w_;
     }
     if (busy != busy_) {
         busy_ = busy;

@@ -18,8 +18,8 @@ Period period_of(FramePart part, const Arrival& arrival) {
 
 double ReceptionModel::success(const Arrival& arrival, double interference_w) const {
     const double snir = arrival.power_w / (noise_w + interference_w);
-    return snir > snir_threshold ? errors.success_probability(*arrival.transmission->mode, snir,
-                                                              arrival.transmission->psdu_bytes)
+    return snir > snir_threshold ? errors->success_probability(*arrival.transmission->mode, snir,
+                                                               arrival.transmission->psdu_bytes)
                                  : 0;
 }
 
@@ -50,8 +50,8 @@ double ReceptionModel::log_success(FramePart part, const Arrival& arrival, doubl
         return -std::numeric_limits<double>::infinity();
     }
     const Transmission& sent = *arrival.transmission;
-    return part == FramePart::header ? errors.log_header_success(*sent.mode, snir)
-                                     : errors.log_data_success(*sent.mode, snir, sent.psdu_bytes);
+    return part == FramePart::header ? errors->log_header_success(*sent.mode, snir)
+                                     : errors->log_data_success(*sent.mode, snir, sent.psdu_bytes);
 }
 
 }  // namespace netsim

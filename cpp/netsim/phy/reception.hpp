@@ -27,7 +27,7 @@ struct Period {
 Period period_of(FramePart part, const Arrival& arrival);
 
 struct ReceptionModel {
-    const ErrorModel& errors;
+    const ErrorModel* errors = nullptr;
     double snir_threshold = 0;
     double noise_w = 0;
 

@@ -30,7 +30,7 @@ struct Frame100 {
 };
 
 ReceptionModel model(double snir_threshold = 0) {
-    return {error_model("Ieee80211NistErrorModel"), snir_threshold, noise_w};
+    return {&error_model("Ieee80211NistErrorModel"), snir_threshold, noise_w};
 }
 
 double success(const ReceptionModel& reception, FramePart part, const Arrival& arrival,
