@@ -30,19 +30,11 @@ void NodeConfig::validate_interfaces() const {
                           std::to_string(most_interfaces));
     }
     for (std::size_t index = 0; index < wlan.size(); ++index) {
-        const std::string prefix = wlan.size() > 1 ? "wlan[" + std::to_string(index) + "]." : "";
         try {
             wlan[index].validate();
         } catch (const ConfigError& error) {
-            throw ConfigError(prefix + error.what());
-        }
-        // Both would get each frame for the node, and acknowledge it at the same time.
-        for (std::size_t before = 0; before < index; ++before) {
-            if (wlan[before].radio.carrier_hz == wlan[index].radio.carrier_hz) {
-                throw ConfigError(prefix + "radio.carrier_hz = " + text_of(wlan[index].radio.carrier_hz) +
-                                  " Hz: expected another channel than that of wlan[" +
-                                  std::to_string(before) + "] of the same node");
-            }
+            throw wlan.size() == 1 ? error
+                                   : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
         }
     }
 }

@@ -18,9 +18,10 @@ struct NodeConfig {
     explicit NodeConfig(std::string node_name,
                         const std::vector<std::string>& interface_types = {std::string(ieee80211_interface)});
 
-    std::string name;                   // for people: "uavs[0]"; not empty
-    Position initial_position;          // m, each coordinate within ±largest_coordinate_m
-    std::vector<InterfaceConfig> wlan;  // 1 to most_interfaces of them, on different centre frequencies
+    std::string name;           // for people: "uavs[0]"; not empty
+    Position initial_position;  // m, each coordinate within ±largest_coordinate_m
+    std::vector<InterfaceConfig>
+        wlan;  // 1 to most_interfaces; where there are radios, each on its own channel
     MobilityConfig mobility;
 
     // Throws ConfigError for the first field out of its range, here or in one of the parts: "radio.tx_power_w = …", if

@@ -73,6 +73,22 @@ void Network::check_with_medium(const NodeConfig& config) const {
                 ? error
                 : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
         }
+        check_with_others(config, index);
+    }
+}
+
+void Network::check_with_others(const NodeConfig& config, std::size_t index) const {
+    if (perfect_channel_) {
+        return;  // one channel for all, whatever their centre frequencies
+    }
+    // Both would get each frame for the node, and acknowledge it at the same time.
+    const double carrier_hz = config.wlan[index].radio.carrier_hz;
+    for (std::size_t before = 0; before < index; ++before) {
+        if (config.wlan[before].radio.carrier_hz == carrier_hz) {
+            throw ConfigError("wlan[" + std::to_string(index) + "].radio.carrier_hz = " +
+                              text_of(carrier_hz) + " Hz: expected another channel than that of wlan[" +
+                              std::to_string(before) + "] of " + config.name);
+        }
     }
 }
 
@@ -133,7 +149,8 @@ void Network::capture(NodeId node, const std::string& path, std::int32_t interfa
     }
     const InterfaceId id{node, interface};
     if (captures_.contains(id)) {
-        throw ConfigError("the frames of " + name + " are captured already");
+        throw ConfigError("the frames of wlan[" + std::to_string(interface) + "] of " + name +
+                          " are captured already");
     }
     Radio& captured = radio(id);
     captured.set_observer(&captures_.try_emplace(id, path, link_types_[captured.id()]).first->second);

@@ -4,6 +4,7 @@
 // node, initialize(), run_until() as often as wanted, finish(), then read the ledgers.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -74,6 +75,7 @@ public:
 private:
     void check_with_medium(const NodeConfig& config) const;
     void check_with_medium(const std::string& node, const InterfaceConfig& config) const;
+    void check_with_others(const NodeConfig& config, std::size_t index) const;
     std::unique_ptr<Link> make_link(const InterfaceConfig& config, InterfaceId id, Node& node);
     Radio& radio(InterfaceId id);
     void add_to_telemetry_clock(Node& node, SimTime interval);

@@ -20,6 +20,15 @@ def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
         raise ConfigError.at(setting.source, str(error)) from error
 
 
+@contextmanager
+def errors_at_line(setting: Setting) -> Iterator[None]:
+    """Turn an error of the engine's check into a ConfigError at that setting."""
+    try:
+        yield
+    except ValueError as error:
+        raise ConfigError.at(setting.source, str(error)) from error
+
+
 def named_in(text: str, settings: Mapping[str, Setting]) -> Setting | None:
     """Return the setting whose field is named first in `text`, or None."""
     found = {field: re.search(rf"\b{re.escape(field)}\b", text) for field in settings}

@@ -14,7 +14,7 @@ from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.engine_errors import errors_at, errors_at_line, named_in
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
 
@@ -110,14 +110,22 @@ def _typename(wlan: InterfaceSpec) -> str:
 def node_errors_at(spec: NodeSpec) -> Iterator[None]:
     """Turn an error of the engine about a node into a ConfigError, at the line that sets the field it names.
 
-    The engine says which of several interfaces it means: "wlan[1].radio.tx_power_w = -1 W: ...".
+    The engine says which of several interfaces it means: "wlan[1].radio.tx_power_w = -1 W: ...". If that
+    is the default of an interface, the error is at the line that says how many there are.
     """
     try:
         yield
+    except ConfigError:
+        raise  # which knows its place
     except ValueError as error:
         named = re.match(r"wlan\[(\d+)\]", str(error))
         wlan = spec.wlan[int(named[1]) if named else 0]
-        with errors_at({**spec.node, **spec.mobility, **wlan.settings()}):
+        settings = {**spec.node, **spec.mobility, **wlan.settings()}
+        count = spec.node.get("num_wlan_interfaces")
+        if named and count and named_in(str(error), settings) is None:
+            with errors_at_line(count):
+                raise
+        with errors_at(settings):
             raise
 
 

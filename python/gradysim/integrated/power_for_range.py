@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
+from gradysim.integrated.engine_errors import errors_at_line
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, NodeConfig
@@ -27,7 +28,7 @@ class PowersForRanges:
         """Set the powers with which a node like this one, at the same height, is at the end of the range.
 
         Those of the interfaces that were given a range. On a medium where the range itself counts, nothing is
-        set. Raises the engine's ConfigError if no power would do.
+        set. Raises ConfigError, at the line of the range, if no power would do.
         """
         if not self._has_powers:
             return
@@ -41,6 +42,7 @@ class PowersForRanges:
         power_w = self._known.get(key)
         if power_w is None:
             budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)
-            power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)
+            with errors_at_line(wlan.radio["communication_range_m"]):
+                power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)
             self._known[key] = power_w
         return power_w

@@ -41,16 +41,6 @@ TEST(NodeConfig, SaysWhichOfSeveralInterfacesIsWrong) {
               "wlan[1].radio.tx_power_w = -1 W: expected at least 0 W");
 }
 
-TEST(NodeConfig, ItsInterfacesAreOnDifferentChannels) {
-    NodeConfig config("relay", {std::string(ieee80211_interface), std::string(ieee80211_interface)});
-    EXPECT_EQ(
-        error_text([&] { config.validate(); }),
-        "wlan[1].radio.carrier_hz = 2412000000 Hz: expected another channel than that of wlan[0] of the same "
-        "node");
-    config.wlan[1].radio.carrier_hz = 2.437e9;
-    EXPECT_NO_THROW(config.validate());
-}
-
 TEST(NodeConfig, HasAtLeastOneInterfaceAndNotTooMany) {
     EXPECT_EQ(error_text([] { NodeConfig("uavs[0]", {}).validate(); }),
               "node.wlan: 0 interfaces; expected 1 to 16");

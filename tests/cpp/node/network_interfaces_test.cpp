@@ -141,6 +141,57 @@ TEST(Network, OnAPerfectChannelItMakesNoDifferenceWhichInterfaceSends) {
     EXPECT_EQ(receiver.packet_texts(), (std::vector<std::string>{"first", "second"}));
 }
 
+TEST(Network, OnAPerfectChannelEachInterfaceHasItsRange) {
+    Network network(MediumConfig(std::string(unit_disk_medium)), 1);
+    NodeConfig config = node_on({channel_1_hz, channel_6_hz});
+    config.wlan[1].radio.communication_range_m = 5;
+    Recorder& sender = test::add_recorder(network, config);
+    Recorder& receiver = test::add_recorder(network, silent_node({10, 0, 0}));
+    sender.on_initialize = [](Recorder& self) {
+        self.broadcast("first");
+        self.broadcast("second", 1);
+    };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(receiver.packet_texts(), std::vector<std::string>{"first"});
+}
+
+TEST(Network, InterfacesOfOneNodeCannotShareACentreFrequency) {
+    Network network(MediumConfig(), 1);
+    try {
+        network.add_node(node_on({channel_1_hz, channel_6_hz, channel_1_hz}));
+        FAIL();
+    } catch (const ConfigError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "wlan[2].radio.carrier_hz = 2412000000 Hz: expected another channel than that of wlan[0] "
+                  "of node");
+    }
+    EXPECT_EQ(network.node_count(), 0);
+}
+
+TEST(Network, OnAPerfectChannelNobodyReadsCentreFrequencies) {
+    Network network(MediumConfig(std::string(unit_disk_medium)), 1);
+    EXPECT_NO_THROW(network.add_node(node_on({channel_1_hz, channel_1_hz})));
+}
+
+TEST(Network, ACaptureIsOfOneInterface) {
+    Network network(MediumConfig(), 1);
+    network.add_node(node_on({channel_1_hz, channel_6_hz}));
+    const auto error_of = [&](std::int32_t interface) -> std::string {
+        try {
+            network.capture(0, "/dev/null", interface);
+        } catch (const ConfigError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(error_of(0), "");
+    EXPECT_EQ(error_of(1), "");
+    EXPECT_EQ(error_of(1), "the frames of wlan[1] of node are captured already");
+    EXPECT_EQ(error_of(2),
+              "cannot capture the frames of wlan[2] of node, which has 2 interfaces, from wlan[0] on");
+}
+
 TEST(Network, InterfacesOfTwoKindsCannotShareACentreFrequency) {
     Network network(MediumConfig(), 1);
     network.add_node(silent_node());

@@ -65,8 +65,9 @@ def test_a_range_alone_sets_no_power_where_the_range_itself_counts() -> None:
 
 def test_a_range_that_no_power_reaches_is_an_error_at_its_line() -> None:
     deaf = '**.antenna.typename = "ConstantGainAntenna"', "**.antenna.gain = -300dB"
-    with pytest.raises(ConfigError, match="no power reaches 150 m"):
+    with pytest.raises(ConfigError, match="no power reaches 150 m") as error:
         run(link(RANGE, *deaf))
+    assert error.value.key == RANGE.partition(" ")[0]
 
 
 @pytest.mark.parametrize(

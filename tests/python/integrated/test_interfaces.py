@@ -1,0 +1,68 @@
+"""Nodes with several network interfaces: where their mistakes are told, and what sends on which of them."""
+
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.integrated.network import check_scenario
+from gradysim.integrated.run import run
+from gradysim.protocol.errors import CommunicationException
+
+QUIET = "class Tested(Quiet): pass"
+TWO = "*.uavs[*].numWlanInterfaces = 2"
+CHANNEL = "*.uavs[*].wlan[1].radio.channelNumber = 5"
+UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
+SENDING = """class Tested(Quiet):
+    def initialize(self):
+        self.provider.send_communication_command(BroadcastMessageCommand("text", interface={}))"""
+
+
+def key_of(line: str) -> str:
+    return line.partition(" ")[0]
+
+
+@pytest.mark.parametrize(
+    ("lines", "wrong", "text"),
+    [
+        ([CHANNEL], "*.uavs[*].wlan[1].bitrate = 7Mbps", "wlan[1].mac.bitrate_bps = 7000000 bps"),
+        ([CHANNEL], "*.uavs[*].wlan[1].mac.mtu = 10B", "wlan[1].mac.mtu_bytes = 10 B"),
+        (
+            [CHANNEL],
+            "*.uavs[*].wlan[1].radio.receiver.energyDetection = -120dBm",
+            "wlan[1].radio.energy_detect",
+        ),
+        ([CHANNEL], "*.uavs[*].wlan[1].radio.transmitter.communicationRange = 1e30m", "no power reaches"),
+        ([], "*.uavs[*].wlan[*].radio.channelNumber = 5", "another channel than that of wlan[0] of uavs[0]"),
+    ],
+)
+def test_a_mistake_is_told_at_the_line_of_that_interface(make_scenario, lines, wrong, text):
+    with pytest.raises(ConfigError) as error:
+        check_scenario(make_scenario(QUIET, TWO, *lines, wrong))
+    assert error.value.key == key_of(wrong)
+    assert text in str(error.value)
+
+
+def test_interfaces_that_share_a_channel_by_default_are_told_where_they_are_counted(make_scenario):
+    with pytest.raises(ConfigError) as error:
+        check_scenario(make_scenario(QUIET, TWO))
+    assert error.value.key == key_of(TWO)
+    assert "wlan[1].radio.carrier_hz = 2412000000 Hz: expected another channel" in str(error.value)
+
+
+def test_where_there_are_no_radios_they_need_no_channels(make_scenario):
+    assert run(make_scenario(SENDING.format(1), TWO, UNIT_DISK)).fates["messages"]["broadcast"]["sent"] == 2
+
+
+@pytest.mark.parametrize(
+    ("interface", "text"),
+    [
+        ("2", "node 0 has no interface wlan[2]: it has 2, from wlan[0] on"),
+        ("-1", "node 0 has no interface wlan[-1]: it has 2, from wlan[0] on"),
+        ("None", "interface must be an int, not None"),
+        ("1.0", "interface must be an int, not 1.0"),
+        ("'1'", "interface must be an int, not '1'"),
+    ],
+)
+def test_a_command_names_an_interface_that_is_there(make_scenario, interface, text):
+    with pytest.raises(CommunicationException) as error:
+        run(make_scenario(SENDING.format(interface), TWO, CHANNEL))
+    assert text in str(error.value)
