@@ -25,7 +25,8 @@ class Calibration:
     """The power for a range, and what it means.
 
     Attributes:
-        sender: Name of the node that sends.
+        sender: Name of the node that sends, by its wlan[0].
+        sender_interfaces: How many it has.
         receiver: Name of the node that receives; the sender's, if another one like it does.
         range_m: The wanted range.
         ratio: Share of broadcast frames that are received at the range, more than 0 and less than 1.
@@ -38,6 +39,7 @@ class Calibration:
     """
 
     sender: str
+    sender_interfaces: int
     receiver: str
     range_m: float
     ratio: float
@@ -75,6 +77,7 @@ def calibrate(
     distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
     return Calibration(
         sender=from_node.name,
+        sender_interfaces=len(from_node.wlan),
         receiver=to_node.name,
         range_m=range_m,
         ratio=ratio,
