@@ -4,15 +4,16 @@ import re
 from collections.abc import Sequence
 
 from gradysim.config.groups import Group
-from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
+from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
+from gradysim.config.keys.interface import WLAN
 from gradysim.config.lookup import Found
 from gradysim.config.nearest import did_you_mean, nearest
-from gradysim.config.pattern import Pattern
+from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.protocol.interface import IProtocol
 
 _PROTOCOL = "protocol."
-_FURTHER_INTERFACE = re.compile(r"wlan\[[1-9]")
+_INTERFACE = re.compile(r"\bwlan\[(?:0|[1-9][^\]]*)\]")
 
 
 def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> str:
@@ -51,9 +52,19 @@ def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Seque
     expected = "the name of one"
     if rest is not None and not names_node and rest.text.startswith("obstacle["):
         expected = "one of an obstacle that `*.environment.numObstacles` counts"
-    if rest is not None and names_node and _FURTHER_INTERFACE.match(rest.text):
+    hint = _hint(found, groups, classes)
+    interface = _INTERFACE.search(key)
+    if interface and _is_of_first_interface(key[interface.end() :]):
         expected = "one of an interface that `numWlanInterfaces` of the node counts"
-    return f"`{key}` matches no parameter; expected {expected}{_hint(found, groups, classes)}"
+    elif interface:
+        hint = hint.replace("wlan[*]", interface[0])
+    return f"`{key}` matches no parameter; expected {expected}{hint}"
+
+
+def _is_of_first_interface(end: str) -> bool:
+    """Whether there is such a key below wlan[0]: `.radio.channelNumber`."""
+    of_first = compile_pattern(f"{WLAN}{end}")
+    return any(of_first.matches(key.path) for key in WLAN_KEYS)
 
 
 def _hint(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:

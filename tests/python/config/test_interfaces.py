@@ -60,6 +60,16 @@ def test_interfaces_of_both_kinds(folder: Any) -> None:
             "`numWlanInterfaces` of the node counts",
         ),
         (
+            "**.wlan[2..3].radio.bandwidth = 20MHz\n",
+            "`**.wlan[2..3].radio.bandwidth` matches no parameter; expected one of an interface that "
+            "`numWlanInterfaces` of the node counts",
+        ),
+        (
+            "*.uavs[*].wlan[1].radio.bandwith = 20MHz\n" + TWO,
+            "`*.uavs[*].wlan[1].radio.bandwith` matches no parameter; expected the name of one; "
+            "did you mean `*.uavs[*].wlan[1].radio.bandwidth`?",
+        ),
+        (
             "*.uavs[*].numWlanInterfaces = 0\n",
             "= 0: it is out of range; expected a whole number, at least 1 and at most 16",
         ),

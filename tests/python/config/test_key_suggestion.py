@@ -52,7 +52,7 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
         (
             "*.uavs[0].wlan[0].radio.transmiter.power",
             "`*.uavs[0].wlan[0].radio.transmiter.power` matches no parameter; expected the name of one; "
-            "did you mean `*.uavs[0].wlan[*].radio.transmitter.power`?",
+            "did you mean `*.uavs[0].wlan[0].radio.transmitter.power`?",
         ),
         (
             "*.uavs[*].bitrate",
