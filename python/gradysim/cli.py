@@ -46,8 +46,9 @@ PcapOption = Annotated[
         negative="",
         consume_multiple=(1, None),
         show_default=False,
-        help="NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap,"
-        " DIR as in --result-dir (default: results). A node (uavs[0]), a group (uavs), or all.",
+        help="NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap"
+        " (that of its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a"
+        " group (uavs), or all.",
     ),
 ]
 

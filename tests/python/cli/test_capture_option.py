@@ -64,6 +64,15 @@ def test_several_names_after_one_option(gradysim_run: Gradysim, tmp_path: Path) 
 
 
 @compiled
+def test_a_file_for_each_interface(gradysim_run: Gradysim, tmp_path: Path) -> None:
+    two = ["--set", "*.uavs[1].numWlanInterfaces = 2", "--set", "*.uavs[1].wlan[1].radio.channelNumber = 5"]
+    done = gradysim_run("-r", "0", "--pcap", "uavs[1]", *two)
+    names = ["General-#0-uavs[1]-wlan1.pcap", "General-#0-uavs[1].pcap"]
+    assert names_in(tmp_path / "results") == names
+    assert all(f"captured in results/{name}" in done.stdout for name in names)
+
+
+@compiled
 def test_json_stays_json(gradysim_run: Gradysim) -> None:
     done = gradysim_run("-r", "0", "--pcap", "all", "--json")
     assert len(done.stdout.splitlines()) == 1

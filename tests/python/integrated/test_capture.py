@@ -4,7 +4,7 @@ import pytest
 
 from gradysim.config.error import ConfigError
 from gradysim.config.scenario import load_scenarios
-from gradysim.integrated.capture import capture_files
+from gradysim.integrated.capture import capture_files, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
 
 UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
@@ -40,6 +40,17 @@ def test_nodes_by_name(scenario, names, nodes):
 
 def test_files_are_named_after_configuration_run_and_node(scenario):
     assert capture_files(scenario, ["uavs[1]"], Path("out")) == {1: Path("out/General-#0-uavs[1].pcap")}
+
+
+def test_each_further_interface_has_a_file_of_its_own(make_scenario):
+    scenario = make_scenario("class Tested(Talker): pass", "*.uavs[1].numWlanInterfaces = 3")
+    files = capture_files(scenario, ["uavs"], Path("out"))
+    assert {key: path.name for key, path in files_of_interfaces(scenario, files).items()} == {
+        (0, 0): "General-#0-uavs[0].pcap",
+        (1, 0): "General-#0-uavs[1].pcap",
+        (1, 1): "General-#0-uavs[1]-wlan1.pcap",
+        (1, 2): "General-#0-uavs[1]-wlan2.pcap",
+    }
 
 
 def test_an_unknown_name_says_what_there_is(scenario):
