@@ -2,6 +2,7 @@
 // be that of the plain model, in which every radio hears everything: the same frames in the same instants,
 // the same copies lost for the same reasons.
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <string>
@@ -79,10 +80,16 @@ void expect_same_course(const RandomScenario& scenario) {
     EXPECT_LE(shortcut.network.event_count(), plain.network.event_count()) << "scenario " << scenario.seed;
 }
 
+// Of so many times as many scenarios: for who has changed the medium, as `make test` has to be over some time.
+std::uint64_t thoroughness() {
+    const char* factor = std::getenv("NETSIM_THOROUGHNESS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+    return factor == nullptr ? 1 : std::max(std::strtoull(factor, nullptr, 10), 1ULL);
+}
+
 class RandomScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    constexpr std::uint64_t scenarios = 200;
+    const std::uint64_t scenarios = 100 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(test::make_random_scenario(GetParam() * scenarios + i));
         if (HasFatalFailure()) {
@@ -92,7 +99,7 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
 }
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
-    constexpr std::uint64_t scenarios = 200;
+    const std::uint64_t scenarios = 100 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_path_loss(test::make_random_scenario(GetParam() * scenarios + i)));
@@ -103,7 +110,7 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss)
 }
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
-    constexpr std::uint64_t scenarios = 200;
+    const std::uint64_t scenarios = 100 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         RandomScenario scenario =
             test::with_random_surroundings(test::make_random_scenario(GetParam() * scenarios + i));
@@ -118,7 +125,7 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObsta
 }
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
-    constexpr std::uint64_t scenarios = 100;
+    const std::uint64_t scenarios = 50 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         RandomScenario scenario =
             test::with_random_interfaces(test::make_random_scenario(GetParam() * scenarios + i));
@@ -135,7 +142,7 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterface
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    constexpr std::uint64_t scenarios = 20;
+    const std::uint64_t scenarios = 3 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(test::make_far_flung_scenario(GetParam() * scenarios + i));
         if (HasFatalFailure()) {
@@ -145,7 +152,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
-    constexpr std::uint64_t scenarios = 10;
+    const std::uint64_t scenarios = 3 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_path_loss(test::make_far_flung_scenario(GetParam() * scenarios + i)));
@@ -156,7 +163,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLos
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
-    constexpr std::uint64_t scenarios = 10;
+    const std::uint64_t scenarios = 2 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_surroundings(test::make_far_flung_scenario(GetParam() * scenarios + i)));
@@ -167,7 +174,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObs
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
-    constexpr std::uint64_t scenarios = 5;
+    const std::uint64_t scenarios = 3 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_interfaces(test::make_far_flung_scenario(GetParam() * scenarios + i)));
@@ -180,7 +187,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfa
 class NarrowbandScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(NarrowbandScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    constexpr std::uint64_t scenarios = 50;
+    const std::uint64_t scenarios = 50 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(test::make_narrowband_scenario(GetParam() * scenarios + i));
         if (HasFatalFailure()) {
