@@ -1,11 +1,11 @@
 #include "proxy_protocol/node_commands.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "netsim/config/node_config.hpp"
 #include "netsim/error.hpp"
 #include "proxy_protocol/python_text.hpp"
 
@@ -98,7 +98,17 @@ std::int32_t interface_of(py::handle command) {
         PyErr_Clear();
         return 0;
     }
-    return static_cast<std::int32_t>(std::clamp<long>(integer(value, "interface"), -1, INT32_MAX));
+    if (PyLong_CheckExact(value.ptr())) {  // which True is not
+        int overflow = 0;
+        const long index = PyLong_AsLongAndOverflow(value.ptr(), &overflow);
+        if (index >= 0 && index < netsim::most_interfaces) {
+            return static_cast<std::int32_t>(index);
+        }
+    }
+    // What is wrong is said in Python, since prototype mode says the same.
+    const auto check =
+        py::module_::import("gradysim.protocol.messages.interface_index").attr("checked_interface");
+    return check(value).cast<std::int32_t>();
 }
 
 void carry_out_communication(netsim::Node& node, py::handle command) {

@@ -49,6 +49,7 @@ def cancel(name: Wrong) -> Deed:
 
 
 NODES = "0 (to|…) 1"
+NO_INTERFACE = r"^interface must be an int from 0 to 15, such as 1 for wlan\[1\], got "
 AT_LEAST_0 = ">= 0|at least 0"
 KIND = CommunicationCommandType.SEND
 SEND, STEER, TIMER = CommunicationException, MasslessMobilityException, TimerException
@@ -65,6 +66,12 @@ TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, wha
     (send(SendMessageCommand("a", 0)), SEND, ["itself|its own|0"]),
     (send(CommunicationCommand(KIND, "a")), SEND, ["destination"]),
     (send(CommunicationCommand(cast("Any", 9), "a")), SEND, ["9", "command"]),
+    (send(SendMessageCommand("a", 1, interface=99)), SEND, [NO_INTERFACE + "99$"]),
+    (send(BroadcastMessageCommand("a", interface=-1)), SEND, [NO_INTERFACE + "-1$"]),
+    (send(BroadcastMessageCommand("a", interface=2**70)), SEND, [NO_INTERFACE + f"{2**70}$"]),
+    (send(BroadcastMessageCommand("a", interface=True)), SEND, [NO_INTERFACE + "True$"]),
+    (send(BroadcastMessageCommand("a", interface=cast("int", "two"))), SEND, [NO_INTERFACE + "'two'$"]),
+    (send(BroadcastMessageCommand("a", interface=cast("int", None))), SEND, [NO_INTERFACE + "None$"]),
     (steer("north"), STEER, ["'north'", "MobilityCommand"]),
     (steer(GotoCoordsMobilityCommand(math.nan, 0, 0)), STEER, ["nan", "three"]),
     (steer(GotoCoordsMobilityCommand(0, math.inf, 0)), STEER, ["inf", "three"]),

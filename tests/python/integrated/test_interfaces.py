@@ -1,11 +1,15 @@
 """Nodes with several network interfaces: where their mistakes are told, and what sends on which of them."""
 
+from contextlib import nullcontext
+
 import pytest
 
 from gradysim.config.error import ConfigError
+from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import run
 from gradysim.protocol.errors import CommunicationException
+from gradysim.protocol.messages.interface_index import MOST_INTERFACES
 
 QUIET = "class Tested(Quiet): pass"
 TWO = "*.uavs[*].numWlanInterfaces = 2"
@@ -56,13 +60,25 @@ def test_where_there_are_no_radios_they_need_no_channels(make_scenario):
     ("interface", "text"),
     [
         ("2", "node 0 has no interface wlan[2]: it has 2, from wlan[0] on"),
-        ("-1", "node 0 has no interface wlan[-1]: it has 2, from wlan[0] on"),
-        ("None", "interface must be an int, not None"),
-        ("1.0", "interface must be an int, not 1.0"),
-        ("'1'", "interface must be an int, not '1'"),
+        ("15", "node 0 has no interface wlan[15]: it has 2, from wlan[0] on"),
     ],
 )
 def test_a_command_names_an_interface_that_is_there(make_scenario, interface, text):
     with pytest.raises(CommunicationException) as error:
         run(make_scenario(SENDING.format(interface), TWO, CHANNEL))
     assert text in str(error.value)
+
+
+def test_an_index_of_a_class_of_its_own_is_an_int_too(make_scenario):
+    """As the members of an enumeration that names the interfaces."""
+    sending = SENDING.format("type('Index', (int,), {})(1)")
+    assert run(make_scenario(sending, TWO, UNIT_DISK)).fates["messages"]["broadcast"]["sent"] == 2
+
+
+@pytest.mark.parametrize(("count", "is_allowed"), [(MOST_INTERFACES, True), (MOST_INTERFACES + 1, False)])
+def test_the_engine_has_as_many_interfaces_as_commands_may_name(count, is_allowed):
+    config = load_netsim().NodeConfig("uav", ["Ieee80211Interface"] * count)
+    for index, interface in enumerate(config.wlan):
+        interface.radio.carrier_hz = 2.4e9 + 5e6 * index
+    with nullcontext() if is_allowed else pytest.raises(ValueError, match=str(MOST_INTERFACES)):
+        config.validate()

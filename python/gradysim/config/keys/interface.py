@@ -4,6 +4,7 @@ from gradysim.config.key import Key, ReadBy
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
 from gradysim.config.kinds import choice, integer
+from gradysim.protocol.messages.interface_index import MOST_INTERFACES
 
 WLAN = "wlan[0]"
 """What the paths of all keys of an interface begin with; for the others see `at_interface`."""
@@ -15,7 +16,7 @@ IEEE802154 = ReadBy("interface.typename", ("Ieee802154NarrowbandInterface",), sh
 NUM_WLAN_INTERFACES = Key(
     "numWlanInterfaces",
     "node.num_wlan_interfaces",
-    integer(1, 16),
+    integer(1, MOST_INTERFACES),
     "Number of its network interfaces: wlan[0], wlan[1], and so on, each on a channel of its own",
     default="1",
 )

@@ -21,8 +21,8 @@ class CommunicationCommand:
         command_type: How the message finds its receivers.
         message: Any text. Its length in UTF-8 counts where airtime is simulated.
         destination: Id of the receiving node; only for `SEND`.
-        interface: Index of the node's network interface that sends it: 1 for wlan[1]. Prototype mode has one
-            medium, which all interfaces share.
+        interface: Index of the node's network interface that sends it, 0 to 15: 1 for wlan[1]. Prototype mode
+            has one medium, which all interfaces share.
     """
 
     command_type: CommunicationCommandType

@@ -11,6 +11,7 @@ from typing import Any
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
+from gradysim.protocol.messages.interface_index import checked_interface
 from gradysim.protocol.position import Position, squared_distance
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop, ScheduledEvent
@@ -149,8 +150,8 @@ class CommunicationHandler(INodeHandler):
             medium: Instead of `default_medium`.
 
         Raises:
-            CommunicationException: The sender is not registered, the message is no text, or the destination
-                is missing, unknown or the sender itself.
+            CommunicationException: The sender is not registered, the message is no text, no node can have
+                such an interface, or the destination is missing, unknown or the sender itself.
         """
         event_loop = self._event_loop
         if event_loop is None or sender.id not in self._destinations:
@@ -165,6 +166,9 @@ class CommunicationHandler(INodeHandler):
             raise CommunicationException(
                 f"node {sender.id} can send text only, got a {type(message).__name__}: {message!r}"
             )
+        interface = getattr(command, "interface", 0)  # commands of one's own may have none
+        if type(interface) is not int or interface:
+            checked_interface(interface)  # which one it is makes no difference here
         destinations: Collection[CommunicationDestination]
         if kind == CommunicationCommandType.BROADCAST:
             destinations = self._destinations.values()

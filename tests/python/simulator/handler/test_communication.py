@@ -1,5 +1,6 @@
 import math
 from random import Random
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
@@ -48,6 +49,22 @@ def test_the_default_medium_is_the_published_one():
 def test_a_broadcast_reaches_all_others_in_range(world, network):
     handler, nodes = network()
     handler.handle_command(BroadcastMessageCommand("hi"), nodes[0])
+    world.run()
+    assert received(nodes) == [[], [(0, "hi")], []]
+
+
+@pytest.mark.parametrize("interface", [1, 15])
+def test_all_interfaces_share_the_one_medium(world, network, interface):
+    handler, nodes = network()
+    handler.handle_command(BroadcastMessageCommand("hi", interface=interface), nodes[0])
+    world.run()
+    assert received(nodes) == [[], [(0, "hi")], []]
+
+
+def test_a_command_of_ones_own_needs_no_interface(world, network):
+    handler, nodes = network()
+    kind = CommunicationCommandType.BROADCAST
+    handler.handle_command(SimpleNamespace(command_type=kind, message="hi", destination=None), nodes[0])
     world.run()
     assert received(nodes) == [[], [(0, "hi")], []]
 
