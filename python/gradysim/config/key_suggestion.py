@@ -1,11 +1,10 @@
 """What to say about a key that matches nothing: what was expected there, and the nearest valid key."""
 
-import re
 from collections.abc import Sequence
 
 from gradysim.config.groups import Group
 from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
-from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.interface import WLAN, interface_in, written_for
 from gradysim.config.lookup import Found
 from gradysim.config.nearest import did_you_mean, nearest
 from gradysim.config.pattern import Pattern, compile_pattern
@@ -13,7 +12,6 @@ from gradysim.config.protocol_parameters import parameters_of
 from gradysim.protocol.interface import IProtocol
 
 _PROTOCOL = "protocol."
-_INTERFACE = re.compile(r"\bwlan\[(?:0|[1-9][^\]]*)\]")
 
 
 def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> str:
@@ -53,12 +51,10 @@ def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Seque
     if rest is not None and not names_node and rest.text.startswith("obstacle["):
         expected = "one of an obstacle that `*.environment.numObstacles` counts"
     hint = _hint(found, groups, classes)
-    interface = _INTERFACE.search(key)
+    interface = interface_in(key)
     if interface and _is_of_first_interface(key[interface.end() :]):
         expected = "one of an interface that `numWlanInterfaces` of the node counts"
-    elif interface:
-        hint = hint.replace("wlan[*]", interface[0])
-    return f"`{key}` matches no parameter; expected {expected}{hint}"
+    return f"`{key}` matches no parameter; expected {expected}{written_for(hint, key)}"
 
 
 def _is_of_first_interface(end: str) -> bool:

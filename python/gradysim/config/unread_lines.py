@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from gradysim.config.key import ReadBy
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.config.keys.interface import written_for
 from gradysim.config.source import Source
 
 Chosen = Callable[[str], str | None]
@@ -69,14 +70,15 @@ class UnreadLines:
 
     def texts(self) -> Iterator[str]:
         """One text for the lines that lack the same choice, in the order of the files."""
-        alike: dict[tuple[ReadBy, str, frozenset[str]], list[Source]] = {}
+        alike: dict[tuple[str, ReadBy, frozenset[str]], list[Source]] = {}
         unread_sources = self._unread.keys() - self._read
         for source in sorted(unread_sources, key=lambda source: (source.file, source.line, source.key)):
             unread = self._unread[source]
-            alike.setdefault((unread.choice, unread.whose, frozenset(unread.chosen)), []).append(source)
-        for (choice, whose, chosen), sources in alike.items():
+            choice = unread.choice
+            key = unread.whose + written_for(KEYS[choice.chosen_by].written, source.key)
+            alike.setdefault((key, choice, frozenset(unread.chosen)), []).append(source)
+        for (key, choice, chosen), sources in alike.items():
             first, *others = sources
-            key = f"{whose}{KEYS[choice.chosen_by].written}"
             yield (
                 f"{first}: warning: nothing reads `{first.key}`{_nor(first, others)}: that takes"
                 f" `{key} = {_either(choice.names)}`, and it is {_either(sorted(chosen))}"

@@ -73,6 +73,31 @@ def test_the_choice_of_a_node_is_told_with_its_group(texts: Callable[..., list[s
     )
 
 
+@pytest.mark.parametrize(
+    ("key", "interface"),
+    [
+        ("*.uavs[*].wlan[1].mac.dcf.rateControl.interval", "wlan[1]"),
+        ("**.wlan[1..3].mac.dcf.rateControl.interval", "wlan[1..3]"),
+        ("**.wlan[..3].mac.dcf.rateControl.interval", "wlan[..3]"),
+        ("**.wlan[*].mac.dcf.rateControl.interval", "wlan[*]"),
+        ("**.rateControl.interval", "wlan[*]"),
+    ],
+)
+def test_the_choice_is_told_for_the_interface_of_the_line(
+    texts: Callable[..., list[str]], key: str, interface: str
+) -> None:
+    (text,) = texts({"mac.rate_interval_s": line(3, key)}, chosen())
+    assert f"that takes `*.uavs[*].{interface}.mac.dcf.rateControl.typename = " in text
+
+
+def test_lines_of_two_interfaces_are_told_apart(texts: Callable[..., list[str]]) -> None:
+    lines = {
+        "mac.rate_interval_s": line(3, "**.wlan[0].mac.dcf.rateControl.interval"),
+        "mac.increase_threshold": line(4, "**.wlan[1].mac.dcf.rateControl.increaseThreshold"),
+    }
+    assert [text.partition(":")[2][0] for text in texts(lines, chosen())] == ["3", "4"]
+
+
 def test_a_line_that_is_read_is_not_told(texts: Callable[..., list[str]]) -> None:
     assert texts({"medium.sigma_db": line(3)}, chosen(path_loss="LogNormalShadowing")) == []
 

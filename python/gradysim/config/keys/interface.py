@@ -1,5 +1,7 @@
 """Keys of which network interfaces a node has."""
 
+import re
+
 from gradysim.config.key import Key, ReadBy
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
@@ -12,6 +14,8 @@ WLAN = "wlan[0]"
 IEEE80211 = ReadBy("interface.typename", ("Ieee80211Interface",), shown="")
 IEEE802154 = ReadBy("interface.typename", ("Ieee802154NarrowbandInterface",), shown="802.15.4")
 """Of which interface a key is."""
+
+_INDEXED = re.compile(r"\bwlan\[(?:0|[1-9]\d*|\d*\.\.\d*)\]", re.ASCII)
 
 NUM_WLAN_INTERFACES = Key(
     "numWlanInterfaces",
@@ -36,3 +40,14 @@ INTERFACE_KEYS: tuple[Key, ...] = (
 def at_interface(path: str, index: int) -> str:
     """The path of a key of wlan[0] for another interface."""
     return path.replace(WLAN, f"wlan[{index}]", 1)
+
+
+def interface_in(key: str) -> re.Match[str] | None:
+    """Where the key of a line names one interface, or a range: `wlan[1]`, `wlan[2..5]`."""
+    return _INDEXED.search(key)
+
+
+def written_for(text: str, key: str) -> str:
+    """A text that says `wlan[*]`, as people write keys, for the interface that `key` is about."""
+    interface = interface_in(key)
+    return text.replace("wlan[*]", interface[0]) if interface else text
