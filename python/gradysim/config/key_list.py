@@ -1,5 +1,6 @@
 """The list of all keys for people: unit, default and meaning, from the tables that files are read with."""
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
@@ -17,6 +18,8 @@ Structs = Mapping[str, Mapping[str, object]]
 
 UNKNOWN = "?"
 """Default of a key whose struct is not at hand."""
+
+_INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
 
 OWN_STRUCTS: Structs = {"communication_medium": {"": CommunicationMediumSpec()}}
 
@@ -58,8 +61,11 @@ def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ())
 
 
 def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
-    """The keys that contain `pattern`, in any case, or match it if it has a `*` or `?`."""
-    wanted = pattern.lower()
+    """The keys that contain `pattern`, in any case, or match it if it has a `*` or `?`.
+
+    Keys are listed for any index, `wlan[*]`: what is asked for one, or a range, is found there.
+    """
+    wanted = _INDEX.sub("[*]", pattern.lower())
     if not set("*?") & set(wanted.replace("[*]", "")):
         wanted = f"*{wanted}*"
     wanted = wanted.replace("[", "[[]")

@@ -58,5 +58,10 @@ def test_patterns(pattern: str) -> None:
     assert "*.nodes[*].wlan[*].radio.transmitter.power" in keys(pattern)
 
 
+@pytest.mark.parametrize("index", ["0", "1", "12", "1..3", "2..", "..3"])
+def test_what_is_asked_of_one_interface_is_found_for_any(index: str) -> None:
+    assert keys(f"wlan[{index}]") == keys("wlan[*]") != []
+
+
 def test_what_does_not_match_is_left_out() -> None:
     assert keys("nonsense") == []
