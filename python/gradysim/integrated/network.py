@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
 from gradysim.config.interface_spec import InterfaceSpec
+from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
@@ -20,8 +21,6 @@ from gradysim.integrated.power_for_range import PowersForRanges
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
-
-DEFAULT_INTERFACE = "Ieee80211Interface"
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:

@@ -11,7 +11,9 @@ from gradysim.protocol.messages.interface_index import MOST_INTERFACES
 WLAN = "wlan[0]"
 """What the paths of all keys of an interface begin with; for the others see `at_interface`."""
 
-IEEE80211 = ReadBy("interface.typename", ("Ieee80211Interface",), shown="")
+DEFAULT_INTERFACE = "Ieee80211Interface"
+
+IEEE80211 = ReadBy("interface.typename", (DEFAULT_INTERFACE,), shown="")
 IEEE802154 = ReadBy("interface.typename", ("Ieee802154NarrowbandInterface",), shown="802.15.4")
 """Of which interface a key is."""
 
