@@ -21,7 +21,7 @@ def result_with(tracked_variables):
     )
 
 
-def test_keys_of_the_json_object():
+def test_the_keys_that_scripts_rely_on():
     assert list(result_with({}).to_json_object()) == [
         "config",
         "run",
