@@ -1,12 +1,23 @@
-"""The text of a protocol that does nothing, for the files of protocols that tests write."""
+"""A protocol that does nothing, for those that do one thing: as a class, and as text for files."""
 
-QUIET = """
+import inspect
+
 from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.telemetry import Telemetry
+
 
 class Quiet(IProtocol):
-    def initialize(self): pass
-    def handle_timer(self, timer): pass
-    def handle_packet(self, message): pass
-    def handle_telemetry(self, telemetry): pass
-    def finish(self): pass
-"""
+    """Nothing, at any of its callbacks."""
+
+    def initialize(self) -> None: ...
+    def handle_timer(self, timer: str) -> None: ...
+    def handle_packet(self, message: str) -> None: ...
+    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
+    def finish(self) -> None: ...
+
+
+QUIET = f"""
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.telemetry import Telemetry
+
+{inspect.getsource(Quiet)}"""

@@ -1,23 +1,16 @@
 from dataclasses import dataclass, field
 
 from gradysim.config.protocol_class import parametrize
-from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.telemetry import Telemetry
+from python.quiet_protocol import Quiet
 
 
-class Mobile(IProtocol):
+class Mobile(Quiet):
     """What flies."""
 
     interval: float = 1.0
 
     def __init__(self) -> None:
         self.at_construction = self.interval
-
-    def initialize(self) -> None: ...
-    def handle_timer(self, timer: str) -> None: ...
-    def handle_packet(self, message: str) -> None: ...
-    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
-    def finish(self) -> None: ...
 
 
 def test_parameters_hold_in_the_constructor() -> None:

@@ -1,12 +1,12 @@
 """The dispatcher calls the same handlers in the same order in both modes, also those registered meanwhile."""
 
 from perfect_channel import Case
-from quiet import Quiet
 from watched_run import assert_same, trace_case
 
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
+from python.quiet_protocol import Quiet
 
 CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (0.0, 10.0, 0.0)], telemetry_interval_s=0.1, duration_s=2.05)
 

@@ -12,7 +12,6 @@ from typing import ClassVar
 
 import pytest
 from perfect_channel import Case
-from quiet import Quiet
 from watched_run import UPDATE_S, Trace, assert_same, trace_case
 
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
@@ -28,6 +27,7 @@ from gradysim.protocol.plugin.mission_mobility import (
     MissionMobilityConfiguration,
     MissionMobilityPlugin,
 )
+from python.quiet_protocol import Quiet
 
 SPEED_MPS = 9.1
 TOLERANCE_M = 2 * SPEED_MPS * UPDATE_S

@@ -9,7 +9,6 @@ from typing import ClassVar
 
 import pytest
 from perfect_channel import Case
-from quiet import Quiet
 from watched_run import UPDATE_S, assert_same, trace_case
 
 from gradysim.protocol.messages.mobility import GotoGeoCoordsMobilityCommand, SetSpeedMobilityCommand
@@ -20,6 +19,7 @@ from gradysim.protocol.plugin.mission_mobility import (
     MissionMobilityPlugin,
 )
 from gradysim.protocol.plugin.random_mobility import RandomMobilityConfig, RandomMobilityPlugin
+from python.quiet_protocol import Quiet
 
 CASE = Case([(0.0, 0.0, 0.0), (3.3, 1.7, 2.9)], telemetry_interval_s=UPDATE_S, duration_s=30.0, speed_mps=7.3)
 WAYPOINTS = [(11.31, 2.17, 5.03), (4.77, 13.9, 8.21), (-6.13, 3.01, 2.29)]

@@ -12,17 +12,10 @@ from perfect_channel import MODES, Case
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from python.quiet_protocol import Quiet
 
 LINE = [(10.0 * node, 0.0, 0.0) for node in range(4)]
 CALLBACKS = ["__init__", "initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish"]
-
-
-class Quiet(IProtocol):
-    def initialize(self) -> None: ...
-    def handle_timer(self, timer: str) -> None: ...
-    def handle_packet(self, message: str) -> None: ...
-    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
-    def finish(self) -> None: ...
 
 
 class Failing(Quiet):

@@ -5,10 +5,10 @@ from typing import ClassVar
 
 import pytest
 from perfect_channel import Case
-from quiet import Quiet
 from watched_run import Trace, assert_same, trace_case
 
 from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftMode
+from python.quiet_protocol import Quiet
 
 NODES = 5
 CASE = Case([(10.0 * node, 0.0, 0.0) for node in range(NODES)], range_m=100.0, seed=1, duration_s=6.0)

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 from perfect_channel import Case
-from quiet import Quiet
 from watched_run import assert_same, trace_case
 
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.plugin.statistics import create_statistics, finish_statistics
+from python.quiet_protocol import Quiet
 
 CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (20.0, 0.0, 0.0)], duration_s=3.0)
 Rows = list[list[str]]

@@ -8,7 +8,6 @@ from typing import Any, cast
 
 import pytest
 from perfect_channel import MODES, Case
-from quiet import Quiet
 
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
 from gradysim.protocol.interface import IProvider
@@ -26,6 +25,7 @@ from gradysim.protocol.messages.mobility import (
     SetVelocityMobilityCommand,
 )
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
+from python.quiet_protocol import Quiet
 
 CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)])
 Deed = Callable[[IProvider], None]

@@ -6,9 +6,7 @@ import pytest
 
 from gradysim.encapsulator.interop import InteropProvider
 from gradysim.encapsulator.python import PythonProvider
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.follow_mobility import MobilityLeaderPlugin
 from gradysim.protocol.plugin.raft import RaftConfig, RaftState
 from gradysim.simulator.event import EventLoop
@@ -17,20 +15,7 @@ from gradysim.simulator.extension.radio import Radio
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MobilityHandler
 from gradysim.simulator.node import Node
-
-
-class Quiet(IProtocol):
-    """Does nothing."""
-
-    def initialize(self) -> None: ...
-
-    def handle_timer(self, timer: str) -> None: ...
-
-    def handle_packet(self, message: str) -> None: ...
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
-
-    def finish(self) -> None: ...
+from python.quiet_protocol import Quiet
 
 
 @pytest.fixture

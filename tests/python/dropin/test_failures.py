@@ -11,7 +11,8 @@ from gradysim.protocol.messages.communication import (
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
 from gradysim.simulator.handler.communication import CommunicationException
 from gradysim.simulator.handler.timer import TimerException
-from python.dropin.user_code import Quiet, simulation
+from python.dropin.user_code import simulation
+from python.quiet_protocol import Quiet
 
 
 def test_an_exception_of_a_protocol_is_raised_and_says_where_it_was() -> None:

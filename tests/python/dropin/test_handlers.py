@@ -18,7 +18,8 @@ from gradysim.simulator.handler.mobility import (
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import VisualizationHandler
 from gradysim.simulator.node import Node
-from python.dropin.user_code import Quiet, simulation
+from python.dropin.user_code import simulation
+from python.quiet_protocol import Quiet
 
 
 def test_commands_to_the_viewers_wait_in_a_queue() -> None:

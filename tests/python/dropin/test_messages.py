@@ -19,7 +19,7 @@ from gradysim.protocol.messages.mobility import (
     SetVelocityMobilityCommand,
 )
 from gradysim.protocol.position import geo_to_cartesian
-from python.dropin.user_code import Quiet
+from python.quiet_protocol import Quiet
 
 
 def test_unused_parameters_of_a_mobility_command_are_none() -> None:

@@ -6,7 +6,8 @@ from gradysim.simulator.event import EventLoop
 from gradysim.simulator.simulation import (
     _ForceFastExecution,
 )
-from python.dropin.user_code import Quiet, simulation
+from python.dropin.user_code import simulation
+from python.quiet_protocol import Quiet
 
 
 def test_timers_of_one_instant_fire_in_the_order_of_their_setting() -> None:

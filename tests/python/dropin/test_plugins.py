@@ -13,7 +13,8 @@ from gradysim.protocol.plugin.follow_mobility import (
     MobilityLeaderPlugin,
 )
 from gradysim.protocol.plugin.random_mobility import RandomMobilityPlugin
-from python.dropin.user_code import Provider, Quiet, simulation
+from python.dropin.user_code import Provider, simulation
+from python.quiet_protocol import Quiet
 
 
 def test_the_handler_registered_last_comes_first_and_may_end_the_event() -> None:

@@ -13,7 +13,8 @@ from gradysim.simulator.simulation import (
     PositionScheme,
     SimulationBuilder,
 )
-from python.dropin.user_code import Quiet, simulation
+from python.dropin.user_code import simulation
+from python.quiet_protocol import Quiet
 
 
 def test_ids_count_from_zero_in_the_order_of_adding() -> None:

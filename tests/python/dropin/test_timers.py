@@ -1,7 +1,8 @@
 """What users rely on, and where the published package was wrong: timers."""
 
 from gradysim.encapsulator.interop import ConsequenceType, InteropEncapsulator
-from python.dropin.user_code import Quiet, simulation
+from python.dropin.user_code import simulation
+from python.quiet_protocol import Quiet
 
 
 def test_a_callback_may_cancel_timers_of_its_own_name() -> None:

@@ -9,7 +9,6 @@ from gradysim.protocol.messages.communication import (
 from gradysim.protocol.messages.mobility import (
     MobilityCommand,
 )
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.simulator.handler.communication import CommunicationHandler
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.timer import TimerHandler
@@ -18,20 +17,6 @@ from gradysim.simulator.simulation import (
     SimulationConfiguration,
     Simulator,
 )
-
-
-class Quiet(IProtocol):
-    """Does nothing; the tests override what they need."""
-
-    def initialize(self) -> None: ...
-
-    def handle_timer(self, timer: str) -> None: ...
-
-    def handle_packet(self, message: str) -> None: ...
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None: ...
-
-    def finish(self) -> None: ...
 
 
 class Provider(IProvider):

@@ -4,7 +4,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.plugin.mission_mobility import (
@@ -13,6 +12,7 @@ from gradysim.protocol.plugin.mission_mobility import (
     MissionMobilityPlugin,
     MissionMobilityPluginException,
 )
+from python.quiet_protocol import Quiet
 
 LINE = [(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (20.0, 0.0, 0.0)]
 
@@ -291,13 +291,6 @@ def test_a_mission_in_a_simulation(make_scenario, run_mode):
     st.lists(st.sampled_from(["arrive", "turn", "jump"]), max_size=30),
 )
 def test_whatever_happens_the_waypoint_is_one_of_the_mission(length, loop, steps):
-    class Still(IProtocol):
-        def initialize(self): ...
-        def handle_timer(self, timer): ...
-        def handle_packet(self, message): ...
-        def handle_telemetry(self, telemetry): ...
-        def finish(self): ...
-
     class Provider:
         target = None
 
@@ -305,7 +298,7 @@ def test_whatever_happens_the_waypoint_is_one_of_the_mission(length, loop, steps
             if command.command_type == 1:
                 self.target = (command.param_1, command.param_2, command.param_3)
 
-    protocol = Still.instantiate(Provider())
+    protocol = Quiet.instantiate(Provider())
     waypoints = [(float(10 * index), 0.0, 0.0) for index in range(length)]
     plugin = mission(protocol, loop, waypoints)
     for step in steps:

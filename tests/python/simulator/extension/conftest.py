@@ -1,30 +1,20 @@
 import pytest
 
 from gradysim.encapsulator.interop import InteropEncapsulator
-from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
-
-
-class Idle(IProtocol):
-    """Does nothing by itself."""
-
-    def initialize(self): ...
-    def handle_timer(self, timer): ...
-    def handle_packet(self, message): ...
-    def handle_telemetry(self, telemetry): ...
-    def finish(self): ...
+from python.quiet_protocol import Quiet
 
 
 @pytest.fixture(scope="module")
 def idle():
-    return Idle
+    return Quiet
 
 
 @pytest.fixture
 def simulation():
     """Make a simulation of nodes at these points, with these handlers, that has not begun."""
 
-    def make(points, *handlers, protocol=Idle):
+    def make(points, *handlers, protocol=Quiet):
         builder = SimulationBuilder(SimulationConfiguration(execution_logging=False, seed=1))
         for handler in handlers:
             builder.add_handler(handler)
@@ -39,7 +29,7 @@ def simulation():
 def protocols(simulation):
     """The protocols of such a simulation."""
 
-    def make(points, *handlers, protocol=Idle):
+    def make(points, *handlers, protocol=Quiet):
         nodes = simulation(points, *handlers, protocol=protocol).nodes
         return [node.protocol_encapsulator.protocol for node in nodes]
 
@@ -50,5 +40,5 @@ def protocols(simulation):
 def hosted():
     """A protocol that neither simulator runs."""
     encapsulator = InteropEncapsulator()
-    encapsulator.encapsulate(Idle)
+    encapsulator.encapsulate(Quiet)
     return encapsulator.protocol

@@ -28,7 +28,7 @@ def test_without_a_provider_it_cannot_be(idle, has_none):
     protocol = idle()
     if has_none:
         protocol.provider = None
-    with pytest.raises(ReferenceError, match="Idle has no provider yet"):
+    with pytest.raises(ReferenceError, match="Quiet has no provider yet"):
         Extension(protocol)
 
 
