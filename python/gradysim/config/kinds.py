@@ -202,6 +202,17 @@ def si_number() -> Kind:
     return Kind("a number, or a quantity that has an SI unit", convert, unit="number or quantity")
 
 
+def number_in(unit: str) -> Kind:
+    """A number, taken as it is, or a quantity of that dimension, converted to `unit`."""
+    target = UNITS[unit]
+
+    def convert(value: Value) -> float:
+        given = _quantity_of(value)
+        return _not_nan(float(given.number) if given.unit is None else given.to(target), value)
+
+    return Kind(f"{target.dimension.value}, or a number of {unit}", convert, unit=unit)
+
+
 def _in_unit(value: float, unit: str, shown: str) -> str:
     """`value`, which is in `unit`, as it is written in the unit `shown`."""
     source, target = UNITS[unit], UNITS[shown]

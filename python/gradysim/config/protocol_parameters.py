@@ -2,9 +2,10 @@
 
 import inspect
 import re
-from functools import lru_cache
+from functools import cache, lru_cache
 
-from gradysim.config.kinds import Kind, boolean, integer, si_number, text
+from gradysim.config.kinds import Kind, boolean, integer, number_in, si_number, text
+from gradysim.config.parameter_unit import unit_of
 from gradysim.protocol.interface import IProtocol
 
 
@@ -15,7 +16,11 @@ def _annotations(cls: type) -> dict[str, object]:
         return {}
 
 
-_FLOAT = si_number()
+@cache
+def _float_of(unit: str | None) -> Kind:
+    return si_number() if unit is None else number_in(unit)
+
+
 _INTEGER = integer(at_most=None)
 _BOOLEAN = boolean()
 _TEXT = text()
@@ -27,7 +32,8 @@ _CONTRACT = {*dir(IProtocol), *_annotations(IProtocol)}
 def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     """Names of the parameters that can be set, each with what its value has to be: the type of its default.
 
-    A default such as `delay: float = 0` is a float.
+    A default such as `delay: float = 0` is a float. Quantities are converted to the unit of the parameter, if
+    something says it, otherwise to SI units.
     """
     parameters: dict[str, Kind] = {}
     for base in reversed(cls.__mro__):
@@ -37,7 +43,7 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
         for name, default in vars(base).items():
             if name.startswith("_") or name in _CONTRACT:
                 continue
-            kind = _kind_of(default, annotations.get(name))
+            kind = _kind_of(default, annotations.get(name), unit_of(cls, name))
             if kind is not None:
                 parameters[name] = kind
             else:
@@ -45,11 +51,11 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     return parameters
 
 
-def _kind_of(default: object, annotation: object) -> Kind | None:
+def _kind_of(default: object, annotation: object, unit: str | None) -> Kind | None:
     if type(default) is bool:
         return _BOOLEAN
     if type(default) is float or (type(default) is int and _mentions_float(annotation)):
-        return _FLOAT
+        return _float_of(unit)
     if type(default) is int:
         return _INTEGER
     return _TEXT if type(default) is str else None

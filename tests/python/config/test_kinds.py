@@ -14,6 +14,7 @@ from gradysim.config.kinds import (
     choice,
     integer,
     number,
+    number_in,
     power_ratio,
     quantity,
     si_number,
@@ -45,6 +46,9 @@ from gradysim.config.kinds import (
         (choice("b", "a"), '"a"', "a"),
         (si_number(), "100ms", 0.1),
         (si_number(), "3", 3.0),
+        (number_in("ms"), "2s", 2000.0),
+        (number_in("ms"), "2", 2.0),
+        (number_in("deg"), "90deg", 90.0),
         (si_number(), "36kmph", 10.0),
         (si_number(), "20dBm", 0.1),
         (si_number(), "180deg", math.pi),
@@ -85,6 +89,9 @@ def test_converts(kind: Kind, written: str, expected: object) -> None:
             "`g(erp` is not known; did you mean `g(erp)`?",
         ),
         (si_number(), "nan", "`nan` is no number"),
+        (number_in("s"), "nan", "`nan` is no number"),
+        (number_in("s"), "5m", "`m` is the unit of a length; `m` is metres, a minute is `min`"),
+        (number_in("s"), "true", "it is a truth value"),
         (si_number(), "3B", "bits and bytes have no SI unit"),
     ],
 )
@@ -109,6 +116,7 @@ def test_refuses(kind: Kind, written: str, problem: str) -> None:
         (integer(at_most=None), "a whole number"),
         (choice("b", "a"), 'one of "b", "a"'),
         (choice("b"), '"b"'),
+        (number_in("s"), "a time such as 10s, or a number of s"),
     ],
 )
 def test_says_what_it_expects(kind: Kind, expected: str) -> None:

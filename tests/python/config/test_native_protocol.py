@@ -41,6 +41,13 @@ def test_its_parameters_are_checked_and_converted(folder: Any) -> None:
     assert node.protocol_sources[""].key == "*.uavs[*].protocol.typename"
 
 
+def test_a_unit_of_something_else_is_refused_at_its_line(folder: Any) -> None:
+    added = BEACONS + "*.uavs[*].protocol.interval = 5m\n"
+    assert folder.error(added, "X").startswith(
+        "test.ini:8: *.uavs[*].protocol.interval = 5m: `m` is the unit"
+    )
+
+
 def test_an_unknown_typename_is_an_error_with_the_nearest_name(folder: Any) -> None:
     text = folder.error(BEACONS.replace("BeaconProtocol", "Beacon"), "X")
     assert text.startswith("test.ini:7: ")

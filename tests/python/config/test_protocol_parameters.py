@@ -19,6 +19,7 @@ class Mobile(Base):
     real_by_annotation: float = 0
     real_by_text: "float | None" = 0
     real_constant: ClassVar[float] = 0
+    timeout_ms = 20.0
     whole: int = 3
     text: Final = "x"
     flag = False
@@ -49,6 +50,7 @@ def test_are_public_plain_class_attributes() -> None:
         "real_by_annotation",
         "real_by_text",
         "real_constant",
+        "timeout_ms",
         "whole",
         "text",
         "flag",
@@ -60,6 +62,11 @@ def test_are_public_plain_class_attributes() -> None:
 def test_floats_take_quantities_and_whole_numbers(name: str) -> None:
     assert converted(name, "100ms") == 0.1
     assert type(converted(name, "3")) is float
+
+
+@pytest.mark.parametrize("written", ["2s", "2000ms", "2000"])
+def test_what_says_its_unit_is_in_that(written: str) -> None:
+    assert converted("timeout_ms", written) == 2000.0
 
 
 def test_other_types_are_kept() -> None:
@@ -81,6 +88,7 @@ def test_other_types_are_kept() -> None:
         ("text", "1"),
         ("real", "true"),
         ("real", "nan"),
+        ("timeout_ms", "5m"),
     ],
 )
 def test_other_types_are_refused(name: str, written: str) -> None:

@@ -1,0 +1,44 @@
+from typing import ClassVar
+
+import pytest
+
+from gradysim.config.native_protocol import NativeParameter, NativeProtocol
+from gradysim.config.parameter_unit import unit_of
+from python.quiet_protocol import Quiet
+
+
+class Native(NativeProtocol):
+    _parameters: ClassVar = {
+        "interval": NativeParameter("s", "Time between two messages"),
+        "count": NativeParameter("", "Number of messages"),
+        "limit_s": NativeParameter("transmissions", "Then it ends"),
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("interval_s", "s"),
+        ("time_out_ms", "ms"),
+        ("altitude_m", "m"),
+        ("carrier_mhz", "MHz"),
+        ("bitrate_mbps", "Mbps"),
+        ("heading_deg", "deg"),
+    ],
+)
+def test_the_end_of_a_name_says_it(name: str, unit: str) -> None:
+    assert unit_of(Quiet, name) == unit
+
+
+@pytest.mark.parametrize(
+    "name", ["interval", "s", "vector_x", "point_a", "size_b", "retry_min", "interval_S"]
+)
+def test_other_names_say_nothing(name: str) -> None:
+    assert unit_of(Quiet, name) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"), [("interval", "s"), ("count", None), ("limit_s", None), ("other_s", None)]
+)
+def test_native_protocols_declare_theirs(name: str, unit: str | None) -> None:
+    assert unit_of(Native, name) == unit
