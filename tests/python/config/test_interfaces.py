@@ -45,6 +45,12 @@ def test_a_range_of_indices_stands_for_those_interfaces(folder: Any) -> None:
     assert modes == [[None, "a", "a"]] * 3
 
 
+def test_a_range_may_go_beyond_the_interfaces_of_a_node(folder: Any) -> None:
+    """As everywhere in OMNeT++'s patterns: nodes of one file have different numbers of them."""
+    scenario = folder.load(TWO + '**.wlan[1..5].opMode = "a"\n')
+    assert [wlan.mac.keys() for wlan in scenario.nodes[1].wlan] == [set(), {"op_mode"}]
+
+
 def test_interfaces_of_both_kinds(folder: Any) -> None:
     scenario = folder.load(TWO + '*.uavs[*].wlan[1].typename = "Ieee802154NarrowbandInterface"\n')
     typenames = [wlan.interface.get("typename") for wlan in scenario.nodes[1].wlan]
