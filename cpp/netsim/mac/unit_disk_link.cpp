@@ -1,5 +1,6 @@
 #include "netsim/mac/unit_disk_link.hpp"
 
+#include <string>
 #include <utility>
 
 #include "netsim/error.hpp"
@@ -25,6 +26,12 @@ UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, Inter
 }
 
 void UnitDiskLink::send(NodeId destination, Payload payload) {
+    if (sent_.exceeds(simulator_.now())) {
+        throw SimulationError("node " + std::to_string(id_) + " has sent " +
+                              std::to_string(most_at_one_instant) + " messages at " +
+                              std::to_string(simulator_.now().seconds()) +
+                              " s on a medium without delay: time stands still; expected answers that end");
+    }
     const bool broadcast = destination == broadcast_id;
     const MessageKind kind = broadcast ? MessageKind::broadcast : MessageKind::unicast;
     const FrameLabel label{broadcast ? FrameKind::broadcast : FrameKind::unicast, destination};

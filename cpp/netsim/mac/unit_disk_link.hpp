@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/instant_count.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/link.hpp"
 #include "netsim/mobility/trajectory.hpp"
@@ -33,6 +34,7 @@ public:
     UnitDiskLink(const UnitDiskLink&) = delete;
     UnitDiskLink& operator=(const UnitDiskLink&) = delete;
 
+    // Throws SimulationError, too, if messages that answer each other at one instant never end.
     void send(NodeId destination, Payload payload) override;
     std::size_t queued_messages() const override { return 0; }
 
@@ -49,6 +51,7 @@ private:
     Fingerprint& fingerprint_;
     LinkListener& listener_;
     NodeId id_;
+    InstantCount sent_;
 
     struct Flight {  // a message between its sending and its delivery within the same instant
         Payload payload;

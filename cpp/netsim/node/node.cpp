@@ -64,6 +64,12 @@ void Node::schedule_timer(std::string timer, SimTime time) {
                               " s is in the past: it is " + std::to_string(simulator_.now().seconds()) +
                               " s now (timers take absolute simulated time)");
     }
+    if (time == simulator_.now() && timers_for_now_.exceeds(time)) {
+        throw SimulationError("node " + std::to_string(id_) + " has set " +
+                              std::to_string(most_at_one_instant) + " timers for now, " +
+                              std::to_string(time.seconds()) + " s, and this one, '" + timer +
+                              "', is one more: time stands still; expected a later time");
+    }
     const std::size_t number = timers_.add(std::move(timer));
     timers_.set_event(number, simulator_.schedule_at(time, [this, number] { timer_due(number); }));
 }

@@ -9,6 +9,7 @@
 
 #include "netsim/config/node_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/instant_count.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/link.hpp"
@@ -53,7 +54,7 @@ public:
     void send(NodeId destination, Payload payload, std::int32_t interface = 0);
     void go_to(Position target) { mobility_->go_to(simulator_.now(), target); }
     void set_speed(double speed_mps) { mobility_->set_speed(simulator_.now(), speed_mps); }
-    // At `time`, not before now; equal names may be pending several times.
+    // At `time`, not before now; equal names may be pending several times. What makes time stand still is refused.
     void schedule_timer(std::string timer, SimTime time);
     // All pending timers of that name; none is fine.
     void cancel_timer(const std::string& timer);
@@ -79,6 +80,7 @@ private:
     std::string name_;
     Attitude attitude_;
     Timers timers_;
+    InstantCount timers_for_now_;
     RandomStream random_;
     TrackedVariables tracked_variables_;
 };

@@ -42,9 +42,15 @@ class Event:
 
 
 class EventLoop:
-    """Pending events, and the time of the one taken last."""
+    """Pending events, and the time of the one taken last.
+
+    Attributes:
+        crowded_instant: The latest simulated time, in seconds, at which tens of thousands of events ran; NaN
+            before the first. Who schedules yet another one for then can ask whether time stands still.
+    """
 
     def __init__(self) -> None:
+        self.crowded_instant = math.nan
         self._current_time = 0.0
         # One list of events per instant; `_instants` is a heap of its keys without the current instant.
         self._events: dict[float, list[ScheduledEvent]] = {}
@@ -141,6 +147,7 @@ class EventLoop:
                 del current[:taken]
                 self._held -= taken
                 taken = 0
+                self.crowded_instant = self._current_time
             self._taken = taken + 1
             yield current[taken]
 

@@ -161,5 +161,21 @@ TEST_F(UnitDisk, NeedsARange) {
     EXPECT_THROW(add_node({0, 0, 0}, 0), ConfigError);
 }
 
+TEST_F(UnitDisk, MessagesThatAnswerEachOtherWithoutEndAreAnError) {
+    const auto answer = [](Recorder& self, const std::string& text) { self.broadcast(text); };
+    Recorder& first = add_node({0, 0, 0});
+    first.on_packet = answer;
+    add_node({50, 0, 0}).on_packet = answer;
+    first.on_initialize = [](Recorder& self) { self.broadcast("ping"); };
+    try {
+        run();
+        FAIL() << "the run ended";
+    } catch (const SimulationError& error) {
+        EXPECT_STREQ(error.what(),
+                     "node 0 has sent 1000000 messages at 0.000000 s on a medium without delay: "
+                     "time stands still; expected answers that end");
+    }
+}
+
 }  // namespace
 }  // namespace netsim

@@ -100,6 +100,16 @@ TEST_F(NodeTest, ATimerInThePastIsAnErrorThatNamesBothTimes) {
               "simulated time)");
 }
 
+TEST_F(NodeTest, TimersForNowWithoutEndAreAnError) {
+    first->on_initialize = [](Recorder& self) { self.node.schedule_timer("tick", s(1)); };
+    first->on_timer = [](Recorder& self, const std::string&) {
+        self.node.schedule_timer("tick", self.node.now());
+    };
+    EXPECT_EQ(error_of([this] { run(2); }),
+              "node 0 has set 1000000 timers for now, 1.000000 s, and this one, 'tick', is one more: time "
+              "stands still; expected a later time");
+}
+
 TEST_F(NodeTest, CancelTakesAllTimersOfTheName) {
     first->on_initialize = [](Recorder& self) {
         self.node.schedule_timer("tick", s(1));

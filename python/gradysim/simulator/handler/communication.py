@@ -16,6 +16,7 @@ from gradysim.protocol.position import Position, squared_distance
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.copy_ledger import CopyLedger
+from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
@@ -70,10 +71,19 @@ class CommunicationSource:
 
     def __init__(self, node: Node[Any]) -> None:
         self.node = node
+        self._without_delay = InstantCount()
 
     def hand_over_message(self, message: str, endpoint: "CommunicationDestination") -> None:
         """Have the endpoint receive the message now."""
         endpoint.receive_message(message, self)
+
+    def count_at(self, now: float, medium: CommunicationMedium) -> None:
+        """Count a message that arrives at once. Raises CommunicationException if they do not end."""
+        if self._without_delay.exceeds(now):
+            raise CommunicationException(
+                f"node {self.node.id} has sent {MOST_AT_ONE_INSTANT} messages at {now} s, with a delay of "
+                f"{medium.delay} s: time stands still; expected a delay, or answers that end"
+            )
 
 
 class CommunicationDestination:
@@ -151,7 +161,8 @@ class CommunicationHandler(INodeHandler):
 
         Raises:
             CommunicationException: The sender is not registered, the message is no text, no node can have
-                such an interface, or the destination is missing, unknown or the sender itself.
+                such an interface, the destination is missing, unknown or the sender itself, or the node has
+                sent a million messages without delay at this instant, and time stands still.
         """
         event_loop = self._event_loop
         if event_loop is None or sender.id not in self._destinations:
@@ -184,7 +195,10 @@ class CommunicationHandler(INodeHandler):
             out_of_range = addressed - len(copies) - lost
             copies = self._ledger.note(kind, copies, lost=lost, out_of_range=out_of_range)
         if copies:
-            event_loop.schedule_events(event_loop.current_time + medium.delay, copies)
+            arrival = event_loop.current_time + medium.delay
+            if arrival == event_loop.crowded_instant:
+                self._sources[sender.id].count_at(arrival, medium)
+            event_loop.schedule_events(arrival, copies)
 
     def _destination_of(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationDestination:
         if command.destination is None:

@@ -5,6 +5,7 @@ from typing import Any
 
 from gradysim.protocol.errors import TimerException as TimerException
 from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
+from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
@@ -20,6 +21,7 @@ class TimerHandler(INodeHandler):
         self._event_loop: EventLoop | None = None
         self._pending: dict[int, _Pending] = {}
         self._contexts: dict[int, str] = {}
+        self._for_now: dict[int, InstantCount] = {}
         self._serial = 0
 
     @staticmethod
@@ -32,6 +34,7 @@ class TimerHandler(INodeHandler):
         if self._event_loop is not None:
             self._pending = {}
             self._contexts = {}
+            self._for_now = {}
         self._event_loop = event_loop
 
     def register_node(self, node: Node[Any]) -> None:
@@ -52,13 +55,16 @@ class TimerHandler(INodeHandler):
             node: A registered node.
 
         Raises:
-            TimerException: The node is not registered, the name is no text, or the time is not possible.
+            TimerException: The node is not registered, the name is no text, the time is not possible, or the
+                node has set a million timers for now, and time stands still.
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):
             raise TimerException(f"the name of a timer must be a str, got {message!r}")
         if self._event_loop is None:
             raise TimerException("timers can be set only in a simulation: inject an event loop first")
+        if timestamp == self._event_loop.crowded_instant:
+            self._count_for_now(message, timestamp, node)
         self._serial = serial = self._serial + 1
         try:
             event = self._event_loop.schedule_event(
@@ -93,6 +99,13 @@ class TimerHandler(INodeHandler):
         if not timers:
             del pending[message]
         node.protocol_encapsulator.handle_timer(message)
+
+    def _count_for_now(self, message: str, now: float, node: Node[Any]) -> None:
+        if self._for_now.setdefault(node.id, InstantCount()).exceeds(now):
+            raise TimerException(
+                f"node {node.id} has set {MOST_AT_ONE_INSTANT} timers for now, {now} s, and this one, "
+                f"{message!r}, is one more: time stands still; expected a later time"
+            )
 
     def _timers_of(self, node: Node[Any]) -> _Pending:
         try:

@@ -1,4 +1,6 @@
 import math
+from functools import partial
+from itertools import repeat
 from random import Random
 from types import SimpleNamespace
 
@@ -12,7 +14,8 @@ from gradysim.protocol.messages.communication import (
     CommunicationCommandType,
     SendMessageCommand,
 )
-from gradysim.simulator.event import EventLoop
+from gradysim.simulator.event import _RAN_AT_MOST, EventLoop
+from gradysim.simulator.handler import instant_count
 from gradysim.simulator.handler.communication import (
     CommunicationException,
     CommunicationHandler,
@@ -254,3 +257,37 @@ def test_transmission_draws_only_if_it_can_fail():
 @pytest.mark.parametrize(("rate", "expected"), [(1.0, False), (0.0, True)])
 def test_certain_failure_and_certain_success(rate, expected):
     assert can_transmit((0, 0, 0), (1, 0, 0), CommunicationMedium(failure_rate=rate)) is expected
+
+
+class TestStandingTime:
+    """Messages that answer each other."""
+
+    @pytest.fixture
+    def answering(self, monkeypatch, network):
+        """Two nodes that answer each message, over a medium with that delay."""
+        monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 10)
+
+        def answering(delay, times=None):
+            handler, nodes = network(CommunicationMedium(delay=delay), xs=(0, 10))
+            left = iter(range(times)) if times else repeat(0)
+
+            def answer(node, message):
+                if next(left, None) is not None:
+                    handler.handle_command(SendMessageCommand(message, 1 - node.id), node)
+
+            for node in nodes:
+                node.protocol_encapsulator.handle_packet = partial(answer, node)
+            handler.handle_command(SendMessageCommand("ping", 1), nodes[0])
+
+        return answering
+
+    def test_it_is_told_which_node_and_what_to_do(self, world, answering):
+        answering(delay=0.0)
+        expected = r"^node [01] has sent .* at 0\.0 s, with a delay of 0\.0 s: time stands still"
+        with pytest.raises(CommunicationException, match=expected):
+            world.run()
+
+    def test_time_that_goes_on_is_fine(self, world, answering):
+        answering(delay=1e-9, times=_RAN_AT_MOST + 40)
+        world.run()
+        assert world.loop.current_time == pytest.approx(1e-9 * (_RAN_AT_MOST + 41))

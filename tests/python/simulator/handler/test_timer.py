@@ -1,10 +1,12 @@
 import math
+from itertools import repeat
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gradysim.simulator.event import EventLoop
+from gradysim.simulator.event import _RAN_AT_MOST, EventLoop
+from gradysim.simulator.handler import instant_count
 from gradysim.simulator.handler.timer import TimerException, TimerHandler
 from gradysim.simulator.node import Node
 
@@ -191,3 +193,39 @@ def test_what_fires_is_what_was_set_and_not_cancelled_in_order(steps):
     while len(loop):
         loop.pop_event().callback()
     assert fired == sorted(expected, key=lambda timer: timer[0])
+
+
+class TestStandingTime:
+    """A node that sets timers for now without end."""
+
+    @pytest.fixture
+    def again(self, monkeypatch, world, handler, node):
+        """Have each timer set another one, `delay` seconds later."""
+        monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 10)
+
+        def again(delay, times=None):
+            left = iter(range(times)) if times else repeat(0)
+
+            def set_another(timer):
+                if next(left, None) is not None:
+                    handler.set_timer(timer, world.loop.current_time + delay, node)
+
+            node.protocol_encapsulator.handle_timer = set_another
+            handler.set_timer("tick", 2.5, node)
+
+        return again
+
+    def test_it_is_told_which_node_and_timer(self, world, again):
+        again(delay=0.0)
+        with pytest.raises(TimerException, match=r"^node 0 .* now, 2\.5 s, .*'tick'.* time stands still"):
+            world.run()
+
+    def test_time_that_goes_on_is_fine(self, world, again):
+        again(delay=1e-9, times=_RAN_AT_MOST + 20)
+        world.run()
+        assert world.loop.current_time == pytest.approx(2.5 + 1e-9 * (_RAN_AT_MOST + 20))
+
+    def test_many_timers_for_now_are_fine_before_the_instant_is_crowded(self, world, again):
+        again(delay=0.0, times=_RAN_AT_MOST - 1)
+        world.run()
+        assert len(world.loop) == 0

@@ -1,0 +1,37 @@
+"""A node that sets timers for now without end is told, in both modes alike, instead of a run that hangs."""
+
+import re
+
+import pytest
+from perfect_channel import MODES, Case
+
+from gradysim.protocol.errors import TimerException
+from gradysim.simulator.handler import instant_count
+from python.quiet_protocol import Quiet
+
+
+class Restless(Quiet):
+    """Node 0 sets one of its timers again at once."""
+
+    def initialize(self) -> None:
+        if self.provider.get_id() == 0:
+            self.provider.schedule_timer("tick", 0.25)
+        for _ in range(100):
+            self.provider.schedule_timer("other", 0.25)
+
+    def handle_timer(self, timer: str) -> None:
+        if timer == "tick":
+            self.provider.schedule_timer(timer, self.provider.current_time())
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_the_run_ends_and_names_node_timer_and_time(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    # A million are seconds in prototype mode: there fewer are enough for the same words.
+    monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 1000)
+    with pytest.raises(TimerException) as error:
+        Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]).run(mode, Restless)
+    text = re.sub(r"0\.250* s", "0.25 s", str(error.value))
+    assert text == (
+        "node 0 has set 1000000 timers for now, 0.25 s, and this one, 'tick', is one more: "
+        "time stands still; expected a later time"
+    )
