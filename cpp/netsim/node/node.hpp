@@ -74,9 +74,9 @@ private:
     Fingerprint& fingerprint_;
     NodeId id_;
     const std::int32_t* node_count_ = nullptr;
+    std::unique_ptr<Protocol> protocol_;
     std::unique_ptr<Mobility> mobility_;
     std::vector<std::unique_ptr<Link>> links_;
-    std::unique_ptr<Protocol> protocol_;
     std::string name_;
     Attitude attitude_;
     Timers timers_;

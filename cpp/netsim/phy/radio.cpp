@@ -14,6 +14,7 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const 
     : noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
       energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
+      detects_preambles_(!config.preamble_detection.empty()),
       sensitivity_w_(config.sensitivity_w),
       band_{config.carrier_hz, config.bandwidth_hz},
       medium_(medium),
@@ -49,7 +50,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.psdu_bytes = psdu_bytes;
     transmission.mode = &mode;
     transmission.frame = std::move(frame);
-    if (observer_ != nullptr) {
+    if (is_observed_) {
         transmission.start = simulator_.now();
         observer_->transmitted(transmission);
     }
@@ -98,7 +99,7 @@ void Radio::arrival_started(const Arrival& arrival) {
 }
 
 void Radio::begin_reception(const Arrival& arrival) {
-    if (!preamble_detection_.is_on()) {
+    if (!detects_preambles_) {
         lock_on(arrival);
         return;
     }
@@ -184,7 +185,7 @@ void Radio::end_reception(const Arrival& arrival) {
     const FrameFate fate = by_chunks_ ? decide_data(arrival, culprits) : decide_at_once(arrival, culprits);
     const bool decoded = fate == FrameFate::delivered;
     remember(transmission, fate);
-    if (observer_ != nullptr) {
+    if (is_observed_) {
         observer_->received(arrival, noise_w_, decoded);
     }
     if (culprits != nullptr) {

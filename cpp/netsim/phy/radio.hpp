@@ -62,7 +62,10 @@ public:
 
     void set_listener(RadioListener& listener) { listener_ = &listener; }
     // Who is told of every frame sent and received from now on; nobody, if null.
-    void set_observer(RadioObserver* observer) { observer_ = observer; }
+    void set_observer(RadioObserver* observer) {
+        observer_ = observer;
+        is_observed_ = observer != nullptr;
+    }
     InterfaceId interface() const { return interface_; }
     NodeId node() const { return interface_.node; }
     RadioId id() const { return id_; }
@@ -127,7 +130,9 @@ private:
     bool transmitting_ = false;
     bool turned_ = false;  // to transmit, which it does not yet
     bool busy_ = false;
-    bool by_chunks_;
+    bool by_chunks_ : 1;
+    bool detects_preambles_ : 1;
+    bool is_observed_ : 1 = false;
     RadioId id_ = 0;
     double sensitivity_w_;
     Band band_;
@@ -140,10 +145,10 @@ private:
     ReceptionModel reception_;
     FrameFates& fates_;
     Fingerprint& fingerprint_;
-    RadioObserver* observer_ = nullptr;
     InterfaceId interface_;
 
     Simulator& simulator_;
+    RadioObserver* observer_ = nullptr;
     FrameCapture frame_capture_;
     PreambleDetection preamble_detection_;
     EventHandle header_end_;  // SNIR by chunks: pending until the header is decided
