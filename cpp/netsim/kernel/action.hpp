@@ -17,11 +17,20 @@ public:
     template <typename Callable>
         requires(!std::is_same_v<std::decay_t<Callable>, Action>)
     // NOLINTNEXTLINE(google-explicit-constructor): a lambda is meant to become an Action silently
-    Action(Callable callable) : invoke_([](void* storage) { (*static_cast<Callable*>(storage))(); }) {
+    Action(const Callable& callable) {
+        *this = callable;
+    }
+    // Stores what the callable captured and nothing else: an Action that is made first and copied then has its unused
+    // bytes copied, too, and those of a fresh one are still on their way to memory, for which the copy would wait.
+    template <typename Callable>
+        requires(!std::is_same_v<std::decay_t<Callable>, Action>)
+    Action& operator=(const Callable& callable) {
         static_assert(sizeof(Callable) <= capacity_bytes, "an event's lambda captures at most 32 bytes");
         static_assert(std::is_trivially_copyable_v<Callable>,
                       "an event's lambda captures only pointers and numbers");
+        invoke_ = [](void* storage) { (*static_cast<Callable*>(storage))(); };
         ::new (static_cast<void*>(storage_)) Callable(callable);
+        return *this;
     }
 
     void operator()() { invoke_(storage_); }

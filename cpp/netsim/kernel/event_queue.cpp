@@ -6,95 +6,16 @@
 
 namespace netsim {
 
-EventHandle EventQueue::push_at_place(SimTime time, Priority priority, Place place, Action action) {
-    std::uint32_t slot;
-    if (free_slots_.empty()) {
-        slot = static_cast<std::uint32_t>(slots_.size());
-        slots_.emplace_back();
-    } else {
-        slot = free_slots_.back();
-        free_slots_.pop_back();
-    }
-    slots_[slot].action = action;
-    const std::uint32_t generation = slots_[slot].generation;
-    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | place;
-    const Key key{time.ps(), order, slot, generation};
-    if (gap_at_top_) {
-        gap_at_top_ = false;
-        heap_.front() = key;
-        sift_down(0);
-    } else {
-        heap_.push_back(key);
-        sift_up(heap_.size() - 1);
-    }
-    ++live_;
-    return EventHandle{slot, generation};
-}
+namespace {
 
-bool EventQueue::is_pending(EventHandle handle) const {
-    return handle.generation != 0 && slots_[handle.slot].generation == handle.generation;
-}
+// From so many events on, those that are due later are better kept apart.
+constexpr std::size_t large_heap = 512;
 
-bool EventQueue::cancel(EventHandle handle) {
-    if (!is_pending(handle)) {
-        return false;
-    }
-    release(handle.slot);
-    if (heap_.size() > 64 && heap_.size() > 2 * live_) {
-        drop_all_dead();
-    }
-    return true;
-}
+}  // namespace
 
-SimTime EventQueue::next_time() {
-    NETSIM_ASSERT(live_ > 0);
-    drop_dead_top();
-    return SimTime::from_ps(heap_.front().time_ps);
-}
-
-Action EventQueue::pop() {
-    NETSIM_ASSERT(live_ > 0);
-    drop_dead_top();
-    const std::uint32_t slot = heap_.front().slot;
-    gap_at_top_ = true;
-    Action action = slots_[slot].action;
-    release(slot);
-    return action;
-}
-
-void EventQueue::release(std::uint32_t slot) {
-    if (++slots_[slot].generation == 0) {
-        slots_[slot].generation = 1;
-    }
-    free_slots_.push_back(slot);
-    --live_;
-}
-
-void EventQueue::drop_dead_top() {
-    close_gap();
-    while (is_dead(heap_.front())) {
-        remove_top();
-    }
-}
-
-void EventQueue::drop_all_dead() {
-    close_gap();
-    std::erase_if(heap_, [this](const Key& key) { return is_dead(key); });
-    for (std::size_t position = heap_.size() / 2; position-- > 0;) {
-        sift_down(position);
-    }
-}
-
-void EventQueue::remove_top() {
-    heap_.front() = heap_.back();
-    heap_.pop_back();
-    if (!heap_.empty()) {
-        sift_down(0);
-    }
-}
-
-void EventQueue::sift_up(std::size_t position) {
-    const Key key = heap_[position];
+// Inlined, so that a key that is new stays in registers: read back from where it was just written in parts, it would
+// wait until all earlier writes are done, and among those are some to memory that is far away.
+[[gnu::always_inline]] inline void EventQueue::sift_up(std::size_t position, EventKey key) {
     while (position > 0) {
         const std::size_t parent = (position - 1) / 2;
         if (!(key < heap_[parent])) {
@@ -106,8 +27,7 @@ void EventQueue::sift_up(std::size_t position) {
     heap_[position] = key;
 }
 
-void EventQueue::sift_down(std::size_t position) {
-    const Key key = heap_[position];
+[[gnu::always_inline]] inline void EventQueue::sift_down(std::size_t position, EventKey key) {
     const std::size_t size = heap_.size();
     for (;;) {
         std::size_t child = 2 * position + 1;
@@ -124,6 +44,113 @@ void EventQueue::sift_down(std::size_t position) {
         position = child;
     }
     heap_[position] = key;
+}
+
+std::uint32_t EventQueue::take_slot() {
+    if (free_slots_.empty()) {
+        slots_.emplace_back();
+        return static_cast<std::uint32_t>(slots_.size() - 1);
+    }
+    const std::uint32_t slot = free_slots_.back();
+    free_slots_.pop_back();
+    return slot;
+}
+
+EventHandle EventQueue::insert(SimTime time, Priority priority, Place place, std::uint32_t slot) {
+    const std::uint32_t generation = slots_[slot].generation;
+    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | place;
+    const EventKey key{time.ps(), order, slot, generation};
+    if (heap_.size() >= large_heap && !far_.is_in_use()) {
+        close_gap();
+        far_.take_all(heap_);
+    }
+    if (far_.is_far(key.time_ps)) {
+        far_.add(key);
+    } else if (gap_at_top_) {
+        gap_at_top_ = false;
+        sift_down(0, key);
+    } else {
+        heap_.emplace_back();
+        sift_up(heap_.size() - 1, key);
+    }
+    ++live_;
+    return EventHandle{slot, generation};
+}
+
+bool EventQueue::is_pending(EventHandle handle) const {
+    return handle.generation != 0 && slots_[handle.slot].generation == handle.generation;
+}
+
+bool EventQueue::cancel(EventHandle handle) {
+    if (!is_pending(handle)) {
+        return false;
+    }
+    release(handle.slot);
+    const std::size_t keys = heap_.size() + far_.size();
+    if (keys > 64 && keys > 2 * live_) {
+        drop_all_dead();
+    }
+    return true;
+}
+
+SimTime EventQueue::next_time() {
+    NETSIM_ASSERT(live_ > 0);
+    find_top();
+    return SimTime::from_ps(heap_.front().time_ps);
+}
+
+Action EventQueue::pop() {
+    NETSIM_ASSERT(live_ > 0);
+    find_top();
+    const std::uint32_t slot = heap_.front().slot;
+    gap_at_top_ = true;
+    Action action = slots_[slot].action;
+    release(slot);
+    return action;
+}
+
+void EventQueue::release(std::uint32_t slot) {
+    if (++slots_[slot].generation == 0) {
+        slots_[slot].generation = 1;
+    }
+    free_slots_.push_back(slot);
+    --live_;
+}
+
+void EventQueue::find_top() {
+    close_gap();
+    for (;;) {
+        if (heap_.empty()) {
+            far_.open_next(heap_);
+            make_heap();
+        }
+        if (!is_dead(heap_.front())) {
+            return;
+        }
+        remove_top();
+    }
+}
+
+void EventQueue::drop_all_dead() {
+    close_gap();
+    const auto is_dead_key = [this](const EventKey& key) { return is_dead(key); };
+    std::erase_if(heap_, is_dead_key);
+    make_heap();
+    far_.erase_if(is_dead_key);
+}
+
+void EventQueue::make_heap() {
+    for (std::size_t position = heap_.size() / 2; position-- > 0;) {
+        sift_down(position, EventKey(heap_[position]));
+    }
+}
+
+void EventQueue::remove_top() {
+    const EventKey last = heap_.back();
+    heap_.pop_back();
+    if (!heap_.empty()) {
+        sift_down(0, last);
+    }
 }
 
 }  // namespace netsim

@@ -3,7 +3,8 @@
 // The order is a contract: by time, then by priority, then by the order of scheduling. An event that is scheduled late
 // can keep a place in that order that was reserved before. Small keys live in a binary heap, what an event does lives
 // in a pool beside it. An event that has been taken out leaves a gap at the top, into which goes what it schedules, as
-// most events schedule their successor. Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
+// most events schedule their successor. Once there are many events, only those due soon are in the heap (far_events.hpp
+// has the others). Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
 // together when they outnumber the living.
 #pragma once
 
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include "netsim/kernel/action.hpp"
+#include "netsim/kernel/event_key.hpp"
+#include "netsim/kernel/far_events.hpp"
 #include "netsim/kernel/sim_time.hpp"
 
 namespace netsim {
@@ -30,13 +33,20 @@ using Place = std::uint64_t;
 
 class EventQueue {
 public:
-    EventHandle push(SimTime time, Priority priority, Action action) {
+    // What is pushed is an Action, or what becomes one.
+    template <typename Callable>
+    EventHandle push(SimTime time, Priority priority, const Callable& action) {
         return push_at_place(time, priority, next_place_++, action);
     }
     // Keeps `count` places in the order of equal times, as if so many events were scheduled now; returns the first.
     Place reserve_places(std::uint64_t count) { return std::exchange(next_place_, next_place_ + count); }
     // At a reserved place; each serves once.
-    EventHandle push_at_place(SimTime time, Priority priority, Place place, Action action);
+    template <typename Callable>
+    EventHandle push_at_place(SimTime time, Priority priority, Place place, const Callable& action) {
+        const std::uint32_t slot = take_slot();
+        slots_[slot].action = action;
+        return insert(time, priority, place, slot);
+    }
 
     // True if the event was pending. O(1) amortised.
     bool cancel(EventHandle handle);
@@ -51,22 +61,14 @@ public:
     Action pop();
 
 private:
-    struct Key {
-        std::int64_t time_ps;
-        std::uint64_t order;  // priority in the top bit, place below
-        std::uint32_t slot;
-        std::uint32_t generation;
-
-        bool operator<(const Key& other) const {
-            return time_ps != other.time_ps ? time_ps < other.time_ps : order < other.order;
-        }
-    };
     struct Slot {
         Action action;
         std::uint32_t generation = 1;
     };
 
-    bool is_dead(const Key& key) const { return slots_[key.slot].generation != key.generation; }
+    bool is_dead(const EventKey& key) const { return slots_[key.slot].generation != key.generation; }
+    std::uint32_t take_slot();
+    EventHandle insert(SimTime time, Priority priority, Place place, std::uint32_t slot);
     void release(std::uint32_t slot);
     void close_gap() {
         if (gap_at_top_) {
@@ -74,13 +76,17 @@ private:
             remove_top();
         }
     }
-    void drop_dead_top();
+    // Sees to it that the next event is at the top.
+    void find_top();
     void drop_all_dead();
-    void sift_up(std::size_t position);
-    void sift_down(std::size_t position);
+    void make_heap();
+    // From a position on that holds nothing, find the one for `key`, which is not in the heap.
+    void sift_up(std::size_t position, EventKey key);
+    void sift_down(std::size_t position, EventKey key);
     void remove_top();
 
-    std::vector<Key> heap_;
+    std::vector<EventKey> heap_;
+    FarEvents far_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> free_slots_;
     Place next_place_ = 0;

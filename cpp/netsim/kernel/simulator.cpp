@@ -1,18 +1,6 @@
 #include "netsim/kernel/simulator.hpp"
 
-#include "netsim/error.hpp"
-
 namespace netsim {
-
-EventHandle Simulator::schedule_at(SimTime time, Action action, Priority priority) {
-    NETSIM_ASSERT(time >= now_);
-    return queue_.push(time, priority, action);
-}
-
-EventHandle Simulator::schedule_at_place(SimTime time, Place place, Action action) {
-    NETSIM_ASSERT(time >= now_);
-    return queue_.push_at_place(time, Priority::normal, place, action);
-}
 
 inline void Simulator::run_next(SimTime time) {
     now_ = time;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "netsim/error.hpp"
 #include "netsim/kernel/event_queue.hpp"
 #include "netsim/kernel/sim_time.hpp"
 
@@ -19,14 +20,23 @@ public:
     std::size_t pending_count() const { return queue_.size(); }
 
     // The caller sees to it that `time` is not in the past.
-    EventHandle schedule_at(SimTime time, Action action, Priority priority = Priority::normal);
-    EventHandle schedule_after(SimTime delay, Action action, Priority priority = Priority::normal) {
+    template <typename Callable>
+    EventHandle schedule_at(SimTime time, const Callable& action, Priority priority = Priority::normal) {
+        NETSIM_ASSERT(time >= now_);
+        return queue_.push(time, priority, action);
+    }
+    template <typename Callable>
+    EventHandle schedule_after(SimTime delay, const Callable& action, Priority priority = Priority::normal) {
         return schedule_at(now_ + delay, action, priority);
     }
     // For events that are scheduled late, or perhaps not at all, but keep the place in the order of equal times that
     // they would have had if they had been scheduled when it was reserved.
     Place reserve_places(std::uint64_t count) { return queue_.reserve_places(count); }
-    EventHandle schedule_at_place(SimTime time, Place place, Action action);
+    template <typename Callable>
+    EventHandle schedule_at_place(SimTime time, Place place, const Callable& action) {
+        NETSIM_ASSERT(time >= now_);
+        return queue_.push_at_place(time, Priority::normal, place, action);
+    }
     bool cancel(EventHandle handle) { return queue_.cancel(handle); }
     bool is_pending(EventHandle handle) const { return queue_.is_pending(handle); }
 

@@ -185,14 +185,21 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
     };
     const int push_weight = 30 + draw(50);
     const int cancel_weight = draw(40);
+    // From so few that all lie in the heap to so many that most do not, and from one instant to hours ahead.
+    const int pushed_first = draw(3000);
+    const std::int64_t most_ahead = std::int64_t{1} << (2 + draw(50));
+    const auto draw_ahead = [&] {
+        const std::int64_t most = draw(2) == 0 ? most_ahead : 50;
+        return static_cast<std::int64_t>(random()) * 0x10001 % most;
+    };
     LoggingQueue events;
     std::multimap<Key, EventHandle> oracle;
     std::vector<EventHandle> spent;
     std::int64_t now = 0;
     for (int name = 0; name < 5000; ++name) {
-        const int choice = draw(130);
+        const int choice = name < pushed_first ? 0 : draw(130);
         if (choice < push_weight) {
-            const SimTime time = at(now + draw(50));
+            const SimTime time = at(now + draw_ahead());
             const Priority priority = draw(4) == 0 ? Priority::last : Priority::normal;
             oracle.emplace(Key{time, priority, name}, events.push(time, priority, name));
         } else if (choice < push_weight + cancel_weight && !oracle.empty()) {
@@ -218,7 +225,7 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, EventQueueOracle, testing::Range(1U, 21U));
+INSTANTIATE_TEST_SUITE_P(Seeds, EventQueueOracle, testing::Range(1U, 61U));
 
 }  // namespace
 }  // namespace netsim

@@ -1,0 +1,19 @@
+// What the queue orders: when an event is due, its place among those of one time, and where its action is kept.
+#pragma once
+
+#include <cstdint>
+
+namespace netsim {
+
+struct EventKey {
+    std::int64_t time_ps = 0;
+    std::uint64_t order = 0;  // priority in the top bit, place below
+    std::uint32_t slot = 0;
+    std::uint32_t generation = 0;
+
+    bool operator<(const EventKey& other) const {
+        return time_ps != other.time_ps ? time_ps < other.time_ps : order < other.order;
+    }
+};
+
+}  // namespace netsim
