@@ -15,6 +15,7 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const 
       energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
       detects_preambles_(!config.preamble_detection.empty()),
+      captures_frames_(!config.frame_capture.empty()),
       sensitivity_w_(config.sensitivity_w),
       band_{config.carrier_hz, config.bandwidth_hz},
       medium_(medium),
@@ -80,13 +81,13 @@ void Radio::transmission_over() {
 }
 
 void Radio::arrival_started(const Arrival& arrival) {
-    present_.push_back(Present{arrival.transmission, arrival.power_w});
+    present_.add({arrival.transmission, arrival.power_w});
     if (arrival.power_w >= sensitivity_w_ && can_decode(*arrival.transmission)) {
         if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ == nullptr) {
             begin_reception(arrival);
-        } else if (frame_capture_.captures(locked_arrival_, arrival)) {
+        } else if (captures_frames_ && frame_capture_.captures(locked_arrival_, arrival)) {
             simulator_.cancel(header_end_);
             book(*std::exchange(locked_, nullptr), FrameFate::captured);
             listener_->frame_corrupted();
@@ -136,6 +137,9 @@ std::vector<Radio::Candidate>::iterator Radio::candidate_of(const Transmission* 
 }
 
 void Radio::drop_candidates(FrameFate fate) {
+    if (!detects_preambles_) {
+        return;
+    }
     for (const Candidate& candidate : candidates_) {
         simulator_.cancel(candidate.detection);
         book(*candidate.arrival.transmission, fate);
@@ -145,7 +149,9 @@ void Radio::drop_candidates(FrameFate fate) {
 
 void Radio::lock_on(const Arrival& arrival) {
     locked_ = arrival.transmission;
-    locked_arrival_ = arrival;
+    if (captures_frames_ || by_chunks_) {
+        locked_arrival_ = arrival;
+    }
     if (by_chunks_) {
         const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator_.now());
         header_end_ = simulator_.schedule_at(end, [this] { end_header(); });
@@ -164,14 +170,11 @@ void Radio::end_header() {
 }
 
 void Radio::arrival_ended(const Arrival& arrival) {
-    const auto ended = std::find_if(present_.begin(), present_.end(), [&arrival](const Present& present) {
-        return present.transmission == arrival.transmission;
-    });
-    NETSIM_ASSERT(ended != present_.end());
-    present_.erase(ended);
+    present_.remove(arrival.transmission);
     if (locked_ == arrival.transmission) {
         end_reception(arrival);
-    } else if (const auto unnoticed = candidate_of(arrival.transmission); unnoticed != candidates_.end()) {
+    } else if (is_candidate(arrival.transmission)) {
+        const auto unnoticed = candidate_of(arrival.transmission);
         simulator_.cancel(unnoticed->detection);
         candidates_.erase(unnoticed);
         book(*arrival.transmission, FrameFate::preamble_undetected);
@@ -257,7 +260,7 @@ void Radio::update_busy() {
     bool busy = transmitting_ || locked_ != nullptr;
     if (!busy && !present_.empty()) {
         double energy_w = noise_w_;
-        for (const Present& present : present_) {
+        for (const PresentArrival& present : present_.all()) {
             if (!is_candidate(present.transmission)) {
                 energy_w += present.power_w;
             }

@@ -34,6 +34,7 @@
 #include "netsim/phy/frame_capture.hpp"
 #include "netsim/phy/modes.hpp"
 #include "netsim/phy/preamble_detection.hpp"
+#include "netsim/phy/present_arrivals.hpp"
 #include "netsim/phy/radio_observer.hpp"
 #include "netsim/phy/reception.hpp"
 
@@ -86,11 +87,6 @@ public:
     void arrival_ended(const Arrival& arrival) override;
 
 private:
-    struct Present {  // an arrival that lasts
-        const Transmission* transmission;
-        double power_w;
-    };
-
     struct Candidate {  // a frame whose beginning is being listened to
         Arrival arrival;
         EventHandle detection;
@@ -101,7 +97,7 @@ private:
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
     bool is_candidate(const Transmission* transmission) {
-        return !candidates_.empty() && candidate_of(transmission) != candidates_.end();
+        return detects_preambles_ && candidate_of(transmission) != candidates_.end();
     }
     void end_detection(const Transmission* transmission);
     void drop_candidates(FrameFate fate);
@@ -121,9 +117,9 @@ private:
     void transmission_over();
     void update_busy();
 
-    // In the order of use: each arrival touches the first two cache lines, and the end of a reception two more. In a large
-    // network they are in no cache, so Medium::fetch has them fetched ahead.
-    std::vector<Present> present_;
+    // In the order of use: the beginning of an arrival touches the first two cache lines, the end of a reception two more. In a
+    // large network they are in no cache, so the medium has them fetched ahead (Medium::fetch).
+    PresentArrivals present_;
     const Transmission* locked_ = nullptr;
     double noise_w_;
     double energy_detection_w_;
@@ -132,16 +128,15 @@ private:
     bool busy_ = false;
     bool by_chunks_ : 1;
     bool detects_preambles_ : 1;
+    bool captures_frames_ : 1;
     bool is_observed_ : 1 = false;
     RadioId id_ = 0;
     double sensitivity_w_;
     Band band_;
-    std::vector<Candidate> candidates_;
     RadioListener* listener_ = nullptr;
 
     Medium& medium_;
     RandomStream reception_draws_;
-    Arrival locked_arrival_;  // if locked on
     ReceptionModel reception_;
     FrameFates& fates_;
     Fingerprint& fingerprint_;
@@ -149,9 +144,11 @@ private:
 
     Simulator& simulator_;
     RadioObserver* observer_ = nullptr;
+    Arrival locked_arrival_;  // if locked on, for the options that ask for it before its end
     FrameCapture frame_capture_;
     PreambleDetection preamble_detection_;
-    EventHandle header_end_;  // SNIR by chunks: pending until the header is decided
+    std::vector<Candidate> candidates_;  // none without preamble detection
+    EventHandle header_end_;             // SNIR by chunks: pending until the header is decided
     double tx_power_w_;
     std::shared_ptr<const ErrorModel> error_model_;
     std::unique_ptr<const AntennaPattern> antenna_;  // null: isotropic
