@@ -223,9 +223,6 @@ void Medium::fetch(RadioId radio, FrameKind kind) const {
     fetch_lines(touched.upper_layer, 1);
     fetch_lines(touched.protocol, 1);
     fates_.fetch(touched.interface.node, kind);
-    if (on_air_.size() > 1) {
-        fetch_lines(receiver.trajectory, 2);
-    }
 }
 
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {

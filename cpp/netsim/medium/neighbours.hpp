@@ -59,6 +59,14 @@ private:
     std::size_t column_of(std::int64_t cell) const {
         return static_cast<std::size_t>(cell) & (columns_ - 1);  // a power of two
     }
+    // Has those of a row brought into the cache; which of them are near is not known before they are there.
+    void fetch_row(std::size_t row, std::size_t first, std::size_t end) const {
+        const Entry* const last = entries_.data() + first_entry_[row * columns_ + end];
+        for (const Entry* entry = entries_.data() + first_entry_[row * columns_ + first]; entry < last;
+             ++entry) {
+            __builtin_prefetch(entry);
+        }
+    }
     template <typename Visitor>
     void visit_row(std::size_t row, std::size_t first, std::size_t end, const Position& centre,
                    double squared_radius_m2, Visitor&& visitor) const;
@@ -101,6 +109,13 @@ void Neighbours::visit(const Position& centre, double radius_m, Visitor&& visito
     }
     const std::int64_t first = cell_of(centre.x - search_m);
     const std::int64_t last = cell_of(centre.x + search_m);
+    if (last - first < rows) {
+        const std::size_t begin = column_of(first);
+        const std::size_t end = std::min(begin + static_cast<std::size_t>(last - first) + 1, columns_);
+        for (std::int64_t row = first_row; row <= last_row; ++row) {
+            fetch_row(column_of(row), begin, end);
+        }
+    }
     for (std::int64_t row = first_row; row <= last_row; ++row) {
         if (last - first >= rows) {
             visit_row(column_of(row), 0, columns_, centre, squared_m2, visitor);
