@@ -93,8 +93,12 @@ void EnergyRing::forget_others(std::size_t count, double level_w, const Reach& r
 template <typename Bound>
 void EnergyRing::add(const Bound& brought_w) {
     ++others_;
+    // Then in the zones farther out, too: there it may bring more, and the transmission less.
+    bool is_strongest = false;
     for (std::size_t i = std::max<std::size_t>(zones_watched_, 1); i < zones_.size(); ++i) {
-        zones_[i].others_w += std::min(zones_[i - 1].least_w, brought_w(zones_[i].reach_m));
+        const double most_w = is_strongest ? infinite : brought_w(zones_[i].reach_m);
+        is_strongest = most_w >= zones_[i - 1].least_w;
+        zones_[i].others_w += std::min(zones_[i - 1].least_w, most_w);
     }
 }
 

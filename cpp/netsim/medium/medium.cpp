@@ -35,6 +35,7 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
     const auto radio = static_cast<RadioId>(attached_.size());
     attached_.push_back(Attached{receiver});
     touched_.push_back(Touched{.interface = interface});
+    outlook_of_.push_back(no_outlook);
     antennas_.add(antenna, *receiver.trajectory);
     if (first_radio_.empty() || touched_[first_radio_.back()].interface.node != interface.node) {
         NETSIM_ASSERT(interface.node == static_cast<NodeId>(first_radio_.size()));
@@ -99,7 +100,6 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.heard.clear();
     entry.started = 0;
     entry.ended = 0;
-    entry.told_later.clear();
     entry.rings.resize(audiences_.size());
     for (EnergyRing& ring : entry.rings) {
         ring.clear();

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/medium/antennas.hpp"
 #include "netsim/medium/background_noise.hpp"
+#include "netsim/medium/energy_forecast.hpp"
 #include "netsim/medium/energy_ring.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/neighbours.hpp"
@@ -44,6 +46,8 @@ struct Receiver {
     double sensitivity_w = 0;       // the least power it can lock on to
     double energy_detection_w = 0;  // noise and signals together that make its channel busy
     double noise_w = 0;             // in its band when nobody sends
+    // So long it may leave out of the energy a frame that it can lock on to.
+    SimTime detection_time = SimTime::from_ps(0);
 };
 
 // Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold
@@ -86,6 +90,9 @@ public:
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
     // check.
     std::size_t remembered_count() const { return on_air_.size(); }
+    // How often the power of a transmission at a radio was worked out for sums of energy: even where very many overlap,
+    // a few times for each pair of them, as tests check.
+    std::uint64_t energy_look_count() const { return energy_looks_; }
 
 private:
     struct alignas(64) Attached {  // in as few cache lines as it takes
@@ -125,16 +132,15 @@ private:
     };
     struct OnAir {
         Transmission transmission;
-        SimTime last_end;                 // at its most distant receiver, or later
-        Place first_place = 0;            // of its arrivals' events, two for each receiver
-        double odometer_m = 0;            // at its start
-        double reach_m = 0;               // nobody locks on to it farther away
-        double others_w = 0;              // within that, at most, of all that are on the air beside it
-        std::vector<Heard> heard;         // by those that notice it alone, in the order of their events
-        std::size_t started = 0;          // of `heard`
-        std::size_t ended = 0;            // of `heard`
-        std::vector<RadioId> told_later;  // receivers to whom it came to matter only with others beside it
-        std::vector<EnergyRing> rings;    // [audience]
+        SimTime last_end;               // at its most distant receiver, or later
+        Place first_place = 0;          // of its arrivals' events, two for each receiver
+        double odometer_m = 0;          // at its start
+        double reach_m = 0;             // nobody locks on to it farther away
+        double others_w = 0;            // within that, at most, of all that are on the air beside it
+        std::vector<Heard> heard;       // by those that notice it alone, in the order of their events
+        std::size_t started = 0;        // of `heard`
+        std::size_t ended = 0;          // of `heard`
+        std::vector<EnergyRing> rings;  // [audience]
     };
     // What a transmission can bring to any of the receivers that are to be watched.
     struct Bound {
@@ -142,14 +148,12 @@ private:
         double most_w;
         double rest_w = 0;  // with those after it
     };
-    // What a receiver gets while it gets one that it does not notice alone.
-    struct Share {
-        OnAir* on_air;
-        Arrival arrival;
-        bool is_told;
-        // Is told, and is no frame that the radio may leave out of the energy while it detects it.
-        bool surely_counts;
-        bool is_end_checked;
+    // Of a receiver for which bounds did not tell that its channel stays idle.
+    struct Outlook {
+        RadioId radio = 0;
+        double missing_w = 0;       // more than that must come before there is somebody to tell of
+        std::uint64_t next_id = 0;  // of the first transmission that it does not know
+        EnergyForecast forecast;
     };
 
     OnAir& put_on_air(Transmission transmission);
@@ -200,19 +204,22 @@ private:
     void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
     void add_to_ring(OnAir& here, OnAir& newest, std::size_t audience);
     // Adds up anew what the others can bring, and watches whoever that calls for.
-    void widen_ring(OnAir& here, OnAir& newest, std::size_t audience);
+    void widen_ring(OnAir& here, OnAir& newest, std::size_t index);
     // A function of the radius: the most that `there`, sent with at most that power, antennas included, brings to
     // receivers within the radius of where `here` began.
     auto most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const;
-    double brought_w(const Transmission& sent, RadioId radio) const {
+    double brought_w(const Transmission& sent, RadioId radio) {
+        ++energy_looks_;
         return sent.radio == radio ? 0 : arrival_at(sent, radio).power_w;
     }
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
-    // Tells the radio of as many as it takes to find its channel busy when it is, from now on, while `strongest` lasts.
-    // Returns what more there must be, while it does, until there is somewhat to tell.
-    double tell_enough(RadioId radio, OnAir& strongest, OnAir& newest);
-    // The same for one moment of those that bring `shares_`. Returns what they bring, 0 if that is told.
-    double tell_enough_at(SimTime moment, RadioId radio);
+    // Tells the radio of as many as it takes to find its channel busy when it is. Returns what more there must be until
+    // there is somewhat to tell. What is worked out once for a radio is kept in its outlook, as the rings of several
+    // transmissions ask for it, and again for each new one.
+    double missing_at(RadioId radio, const OnAir& newest);
+    void foresee(EnergyForecast& forecast, RadioId radio, const Transmission& sent, SimTime now);
+    Outlook& outlook_of(RadioId radio, const OnAir& newest);
+    void take_back_outlooks(SimTime now);
     static bool can_lock_on(const Receiver& receiver, const Transmission& sent, double power_w) {
         return power_w >= receiver.sensitivity_w && sent.band.fits_in(receiver.band);
     }
@@ -243,7 +250,11 @@ private:
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
     std::vector<Bound> bounds_;
-    std::vector<Share> shares_;
+    static constexpr std::uint32_t no_outlook = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> outlook_of_;  // [radio], an index of `outlooks_`, or no_outlook
+    std::deque<Outlook> outlooks_;
+    std::vector<std::uint32_t> spare_outlooks_;
+    std::uint64_t energy_looks_ = 0;
 };
 
 }  // namespace netsim

@@ -3,7 +3,8 @@
 //
 // Each transmission has rings of receivers that it has to watch (energy_ring.hpp), one for each audience. At each of
 // them, as long as the transmission lasts there, one of two things holds at any moment: the radio was told of enough to
-// find its channel busy, or all that is on the air stays below the level, by what the ring says is missing.
+// find its channel busy, or all that is on the air stays below the level, by what the ring says is missing. Where bounds
+// do not tell what is missing, the sum of the powers does (energy_forecast.hpp).
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -76,10 +77,13 @@ void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
             continue;
         }
         // The bound does not tell, perhaps the power does.
-        watched.missing_w -= brought_w(newest.transmission, watched.radio);
-        if (watched.missing_w <= 0) {
-            watched.missing_w = tell_enough(watched.radio, here, newest);
+        if (outlook_of_[watched.radio] == no_outlook) {
+            watched.missing_w -= brought_w(newest.transmission, watched.radio);
+            if (watched.missing_w > 0) {
+                continue;
+            }
         }
+        watched.missing_w = missing_at(watched.radio, newest);
     }
     ring.add(bound_w);
     if (ring.is_too_narrow()) {
@@ -130,12 +134,17 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
         if (squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || radio == sent.radio) {
             return;
         }
+        ++energy_looks_;
         const double received_w = moved_m > 0 || !odometer_.all_stand()
                                       ? arrival_at(sent, radio).power_w
                                       : power_w(sent, share, radio, place, distance(sent.origin, place));
         const Receiver& receiver = attached_[radio].receiver;
         if (received_w < ring.least_power_w() || received_w >= watched_before_w ||
             is_loud(receiver, received_w * (1 - margin))) {
+            return;
+        }
+        if (outlook_of_[radio] != no_outlook) {
+            ring.watched().push_back({radio, missing_at(radio, newest)});
             return;
         }
         // Bounds give way to powers, one after the other, until it is known that something is missing.
@@ -146,7 +155,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
             known_w += brought_w(*bound->transmission, radio);
         }
         const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
-        ring.watched().push_back({radio, missing_w > 0 ? missing_w : tell_enough(radio, here, newest)});
+        ring.watched().push_back({radio, missing_w > 0 ? missing_w : missing_at(radio, newest)});
     });
 }
 
@@ -161,100 +170,77 @@ double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience
            more;
 }
 
-double Medium::tell_enough(RadioId radio, OnAir& strongest, OnAir& newest) {
-    const Receiver& receiver = attached_[radio].receiver;
-    const Arrival here = arrival_at(strongest.transmission, radio);
-    const SimTime begin = std::max(here.start, newest.transmission.start);
-    double all_w = receiver.noise_w;
-    shares_.clear();
-    const auto add = [&](OnAir& other) {
-        const Transmission& sent = other.transmission;
-        if (sent.radio == radio || sent.band.share_in(receiver.band) == 0) {
-            return;
-        }
-        const Arrival there = &other == &strongest ? here : arrival_at(sent, radio);
-        // A radio leaves out a frame that it is detecting, which it then is told of anyway.
-        const bool may_be_left_out = can_lock_on(receiver, sent, there.power_w);
-        // What ends in this very instant does so before the newest can begin, or has done so already.
-        if (there.end < begin || there.end <= newest.transmission.start || there.start > here.end ||
-            (may_be_left_out && is_loud(receiver, there.power_w))) {
-            return;
-        }
-        const bool is_told =
-            is_told_alone(receiver, sent, there.power_w) ||
-            std::find(other.told_later.begin(), other.told_later.end(), radio) != other.told_later.end();
-        shares_.push_back(Share{&other, there, is_told, is_told && !may_be_left_out, false});
-        all_w += there.power_w;
-    };
-    for (OnAir* other : beside_) {
-        add(*other);
+double Medium::missing_at(RadioId radio, const OnAir& newest) {
+    Outlook& outlook = outlook_of(radio, newest);
+    if (outlook.next_id > newest.transmission.id) {
+        return outlook.missing_w;
     }
-    add(newest);
-    const double level_w = receiver.energy_detection_w;
-    if (all_w * (1 + margin) < level_w) {
-        return level_w - all_w * (1 + margin);
-    }
-    // What is told falls short where something begins, or where something that was told ends.
-    double most_w = tell_enough_at(begin, radio);  // of what it is not told
-    const auto tell_within = [&](SimTime moment) {
-        if (moment > begin && moment <= here.end) {
-            most_w = std::max(most_w, tell_enough_at(moment, radio));
-        }
-    };
-    for (const Share& share : shares_) {
-        tell_within(share.arrival.start);
-    }
-    for (bool is_complete = false; !is_complete;) {
-        is_complete = true;
-        for (Share& share : shares_) {
-            if (share.is_told && !share.is_end_checked) {
-                share.is_end_checked = true;
-                is_complete = false;
-                tell_within(share.arrival.end);
-            }
+    const SimTime now = newest.transmission.start;
+    outlook.forecast.begin_at(now);
+    const std::uint64_t first_id = on_air_.front()->transmission.id;
+    for (std::uint64_t id = std::max(outlook.next_id, first_id); id <= newest.transmission.id; ++id) {
+        const OnAir& other = *on_air_[id - first_id];
+        if (other.last_end > now) {
+            foresee(outlook.forecast, radio, other.transmission, now);
         }
     }
-    return level_w - most_w * (1 + margin);
+    outlook.next_id = newest.transmission.id + 1;
+    outlook.missing_w = outlook.forecast.settle(
+        attached_[radio].receiver.energy_detection_w, [&](const EnergyForecast::Coming& coming) {
+            const OnAir& other = *on_air_[coming.transmission - first_id];
+            tell(radio, other, Arrival{&other.transmission, coming.start, coming.end, coming.power_w});
+        });
+    return outlook.missing_w;
 }
 
-// Of those not yet told the strongest first: that takes the fewest. To be told for nothing does no harm.
-double Medium::tell_enough_at(SimTime moment, RadioId radio) {
+void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Transmission& sent, SimTime now) {
     const Receiver& receiver = attached_[radio].receiver;
-    // Where several begin or end in one moment, one after the other, there are instants with some of them and instants
-    // with others: what is told has to be enough without any of them, if all with all of them is too much.
-    int changes = 0;
-    for (const Share& share : shares_) {
-        changes +=
-            static_cast<int>(share.arrival.start == moment) + static_cast<int>(share.arrival.end == moment);
+    if (sent.radio == radio || sent.band.share_in(receiver.band) == 0) {
+        return;
     }
-    const bool is_crowded = changes > 1;
-    for (;;) {
-        double all_w = receiver.noise_w;
-        double told_w = receiver.noise_w;
-        Share* strongest = nullptr;  // of those not told
-        for (Share& share : shares_) {
-            const Arrival& arrival = share.arrival;
-            if (arrival.start > moment || arrival.end < moment || (arrival.end == moment && !is_crowded)) {
-                continue;
-            }
-            all_w += arrival.power_w;
-            if (share.surely_counts && arrival.end > moment && (arrival.start < moment || !is_crowded)) {
-                told_w += arrival.power_w;
-            }
-            if (!share.is_told && (strongest == nullptr || arrival.power_w > strongest->arrival.power_w)) {
-                strongest = &share;
-            }
+    ++energy_looks_;
+    const Arrival arrival = arrival_at(sent, radio);
+    if (arrival.end <= now) {
+        return;
+    }
+    const EnergyForecast::Coming coming{sent.id, arrival.start, arrival.end, arrival.power_w};
+    if (is_told_alone(receiver, sent, arrival.power_w)) {
+        const bool may_be_detected = can_lock_on(receiver, sent, arrival.power_w);
+        forecast.add_told(coming, may_be_detected ? arrival.start + receiver.detection_time : arrival.start,
+                          is_loud(receiver, arrival.power_w));
+    } else {
+        forecast.add_untold(coming);
+    }
+}
+
+Medium::Outlook& Medium::outlook_of(RadioId radio, const OnAir& newest) {
+    if (outlook_of_[radio] == no_outlook) {
+        if (spare_outlooks_.empty()) {
+            take_back_outlooks(newest.transmission.start);
         }
-        if (told_w * (1 - margin) >= receiver.energy_detection_w) {
-            return 0;
+        outlook_of_[radio] = spare_outlooks_.back();
+        spare_outlooks_.pop_back();
+        Outlook& outlook = outlooks_[outlook_of_[radio]];
+        outlook.radio = radio;
+        outlook.next_id = 0;
+        outlook.forecast.begin(attached_[radio].receiver.noise_w);
+    }
+    return outlooks_[outlook_of_[radio]];
+}
+
+// Those in which all is over. What they told is no longer on the air, and what they do not know they did not tell.
+void Medium::take_back_outlooks(SimTime now) {
+    for (std::size_t i = 0; i < outlooks_.size(); ++i) {
+        if (outlooks_[i].forecast.is_over(now)) {
+            outlook_of_[outlooks_[i].radio] = no_outlook;
+            spare_outlooks_.push_back(static_cast<std::uint32_t>(i));
         }
-        if (strongest == nullptr || all_w * (1 + margin) < receiver.energy_detection_w) {
-            return all_w;
-        }
-        strongest->is_told = true;
-        strongest->surely_counts = true;
-        strongest->on_air->told_later.push_back(radio);
-        tell(radio, *strongest->on_air, strongest->arrival);
+    }
+    // More, unless that helps for a while.
+    const std::size_t enough = outlooks_.size() / 8 + 1;
+    while (spare_outlooks_.size() < enough) {
+        spare_outlooks_.push_back(static_cast<std::uint32_t>(outlooks_.size()));
+        outlooks_.emplace_back();
     }
 }
 

@@ -31,7 +31,8 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const 
       antenna_(make_antenna(config.antenna, config.carrier_hz)) {
     reception_ = {error_model_.get(), config.snir_threshold, noise_w_};
     id_ = medium.attach(interface,
-                        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_},
+                        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_,
+                                 preamble_detection_.is_on() ? preamble_detection_.duration() : SimTime()},
                         MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
 }
 

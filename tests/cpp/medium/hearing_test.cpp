@@ -14,6 +14,7 @@
 #include "support/narrowband_scenario.hpp"
 #include "support/random_interfaces.hpp"
 #include "support/random_path_loss.hpp"
+#include "support/random_receivers.hpp"
 #include "support/random_scenario.hpp"
 #include "support/random_surroundings.hpp"
 
@@ -178,6 +179,17 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfa
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_interfaces(test::make_far_flung_scenario(GetParam() * scenarios + i)));
+        if (HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
+TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithOptionsOfTheReceiver) {
+    const std::uint64_t scenarios = 3 * thoroughness();
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(
+            test::with_random_receivers(test::make_far_flung_scenario(GetParam() * scenarios + i)));
         if (HasFatalFailure()) {
             return;
         }

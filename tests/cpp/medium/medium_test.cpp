@@ -1,5 +1,6 @@
 #include "netsim/medium/medium.hpp"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -259,6 +260,34 @@ INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp,
                          [](const auto& param_info) {
                              return param_info.param == Hearing::everything ? "everything" : "what_matters";
                          });
+
+// Very many frames at once, of which it takes some to make a channel busy.
+TEST(Medium, LooksAtEachTransmissionAFewTimesAtEachRadio) {
+    Air air;
+    RadioConfig config = test::radio_of_power(test::power_for(3e-11, light_microsecond_m));
+    config.sensitivity_w = 1e-9;
+    config.energy_detection_w = 1e-10;
+    constexpr int side = 10;
+    std::vector<BareRadio*> senders;
+    std::vector<BareRadio*> listeners;
+    for (int i = 0; i < side * side; ++i) {
+        const int row = i / side;
+        std::vector<BareRadio*>& radios = (i + row) % 2 == 0 ? senders : listeners;
+        config.tx_power_w *= 1.001;
+        radios.push_back(
+            &air.add_radio(Position{0.0 + i % side, 0.0 + row, 0} * light_microsecond_m, config));
+    }
+    for (std::size_t i = 0; i < senders.size(); ++i) {
+        BareRadio& sender = *senders[i * 7 % senders.size()];
+        air.at(us(10 * static_cast<std::int64_t>(i)), [&sender] { sender.send(us(2000)); });
+    }
+    air.run();
+    EXPECT_GT(
+        std::ranges::count_if(
+            listeners, [](const BareRadio* radio) { return !radio->log.times_of(RadioWord::busy).empty(); }),
+        25);
+    EXPECT_LE(air.medium.energy_look_count(), 4 * senders.size() * side * side);
+}
 
 // Notes in which order receivers are told of the end of node 2's frames.
 class EndListener final : public MediumListener {

@@ -1,0 +1,97 @@
+// What the energy in the band of one receiver will be from now on, as far as what is on the air decides it, and how
+// much of that it was told of.
+//
+// Both are functions of time that change where an arrival begins or ends. The receiver finds its channel busy at the
+// right moments if, whenever the sum of all reaches the level, that of what it was told of does so, too: `settle` tells
+// it of as many as that takes. What is known once stays known, so another transmission costs its own power and a few
+// additions. Sums are only added to, never subtracted from: beside 1 W a level of 1e-12 W is lost to rounding.
+//
+// Kept by the medium (medium_energy.cpp) for receivers for which bounds did not tell that the level is not reached.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "netsim/kernel/sim_time.hpp"
+
+namespace netsim {
+
+class EnergyForecast {
+public:
+    struct Coming {
+        std::uint64_t transmission = 0;
+        SimTime start;
+        SimTime end;
+        double power_w = 0;
+    };
+
+    // Nothing is on the air. Keeps its memory.
+    void begin(double noise_w);
+    // What was before `now` is of no interest any more. Of what is added from then on nothing is over.
+    void begin_at(SimTime now);
+    // The receiver was not told of it yet.
+    void add_untold(const Coming& coming);
+    // The receiver is told of it in any case, but may leave it out until `sensed_from`. One that is loud (alone enough) is of
+    // no interest until then: the channel is busy, or without it.
+    void add_told(const Coming& coming, SimTime sensed_from, bool is_loud);
+
+    // Whether all that was added has ended before `now`.
+    bool is_over(SimTime now) const { return steps_.back().time < now; }
+
+    // Tells as many as it takes: calls `tell(coming)` for each. Returns how much more there must be before there is
+    // somewhat to tell again, in W, not positive if that is not known.
+    template <typename Tell>
+    double settle(double level_w, const Tell& tell);
+
+private:
+    // From its time to that of the next step; or, of several changes in one moment, for the instants between them:
+    // then everything counts for `all_w` and nothing for `told_w` that changes there.
+    struct Step {
+        SimTime time;
+        bool is_moment = false;
+        double all_w = 0;
+        double told_w = 0;
+
+        bool is_within(SimTime start, SimTime end) const { return time >= start && time < end; }
+    };
+
+    void change_at(SimTime time);
+    void add_to_all(SimTime start, SimTime end, double power_w);
+    void add_to_told(SimTime start, SimTime end, double power_w);
+    std::optional<Coming> take_strongest_untold(const Step& step);
+
+    SimTime now_;
+    std::vector<Step> steps_;  // by time, moments first; the first one holds just before `now_`
+    std::vector<Coming> untold_;
+};
+
+// Of those not yet told the strongest first: that takes the fewest. To be told for nothing does no harm.
+template <typename Tell>
+double EnergyForecast::settle(double level_w, const Tell& tell) {
+    constexpr double margin = 1e-9;  // for rounding
+    double missing_w = std::numeric_limits<double>::infinity();
+    const bool is_first_over = steps_.size() > 1 && steps_[1].time <= now_;
+    for (std::size_t i = is_first_over ? 1 : 0; i < steps_.size(); ++i) {
+        const Step& step = steps_[i];
+        bool is_told = step.told_w * (1 - margin) >= level_w;
+        while (!is_told && step.all_w * (1 + margin) >= level_w) {
+            const std::optional<Coming> strongest = take_strongest_untold(step);
+            if (!strongest) {
+                break;
+            }
+            add_to_told(strongest->start, strongest->end, strongest->power_w);
+            tell(*strongest);
+            is_told = step.told_w * (1 - margin) >= level_w;
+        }
+        if (!is_told) {
+            missing_w = std::min(missing_w, level_w - step.all_w * (1 + margin));
+        }
+    }
+    return missing_w;
+}
+
+}  // namespace netsim
