@@ -143,7 +143,7 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterface
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    const std::uint64_t scenarios = 3 * thoroughness();
+    const std::uint64_t scenarios = 20 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(test::make_far_flung_scenario(GetParam() * scenarios + i));
         if (HasFatalFailure()) {
@@ -153,7 +153,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
-    const std::uint64_t scenarios = 3 * thoroughness();
+    const std::uint64_t scenarios = 15 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_path_loss(test::make_far_flung_scenario(GetParam() * scenarios + i)));
@@ -164,7 +164,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLos
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
-    const std::uint64_t scenarios = 2 * thoroughness();
+    const std::uint64_t scenarios = 10 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_surroundings(test::make_far_flung_scenario(GetParam() * scenarios + i)));
@@ -175,7 +175,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObs
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
-    const std::uint64_t scenarios = 3 * thoroughness();
+    const std::uint64_t scenarios = 10 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_interfaces(test::make_far_flung_scenario(GetParam() * scenarios + i)));
@@ -186,7 +186,7 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfa
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithOptionsOfTheReceiver) {
-    const std::uint64_t scenarios = 3 * thoroughness();
+    const std::uint64_t scenarios = 10 * thoroughness();
     for (std::uint64_t i = 0; i < scenarios; ++i) {
         expect_same_course(
             test::with_random_receivers(test::make_far_flung_scenario(GetParam() * scenarios + i)));
