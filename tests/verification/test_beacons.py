@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from gradysim.results.run_result import RunResult
-from verification.beacon_network import beacon_network, run_with_seed
 from verification.finding import Finding
 from verification.reference_data import rows
-from verification.reference_run import received_in_error, tracked
+from verification.reference_run import received_in_error, run_reference, tracked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +24,7 @@ SIZES = (50, 100)
 
 @cache
 def result(nodes: int) -> RunResult:
-    return run_with_seed(beacon_network(rows(f"inet_beacons_g24_{nodes}")), 0)
+    return run_reference("beacons", f"Inet{nodes}")
 
 
 def relative(ours: int, theirs: int) -> float:

@@ -1,23 +1,23 @@
 """Beacons whose first sends fall into a short window, so that stations contend: against INET's ten seeds."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING
 
-from verification.beacon_network import beacon_network, run_with_seed
+import gradysim.integrated.run
 from verification.finding import Finding
 from verification.reference_data import rows
-from verification.reference_run import received_in_error, tracked
+from verification.reference_run import load_reference, received_in_error, tracked
 from verification.sampling import least_p, welch_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WINDOWS = {10_000: 50, 2_000: 20}
-"""{window in microseconds: nodes}"""
+WINDOWS = {10_000: "Window10ms", 2_000: "Window2ms"}
+"""{window in microseconds: configuration}"""
 SEEDS = range(100)
 COLUMNS = ("received", "received_in_error")
 MEASURED = [(window_us, column) for window_us in WINDOWS for column in COLUMNS]
@@ -42,8 +42,8 @@ class Samples:
 @cache
 def ours(window_us: int) -> list[tuple[int, int]]:
     """Frames received and received in error by all nodes, for each seed."""
-    scenario = beacon_network(rows(f"inet_window_{window_us}_{WINDOWS[window_us]}"))
-    results = (run_with_seed(scenario, seed) for seed in SEEDS)
+    scenario = load_reference("beacons", WINDOWS[window_us])
+    results = (gradysim.integrated.run.run(replace(scenario, seed=seed)) for seed in SEEDS)
     return [(sum(tracked(result, "received")), received_in_error(result)) for result in results]
 
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from functools import cache
-from pathlib import Path
 
 import pytest
 
@@ -14,8 +13,9 @@ from gradysim.config.native_protocol import NativeProtocol
 from gradysim.config.reader import read_ini
 from gradysim.config.sections import config_names
 from gradysim.results.run_result import RunResult
+from verification.reference_data import rows
+from verification.reference_run import FOLDER, load_reference
 
-FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 BASES = {"Sensitivity", "Noise"}
 COMPLETED = {"link", "narrowband", "narrowband_contention", "saturation"}
 """Files whose General runs only with what the others add."""
@@ -24,16 +24,18 @@ FILES = {
     *("rate_control", "saturation", "sir"),
     "synchronised",
 }
+INCLUDED = ("_circles", "_nodes", "_offsets", "_positions")
+"""How the names of files end that others include."""
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
 
 def runnable() -> list[tuple[str, str]]:
-    """All configurations but those to extend, and General where the others complete it."""
+    """All configurations but those to extend, and but General where the others complete it."""
     return [
         (file.stem, config)
         for file in sorted(FOLDER.glob("*.ini"))
-        for config in config_names(read_ini(file))
-        if not file.stem.endswith("_positions")
+        for config in dict.fromkeys(("General", *config_names(read_ini(file))))
+        if not file.stem.endswith(INCLUDED)
         and config not in BASES
         and (config != "General" or file.stem not in COMPLETED)
     ]
@@ -61,3 +63,20 @@ def test_it_runs(name: str, config: str, mode: str) -> None:
     result = run(scenario)
     assert not result.interrupted
     assert sum(sum(fates.values()) for fates in result.fates["messages"].values()) > 0
+
+
+@pytest.mark.parametrize(
+    ("config", "table"),
+    [
+        ("Inet50", "inet_beacons_g24_50"),
+        ("Inet100", "inet_beacons_g24_100"),
+        ("Window10ms", "inet_window_10000_50"),
+        ("Window2ms", "inet_window_2000_20"),
+    ],
+)
+def test_given_places_and_phases_are_those_of_the_table(config: str, table: str) -> None:
+    nodes = load_reference("beacons", config).nodes
+    assert {node.protocol_parameters["spread"] for node in nodes} == {0}
+    assert [(*node.initial_position[:2], node.protocol_parameters["first_send"]) for node in nodes] == [
+        (float(row["x_m"]), float(row["y_m"]), int(row["first_send_us"]) / 1e6) for row in rows(table)
+    ]
