@@ -24,8 +24,6 @@ FILES = {
     *("rate_control", "saturation", "sir"),
     "synchronised",
 }
-INCLUDED = ("_circles", "_nodes", "_offsets", "_positions")
-"""How the names of files end that others include."""
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
 
@@ -34,10 +32,9 @@ def runnable() -> list[tuple[str, str]]:
     return [
         (file.stem, config)
         for file in sorted(FOLDER.glob("*.ini"))
+        if "sim-time-limit" in file.read_text()  # the others are only there to be included
         for config in dict.fromkeys(("General", *config_names(read_ini(file))))
-        if not file.stem.endswith(INCLUDED)
-        and config not in BASES
-        and (config != "General" or file.stem not in COMPLETED)
+        if config not in BASES and (config != "General" or file.stem not in COMPLETED)
     ]
 
 
