@@ -11,18 +11,18 @@ FOLDER = Path(__file__).parents[2] / "configs" / "reference"
 
 
 def load_reference(
-    name: str, config: str = "General", *, seed: int = 0, overrides: Iterable[str] = ()
+    name: str, config: str = "General", *, run: int = 0, seed: int = 0, overrides: Iterable[str] = ()
 ) -> Scenario:
-    """configs/reference/NAME.ini; `overrides` are lines that come before those of the file."""
-    (scenario,) = load_scenarios(FOLDER / f"{name}.ini", config, overrides=[*overrides, f"seed-set={seed}"])
-    return scenario
+    """One run of configs/reference/NAME.ini; `overrides` are lines that come before those of the file."""
+    file = FOLDER / f"{name}.ini"
+    return load_scenarios(file, config, runs=[run], overrides=[*overrides, f"seed-set={seed}"])[0]
 
 
 def run_reference(
-    name: str, config: str = "General", *, seed: int = 0, overrides: Iterable[str] = ()
+    name: str, config: str = "General", *, run: int = 0, seed: int = 0, overrides: Iterable[str] = ()
 ) -> RunResult:
     """The result of `load_reference` with the same arguments."""
-    return gradysim.integrated.run.run(load_reference(name, config, seed=seed, overrides=overrides))
+    return gradysim.integrated.run.run(load_reference(name, config, run=run, seed=seed, overrides=overrides))
 
 
 def tracked(result: RunResult, variable: str, group: str = "") -> list[int]:

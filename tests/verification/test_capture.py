@@ -5,16 +5,17 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gradysim.config.reader import read_ini
+from gradysim.config.sections import config_names
 from verification.finding import Finding
 from verification.nist import success_probability
 from verification.reference_data import Row, rows
-from verification.reference_run import run_reference, tracked
+from verification.reference_run import FOLDER, run_reference, tracked
 from verification.sampling import fisher_p, least_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-STRONG_DBM = 10.0956
 STRONG_BYTES, WEAK_BYTES = 36, 37
 INTERVAL_S = 0.01
 MPDU_BYTES = 100
@@ -23,22 +24,15 @@ CERTAIN_DIFFERENCES_DB = ("0", "3", "6", "24", "30")
 
 
 @cache
-def measure(
-    config: str, bitrate_mbps: str, offset_us: str, diff_db: str, pairs: int, seed: int
-) -> tuple[int, int]:
-    """Strong and weak frames that the receiver got; the weak one comes `offset_us` after the strong one."""
+def measure(config: str, diff_db: int, pairs: int, seed: int) -> tuple[int, int]:
+    """Strong and weak frames that the receiver got."""
     end_s = 1 + pairs * INTERVAL_S
     result = run_reference(
         "capture",
         config,
+        run=diff_db,
         seed=seed,
-        overrides=[
-            f"**.wlan[*].bitrate = {bitrate_mbps}Mbps",
-            f"*.weak.wlan[*].radio.transmitter.power = {STRONG_DBM - float(diff_db)}dBm",
-            f"*.weak.protocol.first_send = 1s + {offset_us}us",
-            f"**.protocol.stop = {end_s - INTERVAL_S / 2}s",
-            f"sim-time-limit = {end_s}s",
-        ],
+        overrides=[f"**.protocol.stop = {end_s - INTERVAL_S / 2}s", f"sim-time-limit = {end_s}s"],
     )
     assert tracked(result, "sent") == [pairs, pairs]
     (received,), (size,) = (tracked(result, name, "receiver") for name in ("received", "received_bytes"))
@@ -47,9 +41,17 @@ def measure(
     return received - weak, weak
 
 
-def config_of(row: Row, base: str = "") -> str:
-    """The configuration with or without frame capture."""
-    return base + ("FrameCapture" if row["frame_capture"] == "1" else "") or "General"
+def config_of(row: Row) -> str:
+    """The configuration of whose runs, one for each difference, a row is one."""
+    offset_us = int(row["offset_us"])
+    when = f"{'Earlier' if offset_us < 0 else 'Later'}{abs(offset_us)}us" if offset_us else "AtOnce"
+    return f"Rate{row['bitrate_mbps']}{'FrameCapture' if row['frame_capture'] == '1' else ''}{when}"
+
+
+def test_each_row_has_its_run() -> None:
+    configs = {config_of(row) for row in rows("ns3_capture")}
+    assert configs <= set(config_names(read_ini(FOLDER / "capture.ini")))
+    assert len(rows("ns3_capture")) == 31 * len(configs)
 
 
 def certain_rows() -> Iterator[Row]:
@@ -74,7 +76,7 @@ def test_certain_outcomes_are_those_of_ns3(
     different = [
         row
         for row in table
-        if measure(config_of(row), row["bitrate_mbps"], row["offset_us"], row["diff_db"], pairs, seed=0)
+        if measure(config_of(row), int(row["diff_db"]), pairs, seed=0)
         != (pairs * float(row["strong_ratio"]), pairs * float(row["weak_ratio"]))
     ]
     report(
@@ -100,8 +102,7 @@ def test_uncertain_outcomes_are_those_of_ns3(report: Callable[[Finding], None]) 
     ]
     p_values = []
     for index, row in enumerate(table):
-        config = config_of(row, "MeasuredErrorRates")
-        ours = measure(config, "6", row["offset_us"], row["diff_db"], pairs, seed=index)
+        ours = measure(config_of(row), int(row["diff_db"]), pairs, seed=index)
         frames = int(row["frames"])
         for count, ratio in zip(ours, (row["strong_ratio"], row["weak_ratio"]), strict=True):
             p_values.append(fisher_p(count, pairs, round(float(ratio) * frames), frames))
@@ -125,8 +126,7 @@ def draw(path: Path) -> None:
         def draw_panel(axes: "Axes") -> None:
             table = rows("ns3_capture", bitrate_mbps=6, offset_us=offset_us, frame_capture=frame_capture)
             table = [row for row in table if int(row["diff_db"]) <= 12]
-            config = config_of(table[0], "MeasuredErrorRates")
-            ours = [measure(config, "6", offset_us, row["diff_db"], 500, seed=0) for row in table]
+            ours = [measure(config_of(row), int(row["diff_db"]), 500, seed=0) for row in table]
             differences = [int(row["diff_db"]) for row in table]
             for which, column, style in ((0, "strong_ratio", "o"), (1, "weak_ratio", "s")):
                 name = column.partition("_")[0]

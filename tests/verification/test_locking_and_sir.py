@@ -5,10 +5,12 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
 from verification.finding import Finding
 from verification.nist import received_power_w, success_probability
 from verification.reference_data import Row, rows
-from verification.reference_run import received_in_error, run_reference, tracked
+from verification.reference_run import load_reference, received_in_error, run_reference, tracked
 from verification.sampling import fisher_p, least_p
 
 if TYPE_CHECKING:
@@ -22,35 +24,38 @@ MPDU_BYTES = 100
 
 
 @cache
-def measure(
-    rate_mbps: str, weak_distance_m: str, strong_distance_m: str, offset_us: str, seed: int
-) -> tuple[int, int]:
+def measure(config: str, seed: int) -> tuple[int, int]:
     """Frames that the receiver got, and got in error."""
-    start_s, end_s = 1.0, 1 + PAIRS * INTERVAL_S
+    end_s = 1 + PAIRS * INTERVAL_S
     result = run_reference(
         "sir",
+        config,
         seed=seed,
-        overrides=[
-            f"**.wlan[*].bitrate = {rate_mbps}Mbps",
-            f"*.weak.mobility.initialX = -{weak_distance_m}m",
-            f"*.strong.mobility.initialX = {strong_distance_m}m",
-            f"*.strong.protocol.first_send = {start_s}s + {offset_us}us",
-            f"**.protocol.stop = {end_s - INTERVAL_S / 2}s",
-            f"sim-time-limit = {end_s}s",
-        ],
+        overrides=[f"**.protocol.stop = {end_s - INTERVAL_S / 2}s", f"sim-time-limit = {end_s}s"],
     )
     assert tracked(result, "sent") == [PAIRS, PAIRS]
     return tracked(result, "received", "receiver")[0], received_in_error(result)
 
 
+def config_of(row: Row) -> str:
+    """The configuration with the conditions of a row."""
+    sir_db = f"{float(row['sir_db']):g}".replace(".", "_")
+    when = {"-20": "", "0": "AtOnce", "20": "Later"}[row["strong_offset_us"]]
+    return f"Rate{row['bitrate_mbps']}Sir{sir_db}{when}"
+
+
 def measured(index: int, row: Row) -> tuple[int, int]:
-    return measure(
-        row["bitrate_mbps"],
-        row["weak_distance_m"],
-        row["strong_distance_m"],
-        row["strong_offset_us"],
-        seed=index,
-    )
+    return measure(config_of(row), seed=index)
+
+
+def test_each_row_has_its_configuration() -> None:
+    for row in rows("inet_sir"):
+        receiver, weak, strong = load_reference("sir", config_of(row)).nodes
+        assert receiver.initial_position[0] == 0
+        assert -weak.initial_position[0] == float(row["weak_distance_m"])
+        assert strong.initial_position[0] == float(row["strong_distance_m"])
+        starts_s = [float(str(node.protocol_parameters["first_send"])) for node in (weak, strong)]
+        assert starts_s[1] - starts_s[0] == pytest.approx(float(row["strong_offset_us"]) * 1e-6, abs=1e-12)
 
 
 def test_counts_agree_with_inet(
