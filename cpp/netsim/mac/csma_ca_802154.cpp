@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "netsim/error.hpp"
-#include "netsim/mac/frame_802154.hpp"
 #include "netsim/phy/oqpsk_mode.hpp"
 
 namespace netsim {
@@ -37,11 +36,10 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
 }
 
 void CsmaCa802154::send(NodeId destination, Payload payload) {
-    constexpr int longest_bytes = narrowband_mtu_bytes - datagram_bytes(0);
-    if (payload->size() > longest_bytes) {
+    if (payload->size() > longest_message_bytes()) {
         throw SimulationError(
             "a message of " + std::to_string(payload->size()) + " bytes does not fit: the longest is " +
-            std::to_string(longest_bytes) + " bytes (an 802.15.4 frame of " +
+            std::to_string(longest_message_bytes()) + " bytes (an 802.15.4 frame of " +
             std::to_string(narrowband_longest_psdu_bytes) + " bytes less MAC, IPv4 and UDP headers)");
     }
     Frame frame;

@@ -26,12 +26,14 @@
 // and as in ns-3 the wait begins at its end).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
 #include "netsim/config/csma_config.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
+#include "netsim/mac/frame_802154.hpp"
 #include "netsim/mac/link.hpp"
 #include "netsim/mac/tx_queue.hpp"
 #include "netsim/phy/radio.hpp"
@@ -47,6 +49,7 @@ public:
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
     void send(NodeId destination, Payload payload) override;
+    std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
 
 private:

@@ -1,6 +1,5 @@
 #include "netsim/mac/dcf.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -76,11 +75,10 @@ void Dcf::check(const MacConfig& config) {
 }
 
 void Dcf::send(NodeId destination, Payload payload) {
-    const int payload_bytes = static_cast<int>(std::min(payload->size(), std::size_t{1} << 30));
-    if (datagram_bytes(payload_bytes) > mtu_bytes_) {
+    if (payload->size() > longest_message_bytes()) {
         throw SimulationError("a message of " + std::to_string(payload->size()) +
                               " bytes does not fit: the longest is " +
-                              std::to_string(mtu_bytes_ - datagram_bytes(0)) + " bytes (an MTU of " +
+                              std::to_string(longest_message_bytes()) + " bytes (an MTU of " +
                               std::to_string(mtu_bytes_) + " bytes less IPv4 and UDP headers)");
     }
     Frame frame;
@@ -88,7 +86,7 @@ void Dcf::send(NodeId destination, Payload payload) {
     frame.transmitter = radio_.node();
     frame.receiver = destination;
     frame.sequence = next_sequence_++;
-    frame.psdu_bytes = data_psdu_bytes(payload_bytes);
+    frame.psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
     frame.payload = std::move(payload);
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(timing_, modes_, *data_mode_);

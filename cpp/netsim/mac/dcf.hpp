@@ -24,6 +24,7 @@
 // that one whose RTS failed stays silent for as long as the exchange would have taken.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -55,6 +56,7 @@ public:
     static const Mode& broadcast_mode(const MacConfig& config);
 
     void send(NodeId destination, Payload payload) override;
+    std::size_t longest_message_bytes() const override { return mtu_bytes_ - datagram_bytes(0); }
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 

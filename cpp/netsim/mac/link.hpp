@@ -24,8 +24,10 @@ protected:
 class Link {
 public:
     virtual ~Link() = default;
-    // Takes a message for `destination` (broadcast_id: for all in reach). Throws SimulationError if it is too long.
+    // Takes a message for `destination` (broadcast_id: for all in reach). Throws SimulationError if it is longer than
+    // longest_message_bytes().
     virtual void send(NodeId destination, Payload payload) = 0;
+    virtual std::size_t longest_message_bytes() const = 0;
     // Messages that were accepted and are in no other fate yet: a census to check the ledger with.
     virtual std::size_t queued_messages() const = 0;
     // {bitrate in bps: unicast frames sent with it, retries included} of a station that has a rate control.

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "netsim/kernel/fingerprint.hpp"
@@ -36,6 +37,7 @@ public:
 
     // Throws SimulationError, too, if messages that answer each other at one instant never end.
     void send(NodeId destination, Payload payload) override;
+    std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
     std::size_t queued_messages() const override { return 0; }
 
 private:

@@ -1,6 +1,7 @@
 // One node: its protocol above, its mobility and network interface below.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -58,6 +59,8 @@ public:
     void schedule_timer(std::string timer, SimTime time);
     // All pending timers of that name; none is fine.
     void cancel_timer(const std::string& timer);
+    // Through wlan[0].
+    std::size_t longest_message_bytes() { return link(0).longest_message_bytes(); }
     // The protocol's own random numbers: IProvider.random in Python.
     RandomStream& random() { return random_; }
     // Values for the results of the run; they outlive the protocol.

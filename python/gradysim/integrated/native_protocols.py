@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.config.native_protocol import NativeParameter, NativeProtocol
 from gradysim.config.protocol_class import parametrize
+from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.scenario import NodeSpec
 from gradysim.config.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
@@ -33,13 +34,10 @@ def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
     Raises ConfigError, with the place in the .ini file, when a parameter is outside its range.
     """
     values = cast("Mapping[str, bool | int | float]", spec.protocol_parameters)
-    with errors_at(
-        {
-            name: Setting(value, spec.protocol_sources[name])
-            for name, value in values.items()
-            if name in spec.protocol_sources
-        }
-    ):
+    chosen = spec.protocol_sources.get("")
+    sources = dict.fromkeys(parameters_of(spec.protocol), chosen) if chosen else {}  # of the defaults
+    sources |= {name: source for name, source in spec.protocol_sources.items() if name in values}
+    with errors_at({name: Setting(values.get(name), source) for name, source in sources.items()}):
         node.set_native_protocol(spec.protocol.__name__, values)
 
 

@@ -7,6 +7,7 @@ from gradysim.config.error import ConfigError
 from gradysim.config.expression import parse_value
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.protocol_parameters import parameters_of
+from gradysim.config.scenario import load_scenarios
 from gradysim.integrated.native_protocols import native_protocols
 from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import IntegratedRun, run
@@ -50,6 +51,33 @@ def test_a_parameter_out_of_range_is_an_error_at_its_setting(make_scenario):
     with pytest.raises(ConfigError, match=r"interval = 0 s: expected more than 0 s") as error:
         check_scenario(scenario)
     assert error.value.key == "*.uavs[1].protocol.interval"
+
+
+@pytest.mark.parametrize(
+    ("line", "payload_bytes", "longest_bytes", "place"),
+    [
+        (
+            "*.node.protocol.payload_bytes = 2277",
+            2277,
+            2276,
+            "test.ini:4: *.node.protocol.payload_bytes = 2277",
+        ),
+        ("*.node.wlan[*].mac.mtu = 127B", 100, 99, "test.ini:3: *.node.protocol.typename"),
+    ],
+)
+def test_a_message_that_the_interface_cannot_send_is_refused_before_the_run(
+    tmp_path, line, payload_bytes, longest_bytes, place
+):
+    path = tmp_path / "test.ini"
+    path.write_text(
+        f'[General]\nsim-time-limit = 9s\n*.node.protocol.typename = "BeaconProtocol"\n{line}\n'
+        "*.node.mobility.initialX = 0m\n"
+    )
+    (scenario,) = load_scenarios(path)
+    with pytest.raises(ConfigError) as error:
+        check_scenario(scenario)
+    assert place in str(error.value)
+    assert f"payload_bytes = {payload_bytes} B: expected from 0 B to {longest_bytes} B" in str(error.value)
 
 
 def test_prototype_mode_names_the_class_to_use(make_scenario):

@@ -12,7 +12,6 @@ void BeaconConfig::validate() const {
     check_at_least("protocol.spread", spread_s, 0, "s");
     check_greater("protocol.interval", interval_s, 0, "s");
     check_finite("protocol.stop", stop_s, "s");
-    check_payload_bytes(payload_bytes);
 }
 
 BeaconProtocol::BeaconProtocol(Node& node, const BeaconConfig& config)

@@ -12,7 +12,7 @@ struct BeaconConfig {
     double spread_s = 0.0;      // ≥ 0
     double interval_s = 1.0;    // > 0
     double stop_s = 60.9;
-    std::int64_t payload_bytes = 100;  // ≥ 0
+    std::int64_t payload_bytes = 100;  // ≥ 0, at most what the node can send
 
     void validate() const;
 };

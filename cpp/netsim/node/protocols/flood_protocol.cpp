@@ -36,7 +36,6 @@ void FloodConfig::validate() const {
     check_finite("protocol.stop", stop_s, "s");
     check_at_least("protocol.jitter", jitter_s, 0, "s");
     check_between("protocol.hop_limit", static_cast<double>(hop_limit), 1, most, "");
-    check_payload_bytes(payload_bytes);
 }
 
 NativeProtocol FloodProtocol::description() {

@@ -17,7 +17,7 @@ struct FloodConfig {
     double stop_s = 60.9;
     double jitter_s = 0.01;            // ≥ 0
     std::int64_t hop_limit = 16;       // ≥ 1
-    std::int64_t payload_bytes = 100;  // ≥ 0
+    std::int64_t payload_bytes = 100;  // ≥ 0, at most what the node can send
 
     void validate() const;
 };

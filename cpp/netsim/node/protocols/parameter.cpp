@@ -1,5 +1,8 @@
 #include "netsim/node/protocols/parameter.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "netsim/config/check.hpp"
 #include "netsim/config/nearest_name.hpp"
 #include "netsim/error.hpp"
@@ -20,8 +23,16 @@ void refuse_kind_of_parameter(std::string_view parameter, const ParameterValue& 
                       std::string(kinds[expected.index()]));
 }
 
-void check_payload_bytes(std::int64_t payload_bytes) {
-    check_between("protocol.payload_bytes", static_cast<double>(payload_bytes), 0, 65'507, "B");
+void check_payload_bytes(Node& node, std::int64_t payload_bytes) {
+    constexpr std::size_t longest_in_udp_bytes = 65'507;
+    const std::size_t longest_bytes = std::min(node.longest_message_bytes(), longest_in_udp_bytes);
+    try {
+        check_between("protocol.payload_bytes", static_cast<double>(payload_bytes), 0,
+                      static_cast<double>(longest_bytes), "B");
+    } catch (const ConfigError& error) {
+        throw ConfigError(std::string(error.what()) + ", the longest message of " + node.name() +
+                          " (what its wlan[0] takes, less IPv4 and UDP headers)");
+    }
 }
 
 }  // namespace netsim

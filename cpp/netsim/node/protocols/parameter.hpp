@@ -55,10 +55,11 @@ struct ParameterField {
                                            const std::vector<std::string_view>& names);
 [[noreturn]] void refuse_kind_of_parameter(std::string_view parameter, const ParameterValue& expected);
 
-// For validate(): a size of a message that fits into any MTU, 0 … 65,507 B (the largest UDP payload).
-void check_payload_bytes(std::int64_t payload_bytes);
+// For a size of messages, from 0 to what the node's wlan[0] takes, and at most 65,507 B (the largest UDP payload).
+void check_payload_bytes(Node& node, std::int64_t payload_bytes);
 
-// A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults and validate().
+// A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults and validate(), which
+// leaves a field `payload_bytes` to the check above: how long a message may be is up to the node.
 template <typename Type, typename Config>
 NativeProtocol native_protocol(std::string_view name, std::string_view meaning, std::string_view python_class,
                                std::vector<ParameterField<Config>> fields) {
@@ -98,6 +99,9 @@ NativeProtocol native_protocol(std::string_view name, std::string_view meaning, 
             }
         }
         config.validate();
+        if constexpr (requires { config.payload_bytes; }) {
+            check_payload_bytes(node, config.payload_bytes);
+        }
         return std::make_unique<Type>(node, config);
     };
     return row;

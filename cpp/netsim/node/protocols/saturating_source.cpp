@@ -11,7 +11,6 @@ namespace netsim {
 void SaturatingSourceConfig::validate() const {
     constexpr double most = std::numeric_limits<NodeId>::max();
     check_between("protocol.destination", static_cast<double>(destination), 0, most, "");
-    check_payload_bytes(payload_bytes);
     check_between("protocol.burst", static_cast<double>(burst), 1, most, "");
     check_greater("protocol.interval", interval_s, 0, "s");
     check_at_least("protocol.spread", spread_s, 0, "s");

@@ -9,7 +9,7 @@ namespace netsim {
 
 struct SaturatingSourceConfig {
     std::int64_t destination = 0;       // a node's id
-    std::int64_t payload_bytes = 1000;  // ≥ 0
+    std::int64_t payload_bytes = 1000;  // ≥ 0, at most what the node can send
     std::int64_t burst = 4;             // ≥ 1
     double interval_s = 0.001;          // > 0
     double spread_s = 0;                // ≥ 0

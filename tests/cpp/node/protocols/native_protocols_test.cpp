@@ -67,6 +67,49 @@ TEST_F(NativeProtocols, AValueOfAnotherKindIsRefused) {
               "protocol.interval: expected a number");
 }
 
+// The error of each protocol that has messages of a size to choose, if they are one byte longer than the longest; none may
+// have one for the longest.
+class LongestMessage : public testing::Test {
+protected:
+    static void expect_limit(const MediumConfig& medium, const NodeConfig& config,
+                             std::int64_t longest_bytes) {
+        Network network(medium, 1);
+        Node& node = network.add_node(config);
+        int protocols = 0;
+        for (const NativeProtocol& protocol : native_protocols()) {
+            for (const Parameter& parameter : protocol.parameters) {
+                if (parameter.name == "payload_bytes") {
+                    ++protocols;
+                    EXPECT_NO_THROW(protocol.make(node, {{"payload_bytes", longest_bytes}})) << protocol.name;
+                    EXPECT_EQ(
+                        error_text([&] { protocol.make(node, {{"payload_bytes", longest_bytes + 1}}); }),
+                        "protocol.payload_bytes = " + std::to_string(longest_bytes + 1) +
+                            " B: expected from 0 B to " + std::to_string(longest_bytes) +
+                            " B, the longest message of node (what its wlan[0] takes, less IPv4 and UDP "
+                            "headers)")
+                        << protocol.name;
+                }
+            }
+        }
+        EXPECT_GE(protocols, 3);
+    }
+};
+
+TEST_F(LongestMessage, IsWhatTheMtuTakes) {
+    expect_limit(MediumConfig(), NodeConfig("node"), 2276);
+    NodeConfig narrow("node");
+    narrow.wlan[0].mac.mtu_bytes = 500;
+    expect_limit(MediumConfig(), narrow, 472);
+}
+
+TEST_F(LongestMessage, IsWhatAFrameOf802154Takes) {
+    expect_limit(MediumConfig(), NodeConfig("node", {std::string(ieee802154_interface)}), 90);
+}
+
+TEST_F(LongestMessage, IsThatOfUdpWithoutRadios) {
+    expect_limit(MediumConfig(std::string(unit_disk_medium)), NodeConfig("node"), 65'507);
+}
+
 TEST_F(NativeProtocols, AValueOutOfRangeIsRefused) {
     EXPECT_EQ(error_of("BeaconProtocol", {{"interval", 0.0}}),
               "protocol.interval = 0 s: expected more than 0 s");
