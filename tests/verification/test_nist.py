@@ -1,8 +1,15 @@
 """The closed form, at values that follow from it by hand."""
 
+from collections.abc import Callable
+
 import pytest
 
-from verification.nist import OFDM_RATES_MBPS, received_power_w, success_probability
+from verification.finding import Finding
+from verification.nist import OFDM_RATES_MBPS, bit_error, received_power_w, success_probability
+from verification.reference_data import rows
+
+NS3_MODES = {"DsssRate1Mbps": (1.0, 22 / 2), "ErpOfdmRate6Mbps": (6.0, 1.0), "ErpOfdmRate24Mbps": (24.0, 1.0)}
+"""{ns-3's mode: (rate in Mbps, our SNIR over its: at 1 Mbps it takes bandwidth over bitrate, we take 2)}"""
 
 
 @pytest.mark.parametrize("rate_mbps", OFDM_RATES_MBPS)
@@ -25,3 +32,22 @@ def test_the_powers_of_the_reference_runs_give_one_half_at_50_m(rate_mbps: float
 
 def test_80_81_microwatts_are_85_dbm_below_a_milliwatt_at_50_m() -> None:
     assert received_power_w(80.81e-6, 50.0) == pytest.approx(10**-8.5 * 1e-3, rel=1e-4)
+
+
+def test_bit_errors_are_those_of_ns3(report: Callable[[Finding], None]) -> None:
+    worst = 0.0
+    for row in rows("ns3_error_model"):
+        rate_mbps, factor = NS3_MODES[row["mode"]]
+        snir = 10 ** (float(row["snr_db"]) / 10) * factor
+        ours, theirs = (1 - bit_error(rate_mbps, snir)) ** (8 * int(row["psdu_bytes"])), float(row["success"])
+        worst = max(worst, abs(ours - theirs) / theirs if theirs else ours)
+    report(
+        Finding(
+            "NIST error model at 1, 6 and 24 Mbps, 100 B and 1000 B, -12 dB to 30 dB, closed form against "
+            "ns-3",
+            f"success differs by at most {worst:.1g} of it at {len(rows('ns3_error_model'))} points",
+            "1e-9",
+            "nothing is random; ns-3 prints ten digits. A test of the engine in C++ has the same points",
+            worst <= 1e-9,
+        )
+    )
