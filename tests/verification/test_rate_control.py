@@ -3,12 +3,17 @@
 from collections.abc import Callable
 from functools import cache
 from math import pi
+from pathlib import Path
 from statistics import fmean
+from typing import TYPE_CHECKING
 
 from verification.finding import Finding
 from verification.nist import SPEED_OF_LIGHT_MPS
 from verification.reference_data import rows
 from verification.reference_run import run_reference, tracked
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MEASURED_S = 5.0
 LOSS_AT_0_DB = 16.0206 + 93.966
@@ -88,3 +93,28 @@ def test_minstrel_lies_between_ns3_and_the_best_fixed_rate(report: Callable[[Fin
             below_ns3 >= -0.03 and min(of_best.values()) >= 0.9 and max(of_best.values()) <= 1.01,
         )
     )
+
+
+def test_picture(picture: Callable[[str, Callable[[Path], None]], None]) -> None:
+    picture("rate_control.png", draw)
+
+
+def draw(path: Path) -> None:
+    from verification.figure import MODEL, NS3, OURS, save
+
+    def panel(control: str) -> "Callable[[Axes], None]":
+        def draw_panel(axes: "Axes") -> None:
+            ns3, best = ns3_mbps(control), ns3_mbps("fixed")
+            axes.plot(
+                *zip(*best.items(), strict=True), "--", color=MODEL, lw=1.2, label="best fixed rate, ns-3"
+            )
+            axes.plot(*zip(*ns3.items(), strict=True), "^", color=NS3, ms=7, mfc="none", label="ns-3 3.44")
+            ours = [throughput_mbps(CONFIGS[control], snr_db) for snr_db in ns3]
+            axes.plot(list(ns3), ours, "x-", color=OURS, ms=5, lw=0.8, label="gradysim")
+            axes.set(xlabel="signal to noise (dB)", ylabel="throughput (Mbps of payload)")
+            axes.set_title(f"{CONFIGS[control]}RateControl", fontsize=9)
+            axes.legend(fontsize=7.5)
+
+        return draw_panel
+
+    save(path, "One station with a rate control, 802.11a, 1000 B payloads", *map(panel, CONFIGS))
