@@ -31,13 +31,15 @@ RECEIVER_KEYS: tuple[Key, ...] = (
         "errorModel.berTableFile",
         "ber_table_file",
         file_name(),
-        "CSV of packet success over SNIR, seen from the .ini file",
+        "CSV of packet success over SNIR, seen from the .ini file; its format is this project's"
+        " (docs/guides/receivers.md)",
     ),
     _own(
         "errorModel.snirMode",
         "snir_mode",
         choice("min", "chunks"),
-        "What decides about a frame: its least SNIR, or that of every stretch of time for its part",
+        "What decides about a frame: its least SNIR, or that of every stretch of time for its part, the"
+        " preamble left out (docs/guides/receivers.md)",
     ),
     _thermal_noise("noiseFigure", "noise_figure", power_ratio(), "what the receiver adds to it"),
     _own(

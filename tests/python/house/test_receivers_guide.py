@@ -1,0 +1,31 @@
+"""What docs/guides/receivers.md shows is understood, file and lines."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+import gradysim.integrated.run
+from gradysim.config.scenario import load_scenarios
+from gradysim.integrated.scenario_warnings import scenario_warnings
+
+
+@pytest.fixture
+def guide(root: Path) -> str:
+    return (root / "docs/guides/receivers.md").read_text(encoding="utf-8")
+
+
+def test_its_lines_and_its_table_run(root: Path, guide: str, tmp_path: Path) -> None:
+    ((lines,), (table,)) = (
+        re.findall(rf"^```{kind}\n(.*?)^```", guide, re.MULTILINE | re.DOTALL) for kind in ("ini", "csv")
+    )
+    (tmp_path / "rates.csv").write_text(table)
+    file = tmp_path / "all.ini"
+    file.write_text(f"[General]\n{lines}\ninclude {root}/configs/reference/jittered.ini\n")
+    (scenario,) = load_scenarios(file, overrides=["sim-time-limit = 2.1s"])
+    assert not scenario_warnings(scenario)
+    fates = gradysim.integrated.run.run(scenario).fates["frames"]["broadcast"]
+    assert fates["delivered"] > 0
+    assert fates["preamble_undetected"] > 0
