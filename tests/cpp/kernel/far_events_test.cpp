@@ -122,10 +122,10 @@ TEST_P(FarEventsInOrder, BatchesFollowEachOther) {
             ASSERT_TRUE(opened.empty() || opened.back() <= key.time_ps);
             opened.push_back(key.time_ps);
         }
-        const std::int64_t later = opened.back() + static_cast<std::int64_t>(random() % most / 4);
-        if (random() % 2 == 0 && far.is_far(later)) {
-            far.add(EventKey{.time_ps = later});
-            times.push_back(later);
+        const auto wait = static_cast<std::int64_t>(random() % most / 4);
+        if (random() % 2 == 0 && wait <= end_of_time - opened.back() && far.is_far(opened.back() + wait)) {
+            far.add(EventKey{.time_ps = opened.back() + wait});
+            times.push_back(opened.back() + wait);
         }
         if (times.size() > 5000) {
             break;
