@@ -144,8 +144,8 @@ private:
     };
     // What a transmission can bring to any of the receivers that are to be watched.
     struct Bound {
-        const Transmission* transmission;
-        double most_w;
+        const Transmission* transmission = nullptr;
+        double most_w = 0;
         double rest_w = 0;  // with those after it
     };
     // Of a receiver for which bounds did not tell that its channel stays idle.

@@ -53,7 +53,7 @@ TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
 }
 
 // Of 22 MHz, channels that are 15 MHz apart share 7.
-RadioConfig three_channels_up(RadioConfig config = {}) {
+RadioConfig three_channels_up(RadioConfig config = RadioConfig()) {
     config.carrier_hz += 15e6;
     return config;
 }
