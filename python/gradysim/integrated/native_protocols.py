@@ -37,7 +37,7 @@ def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
     chosen = spec.protocol_sources.get("")
     sources = dict.fromkeys(parameters_of(spec.protocol), chosen) if chosen else {}  # of the defaults
     sources |= {name: source for name, source in spec.protocol_sources.items() if name in values}
-    with errors_at({name: Setting(values.get(name), source) for name, source in sources.items()}):
+    with errors_at({name: Setting(values.get(name, ""), source) for name, source in sources.items()}):
         node.set_native_protocol(spec.protocol.__name__, values)
 
 
