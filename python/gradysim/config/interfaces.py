@@ -5,12 +5,15 @@ for all of them.
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
+from gradysim.config.bands import BAND, CHANNELS
 from gradysim.config.groups import Group
 from gradysim.config.interface_spec import STRUCTS, InterfaceSpec
 from gradysim.config.key import Key
 from gradysim.config.keys import WLAN_KEYS
 from gradysim.config.keys.interface import NUM_WLAN_INTERFACES, at_interface
+from gradysim.config.keys.radio import BAND_NAME, CHANNEL_NUMBER
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.setting import SettingReader
 from gradysim.config.struct_reader import read_struct
@@ -55,9 +58,19 @@ class InterfaceBuilder:
         known = tuple((key.path, entry) for key, entry in found.items())
         spec = self._known.get(known)
         if spec is None:
-            structs = {struct: read_struct(struct, found, self._settings) for struct in STRUCTS}
+            in_band = self._in_its_band(found)
+            structs = {struct: read_struct(struct, in_band, self._settings) for struct in STRUCTS}
             spec = self._known[known] = InterfaceSpec(**structs, range_sets_power=_range_comes_first(found))
         return spec
+
+    def _in_its_band(self, found: Mapping[Key, Found]) -> Mapping[Key, Found]:
+        """Read a channel's number as one of the band beside it, which then says nothing of its own."""
+        band, channel = found.get(BAND_NAME), found.get(CHANNEL_NUMBER)
+        if band is None or channel is None or band.is_default or channel.is_default:
+            return found
+        name = str(self._settings.scalar(band.entry, BAND))
+        of_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
+        return {**of_band, replace(CHANNEL_NUMBER, kind=CHANNELS[name]): channel}
 
 
 def _range_comes_first(found: Mapping[Key, Found]) -> bool:

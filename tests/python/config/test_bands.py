@@ -1,0 +1,36 @@
+"""Bands and the centres of their channels."""
+
+import pytest
+
+from gradysim.config.bands import CHANNELS, first_channel_of_band
+from gradysim.config.error import BadValue
+from gradysim.config.expression import parse_value
+
+
+@pytest.mark.parametrize(
+    ("band", "first_mhz", "last", "last_mhz"),
+    [
+        ("2.4 GHz", 2412, 13, 2484),
+        ("5 GHz", 5002.5, 199, 5997.5),
+        ("5 GHz (20 MHz)", 5010, 24, 5490),
+        ("5 GHz (40 MHz)", 5020, 11, 5460),
+        ("5 GHz (80 MHz)", 5040, 4, 5360),
+        ("5 GHz (160 MHz)", 5080, 1, 5240),
+        ("5.9 GHz", 5860, 6, 5920),
+    ],
+)
+def test_first_and_last_channel(band: str, first_mhz: float, last: int, last_mhz: float) -> None:
+    assert CHANNELS[band].convert(parse_value("0")) == first_mhz * 1e6
+    assert CHANNELS[band].convert(parse_value(str(last))) == last_mhz * 1e6
+    with pytest.raises(BadValue):
+        CHANNELS[band].convert(parse_value(str(last + 1)))
+
+
+def test_a_band_alone_is_its_first_channel() -> None:
+    assert first_channel_of_band().convert(parse_value('"5 GHz (20 MHz)"')) == 5.01e9
+
+
+def test_the_nearest_name_is_suggested() -> None:
+    with pytest.raises(BadValue) as caught:
+        first_channel_of_band().convert(parse_value('"5 GHz (20MHz)"'))
+    assert "5 GHz (20 MHz)" in caught.value.suggestion
