@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <ranges>
 
 #include "netsim/medium/medium.hpp"
 
@@ -124,9 +123,8 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
     // The largest bounds are those of the nearest, and the farthest from the truth.
     std::ranges::sort(bounds_, std::greater(), &Bound::most_w);
     double rest_w = 0;
-    for (Bound& bound : bounds_ | std::views::reverse) {
-        rest_w = bound.rest_w = rest_w + bound.most_w;
-    }
+    std::for_each(bounds_.rbegin(), bounds_.rend(),
+                  [&](Bound& bound) { rest_w = bound.rest_w = rest_w + bound.most_w; });
     const double share = sent.band.share_in(audience.band);
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
