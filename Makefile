@@ -48,7 +48,7 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 	cmake --build build/fuzz
 	@mkdir -p build/fuzz/corpus
 	build/fuzz/netsim_fuzzer build/fuzz/corpus -artifact_prefix=build/fuzz/ -max_total_time=$(FUZZ_SECONDS) \
-	  -timeout=20 -max_len=2000 -verbosity=0 -print_final_stats=1
+	  -timeout=20 -max_len=2000 -len_control=0 -verbosity=0 -print_final_stats=1
 
 lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
 
