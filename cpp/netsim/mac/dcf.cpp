@@ -63,6 +63,7 @@ const Mode& Dcf::broadcast_mode(const MacConfig& config) {
 
 void Dcf::check(const MacConfig& config) {
     const ModeSet& modes = mode_set(config.op_mode);
+    modes.mode_for_bitrate(config.bitrate_bps);
     initial_mode(config);
     broadcast_mode(config);
     rts_mode(config, modes);

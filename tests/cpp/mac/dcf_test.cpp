@@ -445,6 +445,12 @@ TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnError) {
     EXPECT_THROW(Dcf::check(mac), ConfigError);
 }
 
+TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
+    MacConfig mac = mac_of("b", 24e6);
+    mac.multicast_bitrate_bps = mac.initial_rate_bps = 2e6;
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+}
+
 TEST(DcfCheck, AWindowBeyondThatOfTheModeIsAnError) {
     MacConfig mac;
     mac.cw_min = 2000;  // the mode's largest is 1023
