@@ -33,11 +33,15 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
 
 RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna) {
     const auto radio = static_cast<RadioId>(attached_.size());
-    attached_.push_back(Attached{receiver});
-    touched_.push_back(Touched{.interface = interface});
+    receivers_.push_back(receiver);
+    attached_.push_back(Attached{.listener = receiver.listener,
+                                 .sensitivity_w = receiver.sensitivity_w,
+                                 .energy_detection_w = receiver.energy_detection_w,
+                                 .noise_w = receiver.noise_w,
+                                 .interface = interface});
     outlook_of_.push_back(no_outlook);
     antennas_.add(antenna, *receiver.trajectory);
-    if (first_radio_.empty() || touched_[first_radio_.back()].interface.node != interface.node) {
+    if (first_radio_.empty() || attached_[first_radio_.back()].interface.node != interface.node) {
         NETSIM_ASSERT(interface.node == static_cast<NodeId>(first_radio_.size()));
         first_radio_.push_back(radio);
         odometer_.watch(*receiver.trajectory, simulator_.now());
@@ -48,10 +52,11 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
     const double least_w = std::min(receiver.sensitivity_w, energy_w);
     const int keenness = least_w > 0 ? std::ilogb(least_w) / 2 : std::numeric_limits<int>::min();
     auto audience = std::find_if(audiences_.begin(), audiences_.end(), [&](const Audience& other) {
-        return other.keenness == keenness && other.band == receiver.band;
+        return other.keenness == keenness && other.band == receiver.band && other.formats == receiver.formats;
     });
     if (audience == audiences_.end()) {
         audiences_.push_back(Audience{.band = receiver.band,
+                                      .formats = receiver.formats,
                                       .keenness = keenness,
                                       .least_w = least_w,
                                       .least_energy_w = energy_w,
@@ -91,7 +96,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.transmission = std::move(transmission);
     entry.transmission.id = next_id_++;
     entry.transmission.start = now;
-    entry.transmission.origin = attached_[entry.transmission.radio].receiver.trajectory->position_at(now);
+    entry.transmission.origin = receivers_[entry.transmission.radio].trajectory->position_at(now);
     entry.last_end = now;
     entry.reach_m = 0;
     entry.others_w = 0;
@@ -114,13 +119,13 @@ void Medium::tell_everybody(OnAir& entry) {
     CopyCount addressed;
     CopyCount overheard;
     for (RadioId radio = 0; radio < static_cast<RadioId>(attached_.size()); ++radio) {
-        const Receiver& receiver = attached_[radio].receiver;
+        const Receiver& receiver = receivers_[radio];
         if (radio == sent.radio || sent.band.share_in(receiver.band) == 0) {
             continue;
         }
         const Arrival arrival = arrival_at(sent, radio);
-        if (sent.band.fits_in(receiver.band)) {
-            CopyCount& count = sent.label.is_for(touched_[radio].interface.node) ? addressed : overheard;
+        if (can_decode(receiver, sent)) {
+            CopyCount& count = sent.label.is_for(attached_[radio].interface.node) ? addressed : overheard;
             ++count.made;
             if (arrival.power_w < receiver.sensitivity_w) {
                 ++count.too_weak;
@@ -146,7 +151,8 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         if (share == 0) {
             continue;
         }
-        copies += sent.band.fits_in(audience.band) ? audience.members.size() : 0;
+        const bool is_decodable = can_decode(audience, sent);
+        copies += is_decodable ? audience.members.size() : 0;
         const double within_m = reach_m(audience, sent);
         audience.members.prepare(now, odometer_, within_m);
         entry.reach_m = std::max(entry.reach_m, within_m);
@@ -156,19 +162,19 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             const double squared_m2 = squared_distance(sent.origin, place);
             if (squared_m2 <= within_m * within_m && radio != sent.radio) {
                 __builtin_prefetch(&attached_[radio]);
-                __builtin_prefetch(&touched_[radio]);
                 candidates_.push_back(Candidate{radio, place, squared_m2});
             }
         });
         for (const auto& [radio, place, squared_m2] : candidates_) {
-            const Receiver& receiver = attached_[radio].receiver;
+            const Attached& there = attached_[radio];
             const double distance_m = std::sqrt(squared_m2);
             const double received_w = power_w(sent, share, radio, place, distance_m);
-            if (can_lock_on(receiver, sent, received_w)) {
+            const bool can_lock = is_decodable && received_w >= there.sensitivity_w;
+            if (can_lock) {
                 ++noticed_copies;
                 addressee_notices |= radio == addressee;
             }
-            if (is_told_alone(receiver, sent, received_w)) {
+            if (can_lock || is_loud(there, received_w)) {
                 fetch(radio, sent.label.kind);
                 entry.heard.push_back(Heard{now + propagation_delay(distance_m), radio, received_w});
             }
@@ -203,9 +209,9 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
         return -1;
     }
     const auto count = static_cast<RadioId>(attached_.size());
-    for (RadioId radio = first_radio_[node]; radio < count && touched_[radio].interface.node == node;
+    for (RadioId radio = first_radio_[node]; radio < count && attached_[radio].interface.node == node;
          ++radio) {
-        if (radio != transmission.radio && transmission.band.fits_in(attached_[radio].receiver.band)) {
+        if (radio != transmission.radio && can_decode(receivers_[radio], transmission)) {
             return radio;
         }
     }
@@ -216,19 +222,17 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
 void Medium::fetch(RadioId radio, FrameKind kind) const {
     constexpr std::ptrdiff_t radio_lines = 4;
     constexpr std::ptrdiff_t link_lines = 2;
-    const Receiver& receiver = attached_[radio].receiver;
-    fetch_lines(receiver.listener, radio_lines);
-    const Touched& touched = touched_[radio];
-    fetch_lines(touched.link, link_lines);
-    fetch_lines(touched.upper_layer, 1);
-    fetch_lines(touched.protocol, 1);
-    fates_.fetch(touched.interface.node, kind);
+    const Attached& there = attached_[radio];
+    fetch_lines(there.listener, radio_lines);
+    fetch_lines(there.link, link_lines);
+    fetch_lines(there.upper_layer, 1);
+    fetch_lines(there.protocol, 1);
+    fates_.fetch(there.interface.node, kind);
 }
 
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
     // Who cannot decode it notices only its energy.
-    const double least_w =
-        transmission.band.fits_in(audience.band) ? audience.least_w : audience.least_energy_w;
+    const double least_w = can_decode(audience, transmission) ? audience.least_w : audience.least_energy_w;
     const double gain = least_w / most_power_w(transmission, audience);
     if (audience.reached_gain != gain || audience.carrier_hz != transmission.band.carrier_hz) {
         audience.reached_gain = gain;
@@ -270,7 +274,7 @@ void Medium::schedule_next_start(OnAir& entry) {
             if (++entry.started < entry.heard.size()) {
                 schedule_next_start(entry);
             }
-            attached_[now.radio].receiver.listener->arrival_started(Arrival{
+            attached_[now.radio].listener->arrival_started(Arrival{
                 &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
         });
 }
@@ -284,7 +288,7 @@ void Medium::schedule_next_end(OnAir& entry) {
             if (++entry.ended < entry.heard.size()) {
                 schedule_next_end(entry);
             }
-            attached_[now.radio].receiver.listener->arrival_ended(Arrival{
+            attached_[now.radio].listener->arrival_ended(Arrival{
                 &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
         });
 }
@@ -306,12 +310,12 @@ void Medium::tell(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
 }
 
 void Medium::begin(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
-    attached_[radio].receiver.listener->arrival_started(arrival);
+    attached_[radio].listener->arrival_started(arrival);
     simulator_.schedule_at_place(
         arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1,
         [this, radio, transmission = arrival.transmission, power_w = arrival.power_w] {
             const SimTime end = simulator_.now();
-            attached_[radio].receiver.listener->arrival_ended(
+            attached_[radio].listener->arrival_ended(
                 Arrival{transmission, end - transmission->duration, end, power_w});
         });
 }
@@ -322,7 +326,7 @@ InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arri
     if (on_air_.size() <= 1) {
         return interference_;
     }
-    const Receiver& here = attached_[receiver].receiver;
+    const Receiver& here = receivers_[receiver];
     for (const std::unique_ptr<OnAir>& other : on_air_) {
         const Transmission& sent = other->transmission;
         if (&sent == arrival.transmission || sent.radio == receiver || other->last_end <= start ||

@@ -48,6 +48,7 @@ struct Receiver {
     double noise_w = 0;             // in its band when nobody sends
     // So long it may leave out of the energy a frame that it can lock on to.
     SimTime detection_time = SimTime::from_ps(0);
+    PpduFormats formats = PpduFormats::all();
 };
 
 // Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold
@@ -66,10 +67,10 @@ public:
     // What each arrival at the radio touches in the layers above it: in a large network most of it is in no cache
     // by then, so the medium has it fetched ahead. Null: nothing.
     void set_touched(RadioId radio, const void* link, const void* upper_layer, const void* protocol) {
-        Touched& touched = touched_[radio];
-        touched.link = link;
-        touched.upper_layer = upper_layer;
-        touched.protocol = protocol;
+        Attached& attached = attached_[radio];
+        attached.link = link;
+        attached.upper_layer = upper_layer;
+        attached.protocol = protocol;
     }
 
     // Puts a frame on the air now, at the sender's present position, and sees to its arrivals.
@@ -95,10 +96,12 @@ public:
     std::uint64_t energy_look_count() const { return energy_looks_; }
 
 private:
-    struct alignas(64) Attached {  // in as few cache lines as it takes
-        Receiver receiver;
-    };
-    struct Touched {
+    // What each transmission asks of a radio near by, in one cache line. The first four are of its Receiver.
+    struct alignas(64) Attached {
+        MediumListener* listener = nullptr;
+        double sensitivity_w = 0;
+        double energy_detection_w = 0;
+        double noise_w = 0;
         InterfaceId interface;
         const void* link = nullptr;
         const void* upper_layer = nullptr;
@@ -110,10 +113,11 @@ private:
         Position place;
         double squared_m2 = 0;
     };
-    // Receivers of one band that notice about the same powers: what is too far away for the keenest of them is too
+    // Receivers of one band and the same formats that notice about the same powers: what is too far away for the keenest of them is too
     // far away for all. Within a factor of 4, so that one of very keen ears does not make all others listen.
     struct Audience {
         Band band;
+        PpduFormats formats = PpduFormats::all();
         int keenness = 0;
         double least_w = 0;         // below that, none of them notices a transmission that is alone
         double least_energy_w = 0;  // below that, the sum of several is not noticed either
@@ -159,7 +163,7 @@ private:
     OnAir& put_on_air(Transmission transmission);
     // In the header, as sums over all that is on the air call it for each.
     Arrival arrival_at(const Transmission& transmission, RadioId radio) const {
-        const Receiver& receiver = attached_[radio].receiver;
+        const Receiver& receiver = receivers_[radio];
         const Position there = receiver.trajectory->position_at(transmission.start);
         const double distance_m = distance(transmission.origin, there);
         const SimTime start = transmission.start + propagation_delay(distance_m);
@@ -176,7 +180,7 @@ private:
     double power_w(const Transmission& sent, double share, RadioId radio, const Position& place,
                    double distance_m) const {
         const double sent_w =
-            sent.power_w * share * propagation_.gain(sent, touched_[radio].interface, place, distance_m);
+            sent.power_w * share * propagation_.gain(sent, attached_[radio].interface, place, distance_m);
         return antennas_.all_isotropic() ? sent_w : sent_w * antennas_.gain(sent, radio, place);
     }
     // With the best that both antennas can do; the way takes its share of that.
@@ -220,13 +224,18 @@ private:
     void foresee(EnergyForecast& forecast, RadioId radio, const Transmission& sent, SimTime now);
     Outlook& outlook_of(RadioId radio, const OnAir& newest);
     void take_back_outlooks(SimTime now);
-    static bool can_lock_on(const Receiver& receiver, const Transmission& sent, double power_w) {
-        return power_w >= receiver.sensitivity_w && sent.band.fits_in(receiver.band);
+    template <typename ReceiverOrAudience>
+    static bool can_decode(const ReceiverOrAudience& receiver, const Transmission& sent) {
+        return sent.can_be_decoded(receiver.band, receiver.formats);
     }
-    bool is_told_alone(const Receiver& receiver, const Transmission& sent, double power_w) const {
+    static bool can_lock_on(const Receiver& receiver, const Transmission& sent, double power_w) {
+        return power_w >= receiver.sensitivity_w && can_decode(receiver, sent);
+    }
+    static bool is_told_alone(const Receiver& receiver, const Transmission& sent, double power_w) {
         return can_lock_on(receiver, sent, power_w) || is_loud(receiver, power_w);
     }
-    bool is_loud(const Receiver& receiver, double power_w) const {
+    template <typename ReceiverOrAttached>
+    static bool is_loud(const ReceiverOrAttached& receiver, double power_w) {
         return receiver.noise_w + power_w >= receiver.energy_detection_w;
     }
     void forget_the_past();
@@ -238,8 +247,8 @@ private:
     Antennas antennas_;
     BackgroundNoise background_noise_;
     Hearing hearing_;
-    std::vector<Attached> attached_;
-    std::vector<Touched> touched_;  // [radio]
+    std::vector<Attached> attached_;   // [radio]
+    std::vector<Receiver> receivers_;  // [radio]
     std::vector<Candidate> candidates_;
     std::vector<RadioId> first_radio_;  // [node]; its others come after it
     std::deque<Audience> audiences_;

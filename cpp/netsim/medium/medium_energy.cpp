@@ -136,7 +136,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
         const double received_w = moved_m > 0 || !odometer_.all_stand()
                                       ? arrival_at(sent, radio).power_w
                                       : power_w(sent, share, radio, place, distance(sent.origin, place));
-        const Receiver& receiver = attached_[radio].receiver;
+        const Receiver& receiver = receivers_[radio];
         if (received_w < ring.least_power_w() || received_w >= watched_before_w ||
             is_loud(receiver, received_w * (1 - margin))) {
             return;
@@ -184,7 +184,7 @@ double Medium::missing_at(RadioId radio, const OnAir& newest) {
     }
     outlook.next_id = newest.transmission.id + 1;
     outlook.missing_w = outlook.forecast.settle(
-        attached_[radio].receiver.energy_detection_w, [&](const EnergyForecast::Coming& coming) {
+        receivers_[radio].energy_detection_w, [&](const EnergyForecast::Coming& coming) {
             const OnAir& other = *on_air_[coming.transmission - first_id];
             tell(radio, other, Arrival{&other.transmission, coming.start, coming.end, coming.power_w});
         });
@@ -192,7 +192,7 @@ double Medium::missing_at(RadioId radio, const OnAir& newest) {
 }
 
 void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Transmission& sent, SimTime now) {
-    const Receiver& receiver = attached_[radio].receiver;
+    const Receiver& receiver = receivers_[radio];
     if (sent.radio == radio || sent.band.share_in(receiver.band) == 0) {
         return;
     }
@@ -221,7 +221,7 @@ Medium::Outlook& Medium::outlook_of(RadioId radio, const OnAir& newest) {
         Outlook& outlook = outlooks_[outlook_of_[radio]];
         outlook.radio = radio;
         outlook.next_id = 0;
-        outlook.forecast.begin(attached_[radio].receiver.noise_w);
+        outlook.forecast.begin(receivers_[radio].noise_w);
     }
     return outlooks_[outlook_of_[radio]];
 }

@@ -11,6 +11,7 @@
 #include "netsim/geometry/position.hpp"
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/medium/interface_id.hpp"
+#include "netsim/medium/ppdu_format.hpp"
 #include "netsim/trace/frame_fates.hpp"
 
 namespace netsim {
@@ -25,7 +26,8 @@ struct Band {
 
     bool operator==(const Band&) const = default;
 
-    // A receiver in band `listener` can decode a signal only if the centre frequencies are equal and the signal fits.
+    // A receiver in band `listener` gets all of a signal, and can decode it, only if the centre frequencies are equal and
+    // the signal fits.
     bool fits_in(const Band& listener) const {
         return carrier_hz == listener.carrier_hz && bandwidth_hz <= listener.bandwidth_hz;
     }
@@ -53,9 +55,15 @@ struct Transmission {
     Band band;
     Position origin;  // of the sender, at the start
     FrameLabel label;
+    PpduFormat format = PpduFormat::erp_ofdm;
     int psdu_bytes = 0;
     const Mode* mode = nullptr;
     std::shared_ptr<const Frame> frame;
+
+    // By a receiver that listens to that band and knows those formats.
+    bool can_be_decoded(const Band& listener, PpduFormats known) const {
+        return known.contains(format) && band.fits_in(listener);
+    }
 };
 
 // A transmission as one receiver gets it.

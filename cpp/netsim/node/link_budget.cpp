@@ -9,6 +9,7 @@
 #include "netsim/mac/dcf.hpp"
 #include "netsim/mac/frame_802154.hpp"
 #include "netsim/medium/background_noise.hpp"
+#include "netsim/node/known_formats.hpp"
 #include "netsim/phy/antenna.hpp"
 #include "netsim/phy/oqpsk_mode.hpp"
 
@@ -79,6 +80,10 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
     if (!band_.fits_in(Band{receiver_.carrier_hz, receiver_.bandwidth_hz})) {
         throw ConfigError("radio.carrier_hz: " + receiver.name + " does not receive the channel of " +
                           sender.name);
+    }
+    if (!known_formats(interface_of(receiver, interface)).contains(mode_->format)) {
+        throw ConfigError("mac.op_mode: " + receiver.name + " cannot decode " + std::string(mode_->name) +
+                          ", in which " + sender.name + " broadcasts");
     }
 }
 

@@ -24,6 +24,7 @@ constexpr SimTime ofdm_symbol = us(4);
 
 constexpr Mode dsss(std::string_view name, ModeFamily family, std::int64_t bitrate_bps) {
     return {.name = name,
+            .format = PpduFormat::hr_dsss,
             .family = family,
             .bitrate_bps = bitrate_bps,
             .mandatory = true,
@@ -36,6 +37,7 @@ constexpr Mode dsss(std::string_view name, ModeFamily family, std::int64_t bitra
 constexpr Mode ofdm(std::string_view name, int data_bits_per_symbol, bool mandatory,
                     Constellation constellation, CodeRate code_rate, SimTime signal_extension) {
     return {.name = name,
+            .format = signal_extension > SimTime() ? PpduFormat::erp_ofdm : PpduFormat::ofdm,
             .family = ModeFamily::ofdm,
             .bitrate_bps = std::int64_t{data_bits_per_symbol} * 250'000,  // a symbol lasts 4 µs
             .mandatory = mandatory,
@@ -116,6 +118,14 @@ SimTime Mode::duration(int psdu_bytes) const {
     const SimTime data = family == ModeFamily::ofdm ? ofdm_symbol * (bits / data_bits_per_symbol)
                                                     : us(ceil_divide(bits * 1'000'000, bitrate_bps));
     return preamble + header + data + signal_extension;
+}
+
+PpduFormats ModeSet::formats() const {
+    PpduFormats formats{};
+    for (const Mode& mode : modes_) {
+        formats.add(mode.format);
+    }
+    return formats;
 }
 
 const Mode& ModeSet::mode_for_bitrate(double bitrate_bps, std::string_view field) const {

@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "netsim/kernel/sim_time.hpp"
+#include "netsim/medium/ppdu_format.hpp"
 
 namespace netsim {
 
@@ -27,6 +28,7 @@ enum class CodeRate { none, one_half, two_thirds, three_quarters };
 
 struct Mode {
     std::string_view name;  // "ERP-OFDM 24 Mbps"
+    PpduFormat format = PpduFormat::erp_ofdm;
     ModeFamily family = ModeFamily::ofdm;
     std::int64_t bitrate_bps = 0;
     bool mandatory = false;
@@ -56,6 +58,9 @@ public:
 
     std::string_view name() const { return name_; }
     std::span<const Mode> modes() const { return modes_; }
+    // Those of its modes. A station of the set can decode frames of these formats: no other set has a mode of one of them
+    // that this set has not.
+    PpduFormats formats() const;
     // The place of one of them among them.
     std::size_t index_of(const Mode& mode) const { return static_cast<std::size_t>(&mode - modes_.data()); }
 

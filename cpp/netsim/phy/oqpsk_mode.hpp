@@ -13,6 +13,7 @@ namespace netsim {
 inline constexpr int oqpsk_header_bits = 16;
 
 inline constexpr Mode oqpsk_250_kbps{.name = "O-QPSK 250 kbps",
+                                     .format = PpduFormat::oqpsk,
                                      .family = ModeFamily::oqpsk,
                                      .bitrate_bps = 250'000,
                                      .mandatory = true,

@@ -10,12 +10,13 @@ namespace netsim {
 
 Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
              const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
-             const Attitude& attitude)
+             const Attitude& attitude, PpduFormats formats)
     : noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
       energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
       detects_preambles_(!config.preamble_detection.empty()),
       captures_frames_(!config.frame_capture.empty()),
+      formats_(formats),
       sensitivity_w_(config.sensitivity_w),
       band_{config.carrier_hz, config.bandwidth_hz},
       medium_(medium),
@@ -30,10 +31,11 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const 
       error_model_(make_error_model(config)),
       antenna_(make_antenna(config.antenna, config.carrier_hz)) {
     reception_ = {error_model_.get(), config.snir_threshold, noise_w_};
-    id_ = medium.attach(interface,
-                        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_,
-                                 preamble_detection_.is_on() ? preamble_detection_.duration() : SimTime()},
-                        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
+    id_ = medium.attach(
+        interface,
+        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_,
+                 preamble_detection_.is_on() ? preamble_detection_.duration() : SimTime(), formats},
+        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
 }
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -50,6 +52,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.band = band_;
     transmission.label = label;
     transmission.psdu_bytes = psdu_bytes;
+    transmission.format = mode.format;
     transmission.mode = &mode;
     transmission.frame = std::move(frame);
     if (is_observed_) {

@@ -5,7 +5,8 @@
 //        |   end of the frame      ^  ^                                      |
 //        +-------------------------+  +---- end of the arrival locked on <---+--> LOCKED
 //
-// Frames of other channels that overlap with its own never lock it: they are noise, and energy that makes the channel busy.
+// Frames of other channels that overlap with its own, and those in formats that it does not know, never lock it: they are
+// noise, and energy that makes the channel busy.
 //
 // Half duplex: what starts while it transmits is never received, and starting to transmit gives up a reception.
 // There is no capture: locked on one frame, the radio takes all others for interference.
@@ -57,7 +58,7 @@ class alignas(64) Radio final : public MediumListener {
 public:
     Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
           const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
-          const Attitude& attitude = {});
+          const Attitude& attitude = {}, PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
 
@@ -92,8 +93,10 @@ private:
         EventHandle detection;
     };
 
-    // A frame of its channel: only those of others are nothing but energy to it.
-    bool can_decode(const Transmission& transmission) const { return transmission.band.fits_in(band_); }
+    // A frame of its channel, in a format that it knows: others are nothing but energy to it.
+    bool can_decode(const Transmission& transmission) const {
+        return transmission.can_be_decoded(band_, formats_);
+    }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
     bool is_candidate(const Transmission* transmission) {
@@ -123,13 +126,14 @@ private:
     const Transmission* locked_ = nullptr;
     double noise_w_;
     double energy_detection_w_;
-    bool transmitting_ = false;
-    bool turned_ = false;  // to transmit, which it does not yet
-    bool busy_ = false;
+    bool transmitting_ : 1 = false;
+    bool turned_ : 1 = false;  // to transmit, which it does not yet
+    bool busy_ : 1 = false;
     bool by_chunks_ : 1;
     bool detects_preambles_ : 1;
     bool captures_frames_ : 1;
     bool is_observed_ : 1 = false;
+    PpduFormats formats_;
     RadioId id_ = 0;
     double sensitivity_w_;
     Band band_;

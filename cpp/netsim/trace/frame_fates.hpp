@@ -1,8 +1,8 @@
 // The ledger of frames: what became of each copy of each frame.
 //
-// A transmission makes one copy for every other radio in its band, and every copy ends in exactly one fate, so that
-// for each kind of frame: copies made = sum over the fates. The medium books copies too weak to be received in bulk,
-// the radios book the rest one by one.
+// A transmission makes one copy for every other radio that knows its format and listens to its band, however far away, and
+// every copy ends in exactly one fate, so that for each kind of frame: copies made = sum over the fates. The medium books
+// copies too weak to be received in bulk, the radios book the rest one by one.
 #pragma once
 
 #include <array>
@@ -99,7 +99,8 @@ private:
     };
     struct Interferer {
         NodeId node = 0;
-        std::uint32_t copies = 0;  // there are many pairs of nodes; that many copies of one take years of frames
+        std::uint32_t copies =
+            0;  // there are many pairs of nodes; that many copies of one take years of frames
     };
 
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }

@@ -115,6 +115,9 @@ TEST(LinkBudget, RefusesWhatHasNoAnswer) {
     NodeConfig elsewhere = node();
     elsewhere.wlan[0].radio.carrier_hz = 2.437e9;
     EXPECT_THROW(LinkBudget(MediumConfig(), node(), elsewhere, payload_bytes), ConfigError);
+    NodeConfig of_another_mode = node();
+    of_another_mode.wlan[0].mac.op_mode = "a";
+    EXPECT_THROW(LinkBudget(MediumConfig(), node(), of_another_mode, payload_bytes), ConfigError);
     EXPECT_THROW(LinkBudget(MediumConfig(), node(), node(), 3000), ConfigError);
     const LinkBudget budget = budget_of(node());
     EXPECT_THROW(budget.tx_power_w_for(-1, 0.5), ConfigError);

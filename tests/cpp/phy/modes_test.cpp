@@ -4,6 +4,7 @@
 // µs, plus 192 µs.
 #include "netsim/phy/modes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -99,6 +100,20 @@ TEST(Mode, BitrateIsThatOfItsSymbols) {
 TEST(ModeSet, TableHasAllNamesOfTheConfiguration) {
     for (const std::string_view name : op_mode_names) {
         EXPECT_EQ(mode_set(name).name(), name);
+    }
+}
+
+// Of two sets, one knows the formats of a mode of the other only if it has that mode itself: what a station can decode
+// follows from the formats.
+TEST(ModeSet, KnowsTheFormatsOfItsOwnModesOnly) {
+    for (const std::string_view one : op_mode_names) {
+        for (const std::string_view other : op_mode_names) {
+            for (const Mode& mode : mode_set(other).modes()) {
+                const auto own = mode_set(one).modes();
+                const bool has_it = std::ranges::find(own, mode.name, &Mode::name) != own.end();
+                EXPECT_EQ(mode_set(one).formats().contains(mode.format), has_it) << one << " " << mode.name;
+            }
+        }
     }
 }
 

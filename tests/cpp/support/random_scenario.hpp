@@ -40,7 +40,6 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     const double typical_reach_m = narrowband ? 120 : 700;
     const double area_m = typical_reach_m * log_between(0.3, 5);
     const std::string op_mode(op_mode_names[draws.uniform_int(op_mode_names.size())]);
-    const auto modes = mode_set(op_mode).modes();
     const bool two_channels = chance(0.2);
     const bool two_bandwidths = chance(0.2);
     // 0: the same for all nodes.
@@ -63,6 +62,9 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         scenario.medium.temperature_k = 400 * option_draws.uniform();
     }
     const BackgroundNoise noise(scenario.medium);
+    // Likewise the operation modes of stations that do not all have the same one.
+    RandomStream mode_draws(seed, 5, Purpose{1001});
+    const bool of_several_modes = mode_draws.uniform() < 0.3;
 
     const int count = fewest_nodes + static_cast<int>(draws.uniform_int(most_nodes - fewest_nodes + 1));
     for (int id = 0; id < count; ++id) {
@@ -100,7 +102,10 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         }
         radio.energy_detection_w =
             std::max(radio.energy_detection_w, 1.01 * noise.power_w(radio.bandwidth_hz, radio.noise_figure));
-        mac.op_mode = op_mode;
+        mac.op_mode = of_several_modes
+                          ? std::string(op_mode_names[mode_draws.uniform_int(op_mode_names.size())])
+                          : op_mode;
+        const auto modes = mode_set(mac.op_mode).modes();
         mac.bitrate_bps = static_cast<double>(
             modes[draws.uniform_int(static_cast<std::uint32_t>(modes.size()))].bitrate_bps);
         if (short_backoffs) {

@@ -29,7 +29,7 @@ def differences_in_access(
     """What a station cannot have done, with that channel."""
     for frame in sent:
         busy_ps = _busy_between(
-            heard, frame.time_ns - DIFS_US[case.op_mode] * 1000, frame.time_ns - UNNOTICED_NS
+            heard, frame.time_ns - DIFS_US[case.stations[index].op_mode] * 1000, frame.time_ns - UNNOTICED_NS
         )
         if _begins_an_exchange(frame, case) and busy_ps:
             yield f"station {index} sends at {frame.time_ns} ns; its channel was busy, {busy_ps} ps"

@@ -72,6 +72,7 @@ class Station:
     tx_power_w: float
     carrier_hz: float
     bandwidth_hz: float
+    op_mode: str
     bitrate_mbps: float
     receiver: Receiver
     sends: tuple[Send, ...] = ()
@@ -100,7 +101,6 @@ class Case:
     """A network and what happens in it."""
 
     seed: int
-    op_mode: str
     rts_threshold_bytes: int
     air: Air
     stations: tuple[Station, ...]

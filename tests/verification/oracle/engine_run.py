@@ -128,7 +128,7 @@ def _node_config(case: Case, index: int, station: Station) -> "NodeConfig":
     config.initial_position = station.position
     config.mobility.telemetry_interval_s = 0.0
     mac, radio, receiver = config.wlan[0].mac, config.wlan[0].radio, station.receiver
-    mac.op_mode = case.op_mode
+    mac.op_mode = station.op_mode
     mac.bitrate_bps = station.bitrate_mbps * 1e6
     mac.rts_threshold_bytes = case.rts_threshold_bytes
     radio.carrier_hz = station.carrier_hz

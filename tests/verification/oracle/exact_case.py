@@ -54,14 +54,14 @@ def exact_case(seed: int) -> Case:
         noise_w=noise_w,
         temperature_k=None,
     )
-    listener = Station((0.0, 0.0, 0.0), 1.0, CARRIERS_HZ[0], BANDWIDTH_HZ, rate_mbps, receiver)
+    listener = Station((0.0, 0.0, 0.0), 1.0, CARRIERS_HZ[0], BANDWIDTH_HZ, op_mode, rate_mbps, receiver)
     frame_us = frame_format(op_mode, rate_mbps, PAYLOAD_BYTES + HEADERS_BYTES).duration_us
     offsets_us = [0, *draw.choices([4, 16, 20, 192, frame_us, frame_us - 4], k=2)]
     senders = [_sender(draw, listener, place, offsets_us) for place in _cross(distance_m)]
     # It may have to wait; before the others, since of equal times its grant is the older one.
     energy_w = noise_w + sum(draw.sample([1.0, 0.5, 0.25, 0.125], k=draw.randint(1, 2)))
     watcher = replace(senders.pop(), receiver=Receiver(DEAF_W, energy_w, 1.0))
-    return Case(seed, op_mode, 2346, air, (listener, watcher, *senders))
+    return Case(seed, 2346, air, (listener, watcher, *senders))
 
 
 def _power_of_two(draw: Random) -> float:

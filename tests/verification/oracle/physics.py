@@ -83,3 +83,14 @@ def frame_format(op_mode: str, rate_mbps: float, mpdu_bytes: int) -> FrameFormat
     symbols = ceil((16 + bits + 6) / bits_per_symbol)
     silence_us = 6 if op_mode.startswith("g") else 0
     return FrameFormat(rate_mbps, 6.0, 24, symbols * bits_per_symbol, 16, 4, 4 * symbols, silence_us)
+
+
+def knows_format(op_mode: str, sender_op_mode: str, rate_mbps: float) -> bool:
+    """Whether a station of that operation mode has the mode in which the sender sends at that rate.
+
+    OFDM of 5 GHz and of 2.4 GHz are different modes.
+    """
+    if rate_mbps in DSSS_RATES_MBPS:
+        return op_mode in ("b", "g(mixed)")
+    of_2_4_ghz = ("g(erp)", "g(mixed)")
+    return op_mode in of_2_4_ghz if sender_op_mode in of_2_4_ghz else op_mode == sender_op_mode

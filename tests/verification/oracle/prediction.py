@@ -46,7 +46,7 @@ def predict(case: Case, run: EngineRun) -> Prediction:
         certain.append(_is_certain(arrivals, own))
         noises_w.append(noise)
         below_sensitivity += sum(
-            arrival.is_of_channel and arrival.power_w < station.receiver.sensitivity_w for arrival in arrivals
+            arrival.is_decodable and arrival.power_w < station.receiver.sensitivity_w for arrival in arrivals
         )
     return Prediction(heard, certain, noises_w, below_sensitivity)
 

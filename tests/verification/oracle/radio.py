@@ -5,7 +5,8 @@ looking at all arrivals. Nothing here comes from the engine; only the random str
 part of a scenario's result, is the same: one number for each decision about a frame, or about a part of it.
 
 A radio that is not transmitting and not locked locks on to an arrival that reaches its sensitivity. Locked,
-it takes all others for interference, and so it does with frames of channels that only overlap with its own.
+it takes all others for interference, and so it does with frames of channels that only overlap with its own,
+and with those of modes that it has not.
 What starts while it transmits is never received, and a transmission of its own ends a reception. A frame
 survives if its SNIR is above the threshold, strictly, and the number drawn is below the chance that all its
 bits are right.
@@ -57,7 +58,7 @@ class Arrival:
     start_ps: int
     power_w: float
     """What of it is in the receiver's band."""
-    is_of_channel: bool
+    is_decodable: bool
     """Whether the receiver can decode it; otherwise it is noise."""
 
     @property
@@ -161,7 +162,7 @@ class Radio:
 
     def _begin(self, arrival: Arrival) -> None:
         self._present.append(arrival)
-        if not arrival.is_of_channel or arrival.power_w < self._receiver.sensitivity_w:
+        if not arrival.is_decodable or arrival.power_w < self._receiver.sensitivity_w:
             return
         if self._transmitting:
             self._book(arrival, "receiver_transmitting")

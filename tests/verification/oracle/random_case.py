@@ -47,7 +47,7 @@ def random_case(seed: int) -> Case:
     style = _Style.drawn(draw)
     stations = [_station(draw, style, index) for index in range(style.count)]
     stations = _on_the_edge(draw, style, stations)
-    return Case(seed, style.op_mode, draw.choice([2346, 2346, 200]), style.air, tuple(stations))
+    return Case(seed, draw.choice([2346, 2346, 200]), style.air, tuple(stations))
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,8 @@ class _Style:
     """What the stations of a network have in common."""
 
     count: int
-    op_mode: str
+    op_modes: tuple[str, ...]
+    """One for all, or of which each station draws its own."""
     size_m: float
     sensitivity_w: float
     tx_power_w: float
@@ -81,7 +82,7 @@ class _Style:
         at_half_w = sensitivity_w * _wide(draw, -0.5, 2.5)
         return cls(
             count=draw.randint(2, 12) if draw.random() < 0.99 else draw.randint(30, 60),
-            op_mode=draw.choice([*RATES_MBPS, "g(mixed)"]),
+            op_modes=tuple(RATES_MBPS) if draw.random() < 0.3 else (draw.choice([*RATES_MBPS, "g(mixed)"]),),
             size_m=size_m,
             sensitivity_w=sensitivity_w,
             tx_power_w=at_half_w / gain(air, size_m / 2, CARRIERS_HZ[0]),
@@ -119,12 +120,14 @@ def _air(draw: Random, sensitivity_w: float) -> Air:
 
 
 def _station(draw: Random, style: _Style, index: int) -> Station:
-    rate_mbps = draw.choice(RATES_MBPS[style.op_mode])
+    op_mode = draw.choice(style.op_modes)
+    rate_mbps = draw.choice(RATES_MBPS[op_mode])
     bare = Station(
         position=_point(draw, style.size_m),
         tx_power_w=style.tx_power_w * _wide(draw, -1, 1),
         carrier_hz=draw.choice(CARRIERS_HZ[: style.bands]),
         bandwidth_hz=BANDWIDTH_HZ if style.bands == 1 else draw.choice([20e6, BANDWIDTH_HZ]),
+        op_mode=op_mode,
         bitrate_mbps=rate_mbps,
         receiver=_receiver(draw, style),
         sends=tuple(_sends(draw, style, index, rate_mbps)),

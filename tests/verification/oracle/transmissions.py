@@ -14,7 +14,7 @@ from verification.oracle.captured_frame import CapturedFrame
 from verification.oracle.case import Case, Station
 from verification.oracle.engine_run import EngineRun
 from verification.oracle.flight import Flight
-from verification.oracle.physics import delay_ps, frame_format, gain
+from verification.oracle.physics import delay_ps, frame_format, gain, knows_format
 from verification.oracle.radio import Arrival, Transmission
 
 PS_PER_US = 1_000_000
@@ -42,7 +42,7 @@ def transmissions(case: Case, run: EngineRun, flights: Sequence[Flight]) -> list
                 slack_ps=possible_ps[-1] - possible_ps[0],
                 kind=frame.kind,
                 octets=frame.octets,
-                format=frame_format(case.op_mode, frame.rate_mbps, frame.mpdu_bytes),
+                format=frame_format(case.stations[sender].op_mode, frame.rate_mbps, frame.mpdu_bytes),
             )
         )
     found.sort(key=lambda sent: (sent.start_ps, sent.sender))
@@ -58,7 +58,8 @@ def arrival_at(case: Case, flights: Sequence[Flight], sent: Transmission, receiv
     there = case.stations[receiver]
     is_of_channel = sender.carrier_hz == there.carrier_hz and sender.bandwidth_hz <= there.bandwidth_hz
     power_w = sender.tx_power_w * share_in_band(sender, there) * gain(case.air, distance_m, sender.carrier_hz)
-    return Arrival(sent, sent.start_ps + delay_ps(distance_m), power_w, is_of_channel)
+    is_known = knows_format(there.op_mode, sender.op_mode, sent.format.rate_mbps)
+    return Arrival(sent, sent.start_ps + delay_ps(distance_m), power_w, is_of_channel and is_known)
 
 
 def share_in_band(sender: Station, receiver: Station) -> float:
