@@ -24,10 +24,11 @@ void FarEvents::open_next(std::vector<EventKey>& keys) {
     while (slices_[opened_].empty()) {
         ++opened_;
     }
-    std::vector<EventKey>& slice = slices_[opened_++];
+    // Its memory goes with it: just before it is opened, a slice may have taken what is due in a moment, which is more than
+    // the others ever hold.
+    const std::vector<EventKey> slice = std::exchange(slices_[opened_++], {});
     keys.insert(keys.end(), slice.begin(), slice.end());
     size_ -= slice.size();
-    slice.clear();
 }
 
 // So that half of the events are in the first half of the slices: the others may be very much later, and wait until
