@@ -1,5 +1,6 @@
 // The config structs, field by field under their own names (C++'s type_name is Python's typename).
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "netsim/config/node_config.hpp"
 #include "netsim/config/obstacle_config.hpp"
 #include "netsim/config/radio_config.hpp"
+#include "netsim/node/known_formats.hpp"
 #include "proxy_protocol/bindings.hpp"
 
 namespace py = pybind11;
@@ -174,6 +176,16 @@ void bind_config(py::module_& module) {
         .def_readwrite("radio", &InterfaceConfig::radio)
         .def_readwrite("mac", &InterfaceConfig::mac)
         .def_readwrite("csma", &InterfaceConfig::csma)
+        .def_property_readonly("known_formats",
+                               [](const InterfaceConfig& config) {
+                                   std::set<std::string> names;
+                                   for (std::size_t format = 0; format < ppdu_format_names.size(); ++format) {
+                                       if (known_formats(config).contains(static_cast<PpduFormat>(format))) {
+                                           names.insert(ppdu_format_names[format]);
+                                       }
+                                   }
+                                   return names;
+                               })
         .def("validate", &InterfaceConfig::validate);
 
     py::class_<NodeConfig>(module, "NodeConfig")

@@ -206,6 +206,9 @@ class InterfaceConfig:
     radio: RadioConfig
     mac: MacConfig
     csma: CsmaConfig
+    @property
+    def known_formats(self) -> set[str]:
+        """PPDU formats that it can decode: "HR/DSSS", "OFDM", "ERP-OFDM", "O-QPSK"."""
     def validate(self) -> None: ...
 
 class NodeConfig:

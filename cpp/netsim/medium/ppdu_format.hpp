@@ -4,12 +4,14 @@
 // Source: IEEE Std 802.11-2020, clauses 16 (HR/DSSS), 17 (OFDM) and 18 (ERP); IEEE Std 802.15.4-2006, 6.5.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 
 namespace netsim {
 
 enum class PpduFormat : std::uint8_t { hr_dsss, ofdm, erp_ofdm, oqpsk };
+constexpr std::array<const char*, 4> ppdu_format_names{"HR/DSSS", "OFDM", "ERP-OFDM", "O-QPSK"};
 
 class PpduFormats {
 public:

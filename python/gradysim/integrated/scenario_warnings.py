@@ -1,8 +1,10 @@
 """What is allowed in a scenario and yet seldom meant: told before a run, which goes on all the same."""
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
+from itertools import combinations
 from typing import TYPE_CHECKING
 
+from gradysim.config.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
 from gradysim.config.setting import Setting
 from gradysim.config.source import Source
@@ -10,7 +12,7 @@ from gradysim.config.unread_lines import Chosen, UnreadLines
 from gradysim.integrated.network import medium_config, node_config
 
 if TYPE_CHECKING:
-    from gradysim._netsim import MediumConfig
+    from gradysim._netsim import InterfaceConfig, MediumConfig
 
 _TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
 _WITHOUT_RADIOS = "UnitDiskRadioMedium"
@@ -19,7 +21,11 @@ _WITHOUT_RADIOS = "UnitDiskRadioMedium"
 def scenario_warnings(scenario: Scenario) -> list[str]:
     """Return one line of text for each: "FILE:LINE: warning: ..."."""
     medium = medium_config(scenario)
-    return [*_unread_lines(scenario, medium), *_nodes_on_the_ground(scenario, medium)]
+    return [
+        *_unread_lines(scenario, medium),
+        *_nodes_on_the_ground(scenario, medium),
+        *_stations_without_a_common_mode(scenario, medium),
+    ]
 
 
 def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
@@ -30,12 +36,7 @@ def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
     lines.add(of_network, chosen)
     for obstacle in scenario.obstacles:
         lines.add(obstacle.sources, chosen)
-    # Nodes with the same lines in force share their mappings: one of them stands for all.
-    alike = {
-        (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan)): spec
-        for spec in scenario.nodes
-    }
-    for spec in alike.values():
+    for spec in _one_of_each_kind(scenario.nodes):
         config = node_config(spec)
         name = f"{spec.group}[*]" if spec.name.endswith("]") else spec.name
         sources = {f"protocol.{field}": source for field, source in spec.protocol_sources.items()}
@@ -56,6 +57,14 @@ def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
             }
             lines.add(sources, _chosen(structs, {*of_network, *sources}), name)
     return lines.texts()
+
+
+def _one_of_each_kind(nodes: Iterable[NodeSpec]) -> Iterable[NodeSpec]:
+    """Nodes with the same lines in force share their mappings: one of them stands for all."""
+    return {
+        (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan)): spec
+        for spec in nodes
+    }.values()
 
 
 def _sources(struct: str, settings: Mapping[str, Setting]) -> dict[str, Source]:
@@ -83,3 +92,23 @@ def _nodes_on_the_ground(scenario: Scenario, medium: "MediumConfig") -> Iterator
         f" as both rays cancel, and {low[0]} {start} at z = 0m; expected a height, such as"
         f" `*.{low[0]}.mobility.initialZ = 1.5m`"
     )
+
+
+def _stations_without_a_common_mode(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
+    """Pairs of operation modes on one channel of which neither knows a format of the other."""
+    if medium.typename == _WITHOUT_RADIOS:
+        return
+    stations: dict[tuple[float, str], tuple[NodeSpec, InterfaceConfig, Source | None]] = {}
+    for spec in _one_of_each_kind(scenario.nodes):
+        for interface, wlan in zip(node_config(spec).wlan, spec.wlan, strict=True):
+            setting = wlan.mac.get("op_mode")
+            station = (spec, interface, setting.source if setting else None)
+            stations.setdefault((interface.radio.carrier_hz, interface.mac.op_mode), station)
+    for ((carrier_hz, mode), one), ((other_hz, other_mode), other) in combinations(stations.items(), 2):
+        if carrier_hz == other_hz and not one[1].known_formats & other[1].known_formats:
+            yield (
+                f"{other[2] or one[2]}: warning: {one[0].name} and {other[0].name} are on one channel, but of"
+                f' operation modes "{mode}" and "{other_mode}", which have no kind of frame in common:'
+                " they are noise to each other; expected one mode for both, or"
+                ' "g(mixed)", which has the frames of "b" and "g(erp)"'
+            )

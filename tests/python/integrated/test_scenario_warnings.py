@@ -143,3 +143,35 @@ def test_nodes_on_the_ground_under_two_rays(warnings: Callable[..., list[str]], 
 @pytest.mark.parametrize(("file", "config"), EXAMPLES, ids=lambda part: getattr(part, "stem", part))
 def test_examples_have_no_such_lines(file: Path, config: str) -> None:
     assert scenario_warnings(load_scenarios(file, config, "0")[0]) == []
+
+
+def op_mode(nodes: str, mode: str) -> str:
+    return f'*.{nodes}.wlan[*].opMode="{mode}"'
+
+
+def test_stations_on_one_channel_without_a_common_mode_are_told(warnings: Callable[..., list[str]]) -> None:
+    (text,) = warnings(op_mode("uavs[0]", "g(erp)"), op_mode("uavs[1]", "b"))
+    assert text.startswith(
+        f"--set {op_mode('uavs[1]', 'b')}: warning: uavs[0] and uavs[1] are on one channel"
+    )
+    assert '"g(erp)" and "b"' in text
+
+
+def test_the_line_is_named_where_the_other_mode_is_the_default(warnings: Callable[..., list[str]]) -> None:
+    (text,) = warnings(op_mode("uavs[0]", "a"))
+    assert text.startswith(f"--set {op_mode('uavs[0]', 'a')}: warning: ")
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        (op_mode("uavs[0]", "b"),),  # the other one is of g(mixed)
+        (op_mode("uavs[*]", "a"),),
+        (op_mode("uavs[0]", "a"), "*.uavs[0].wlan[*].radio.channelNumber=5"),
+        (op_mode("uavs[0]", "a"), '*.radioMedium.typename="UnitDiskRadioMedium"'),
+    ],
+)
+def test_stations_that_hear_each_other_or_nobody_are_not_told(
+    warnings: Callable[..., list[str]], settings: tuple[str, ...]
+) -> None:
+    assert [text for text in warnings(*settings) if "on one channel" in text] == []
