@@ -194,7 +194,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("name", &NodeConfig::name)
         .def_property_readonly(
             "wlan",  // their number is that of the start, so that references to them stay valid
-            [](py::object self) {
+            [](const py::object& self) {
                 py::tuple interfaces(self.cast<NodeConfig&>().wlan.size());
                 for (std::size_t index = 0; index < interfaces.size(); ++index) {
                     interfaces[index] = py::cast(self.cast<NodeConfig&>().wlan[index],

@@ -39,8 +39,7 @@ GaussianPair LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uin
     const std::uint32_t purpose =
         static_cast<std::uint32_t>(Purpose::fading) | (static_cast<std::uint32_t>(index >> 32) << 16);
     const auto words =
-        philox4x32({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(low),
-                    static_cast<std::uint32_t>(high), purpose},
+        philox4x32({static_cast<std::uint32_t>(index), low, high, purpose},
                    {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
     const auto uniform = [](std::uint32_t high_word, std::uint32_t low_word) {  // in [0, 1), 53 bits
         return static_cast<double>((static_cast<std::uint64_t>(high_word >> 5) << 26) | (low_word >> 6)) *

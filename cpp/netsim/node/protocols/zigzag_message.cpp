@@ -80,13 +80,13 @@ struct FieldReader {
     }
 };
 
-template <std::size_t index = 0>
+template <std::size_t Index = 0>
 std::optional<Message> message_of(std::string_view type, const FlatJson& object) {
-    if constexpr (index < std::variant_size_v<Message>) {
-        if (type != type_names[index]) {
-            return message_of<index + 1>(type, object);
+    if constexpr (Index < std::variant_size_v<Message>) {
+        if (type != type_names[Index]) {
+            return message_of<Index + 1>(type, object);
         }
-        std::variant_alternative_t<index, Message> message;
+        std::variant_alternative_t<Index, Message> message;
         FieldReader reader{object};
         visit_fields(reader, message);
         if (reader.complete && object.size() == reader.fields + 1) {
@@ -100,7 +100,7 @@ std::optional<Message> message_of(std::string_view type, const FlatJson& object)
 
 Payload encode(const Message& message) {
     Writer writer;
-    writer.text.append("{\"type\":\"").append(type_names[message.index()]).append("\"");
+    writer.text.append(R"({"type":")").append(type_names[message.index()]).append("\"");
     Message copy = message;
     std::visit([&writer](auto& fields) { visit_fields(writer, fields); }, copy);
     writer.text += '}';
