@@ -198,7 +198,7 @@ TEST(MinstrelRateControl, LooksAroundWithTheShareOfFramesThatItIsTold) {
     }
     EXPECT_NEAR(10'000 - tried[0], 1000, 150);
     for (std::size_t mode = 1; mode < shares.size(); ++mode) {
-        EXPECT_NEAR(tried[mode], 1000 / 7, 60) << mode;
+        EXPECT_NEAR(tried[mode], 1000.0 / 7, 60) << mode;
     }
 }
 

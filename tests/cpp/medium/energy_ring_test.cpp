@@ -55,7 +55,8 @@ TEST(EnergyRing, LeavesOutNobodyWithTheLevel) {
     for (const double between_m : {50.0, 150.0, 220.0, 250.0, 280.0, 300.0, 500.0, 1500.0}) {
         for (const std::size_t count : {1U, 2U, 5U, 20U, 300U}) {
             const EnergyRing ring = ring_beside(between_m, count);
-            for (double x_m = 1; x_m < 5000; x_m *= 1.01) {
+            for (int step = 0; step <= 856; ++step) {
+                const double x_m = std::pow(1.01, step);  // from 1 to 5000
                 const double here_w = level_w * 1e4 / (x_m * x_m);
                 const double away_m = std::max(std::abs(between_m - x_m), 1.0);
                 const double there_w = level_w * 1e4 / (away_m * away_m);

@@ -11,22 +11,25 @@ namespace netsim::zigzag {
 namespace {
 
 // As `encode` of examples/zigzag/message.py writes them.
-const std::vector<std::pair<Message, std::string>> examples{
-    {UavHeartbeat{3, true, false}, R"({"type":"UavHeartbeat","sender":3,"homeward":true,"available":false})"},
-    {GroundHeartbeat{7}, R"({"type":"GroundHeartbeat","sender":7})"},
-    {SensorData{4}, R"({"type":"SensorData","sender":4})"},
-    {PairRequest{1, 2, 30}, R"({"type":"PairRequest","sender":1,"carrier":2,"given":30})"},
-    {PairConfirmation{1, 2, 0}, R"({"type":"PairConfirmation","sender":1,"carrier":2,"given":0})"},
-};
+std::vector<std::pair<Message, std::string>> examples() {
+    return {
+        {UavHeartbeat{3, true, false},
+         R"({"type":"UavHeartbeat","sender":3,"homeward":true,"available":false})"},
+        {GroundHeartbeat{7}, R"({"type":"GroundHeartbeat","sender":7})"},
+        {SensorData{4}, R"({"type":"SensorData","sender":4})"},
+        {PairRequest{1, 2, 30}, R"({"type":"PairRequest","sender":1,"carrier":2,"given":30})"},
+        {PairConfirmation{1, 2, 0}, R"({"type":"PairConfirmation","sender":1,"carrier":2,"given":0})"},
+    };
+}
 
 TEST(ZigZagMessage, IsWrittenAsInPython) {
-    for (const auto& [message, text] : examples) {
+    for (const auto& [message, text] : examples()) {
         EXPECT_EQ(*encode(message), text);
     }
 }
 
 TEST(ZigZagMessage, IsReadAsItWasWritten) {
-    for (const auto& [message, text] : examples) {
+    for (const auto& [message, text] : examples()) {
         EXPECT_EQ(decode(text), message) << text;
     }
 }

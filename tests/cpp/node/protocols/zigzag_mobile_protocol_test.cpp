@@ -40,11 +40,13 @@ protected:
     }
 };
 
-const Parameters hovering{{"speed", 0.0}};
+Parameters hovering() {
+    return {{"speed", 0.0}};
+}
 
 TEST_F(ZigZagMobileTest, CollectsReadings) {
     hear({zigzag::SensorData{1}, zigzag::SensorData{1}});
-    run("ZigZagMobileProtocol", hovering, 30);
+    run("ZigZagMobileProtocol", hovering(), 30);
     EXPECT_EQ(tracked("data"), TrackedValue(std::int64_t{2}));
     EXPECT_EQ(tracked("collected"), TrackedValue(std::int64_t{2}));
 }
@@ -60,7 +62,7 @@ TEST_F(ZigZagMobileTest, ItsHeartbeatsTellWhetherItIsAvailable) {
 TEST_F(ZigZagMobileTest, AsksForAnExchange) {
     hear({zigzag::SensorData{1}, zigzag::UavHeartbeat{1, false, true}, zigzag::UavHeartbeat{1, true, true},
           zigzag::GroundHeartbeat{1}});
-    run("ZigZagMobileProtocol", hovering, 50);
+    run("ZigZagMobileProtocol", hovering(), 50);
     // Both fly outward: the lower id carries. The other flies homeward: this one carries. The station always carries.
     EXPECT_EQ(answers(), (std::vector<Message>{zigzag::PairRequest{0, 0, 0}, zigzag::PairRequest{0, 0, 0},
                                                zigzag::PairRequest{0, 1, 1}}));
@@ -68,7 +70,7 @@ TEST_F(ZigZagMobileTest, AsksForAnExchange) {
 
 TEST_F(ZigZagMobileTest, ConfirmsAndTurnsRound) {
     hear({zigzag::PairRequest{1, 0, 4}, zigzag::UavHeartbeat{1, true, true}});
-    run("ZigZagMobileProtocol", hovering, 30);
+    run("ZigZagMobileProtocol", hovering(), 30);
     // It is the carrier and flies homeward now, as the other one does.
     EXPECT_EQ(answers(),
               (std::vector<Message>{zigzag::PairConfirmation{0, 0, 0}, zigzag::PairRequest{0, 0, 0}}));
