@@ -9,15 +9,16 @@ namespace netsim {
 namespace {
 
 constexpr SimTime coherence_time = SimTime::from_us(5000);
-const LinkGaussians gaussians(7, coherence_time);
 
 TEST(LinkGaussians, AreTheSameFromBothEnds) {
+    const LinkGaussians gaussians(7, coherence_time);
     const SimTime time = SimTime::from_us(12'345);
     EXPECT_EQ(gaussians.at(3, 8, time, 0).first, gaussians.at(8, 3, time, 1).first);
     EXPECT_EQ(gaussians.at(3, 8, time, 0).second, gaussians.at(8, 3, time, 1).second);
 }
 
 TEST(LinkGaussians, DifferWithSeedLinkAndInterval) {
+    const LinkGaussians gaussians(7, coherence_time);
     const SimTime time = SimTime::from_us(12'345);
     const double here = gaussians.at(3, 8, time, 0).first;
     EXPECT_NE(here, LinkGaussians(8, coherence_time).at(3, 8, time, 0).first);
@@ -29,6 +30,7 @@ TEST(LinkGaussians, DifferWithSeedLinkAndInterval) {
 }
 
 TEST(LinkGaussians, AreContinuousInTime) {
+    const LinkGaussians gaussians(7, coherence_time);
     double before = gaussians.at(0, 1, SimTime(), 0).first;
     for (int us = 1; us < 20'000; ++us) {
         const double now = gaussians.at(0, 1, SimTime::from_us(us), 0).first;
@@ -39,6 +41,7 @@ TEST(LinkGaussians, AreContinuousInTime) {
 }
 
 TEST(LinkGaussians, HalfWayTheyAreTheMeanOfBothEndsAtUnchangedVariance) {
+    const LinkGaussians gaussians(7, coherence_time);
     const double before = gaussians.at(0, 1, SimTime(), 0).second;
     const double after = gaussians.at(0, 1, coherence_time, 0).second;
     EXPECT_NEAR(gaussians.at(0, 1, SimTime::from_us(2500), 0).second, (before + after) / std::numbers::sqrt2,
@@ -54,6 +57,7 @@ TEST(LinkGaussians, WithoutACoherenceTimeEachTransmissionHasItsOwn) {
 }
 
 TEST(LinkGaussians, HaveMeanZeroVarianceOneAndNoCorrelationAtAnyTime) {
+    const LinkGaussians gaussians(7, coherence_time);
     constexpr int links = 40'000;
     for (const int us : {0, 1000, 2500, 4999}) {
         double sum = 0;
