@@ -17,6 +17,7 @@ public:
           margin_(config.capture_margin),
           window_(SimTime::from_seconds(config.capture_window_s)) {}
 
+    bool is_on() const { return is_on_; }
     bool captures(const Arrival& locked, const Arrival& newcomer) const {
         return is_on_ && newcomer.start - locked.start <= window_ &&
                newcomer.power_w > locked.power_w * margin_;

@@ -17,10 +17,10 @@ public:
         : is_on_(!config.preamble_detection.empty()),
           threshold_(config.preamble_threshold),
           minimum_power_w_(config.preamble_minimum_power_w),
-          duration_(SimTime::from_seconds(config.preamble_duration_s)) {}
+          duration_(is_on_ ? SimTime::from_seconds(config.preamble_duration_s) : SimTime()) {}
 
     bool is_on() const { return is_on_; }
-    SimTime duration() const { return duration_; }
+    SimTime duration() const { return duration_; }  // none, if off
     // `snir` is a linear ratio.
     bool detects(double power_w, double snir) const {
         return power_w >= minimum_power_w_ && snir >= threshold_;

@@ -14,8 +14,6 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const 
     : noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
       energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
-      detects_preambles_(!config.preamble_detection.empty()),
-      captures_frames_(!config.frame_capture.empty()),
       formats_(formats),
       sensitivity_w_(config.sensitivity_w),
       band_{config.carrier_hz, config.bandwidth_hz},
@@ -30,12 +28,13 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const 
       tx_power_w_(config.tx_power_w),
       error_model_(make_error_model(config)),
       antenna_(make_antenna(config.antenna, config.carrier_hz)) {
+    detects_preambles_ = preamble_detection_.is_on();
+    captures_frames_ = frame_capture_.is_on();
     reception_ = {error_model_.get(), config.snir_threshold, noise_w_};
-    id_ = medium.attach(
-        interface,
-        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_,
-                 preamble_detection_.is_on() ? preamble_detection_.duration() : SimTime(), formats},
-        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
+    id_ = medium.attach(interface,
+                        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_,
+                                 preamble_detection_.duration(), formats},
+                        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
 }
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,

@@ -130,8 +130,8 @@ private:
     bool turned_ : 1 = false;  // to transmit, which it does not yet
     bool busy_ : 1 = false;
     bool by_chunks_ : 1;
-    bool detects_preambles_ : 1;
-    bool captures_frames_ : 1;
+    bool detects_preambles_ : 1 = false;  // as preamble_detection_ says, which lies farther away
+    bool captures_frames_ : 1 = false;    // as frame_capture_ says
     bool is_observed_ : 1 = false;
     PpduFormats formats_;
     RadioId id_ = 0;
