@@ -34,10 +34,8 @@ void FarEvents::open_next(std::vector<EventKey>& keys) {
 // So that half of the events are in the first half of the slices: the others may be very much later, and wait until
 // then. Each event is looked at twice on average, however they are spread.
 void FarEvents::cut_anew() {
+    NETSIM_ASSERT(!later_.empty());
     opened_ = 0;
-    if (later_.empty()) {
-        return;
-    }
     const auto by_time = [](const EventKey& one, const EventKey& other) {
         return one.time_ps < other.time_ps;
     };

@@ -33,7 +33,8 @@ public:
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }
 
-    // From now on events are far until the slice of their time is opened. `keys` is left empty. Only once.
+    // From now on events are far until the slice of their time is opened. `keys`, of which there is one at least, is left
+    // empty. Only once.
     void take_all(std::vector<EventKey>& keys);
     // Moves those that are due first to `keys`. Only when not empty.
     void open_next(std::vector<EventKey>& keys);

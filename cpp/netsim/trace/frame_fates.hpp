@@ -99,8 +99,8 @@ private:
     };
     struct Interferer {
         NodeId node = 0;
-        std::uint32_t copies =
-            0;  // there are many pairs of nodes; that many copies of one take years of frames
+        // In 32 bits, as there are many pairs of nodes: so many copies of one take years of frames.
+        std::uint32_t copies = 0;
     };
 
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
