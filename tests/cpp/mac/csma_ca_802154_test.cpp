@@ -19,10 +19,7 @@ using test::BareRadio;
 using test::Heard;
 using test::light_microsecond_m;
 using test::Sniffer;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
+using test::us;
 
 constexpr SimTime period = us(320);
 constexpr SimTime cca = us(128);

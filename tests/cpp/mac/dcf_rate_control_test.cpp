@@ -18,10 +18,7 @@ namespace {
 using test::Air;
 using test::light_microsecond_m;
 using test::Station;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
+using test::us;
 
 MacConfig mac_with(const char* rate_control, double initial_rate_bps = -1) {
     MacConfig config;

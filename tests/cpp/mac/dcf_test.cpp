@@ -1,5 +1,5 @@
-// The instants are worked out by hand: support/dcf_instants.hpp. RTS and CTS, the NAV, rate control and the contention
-// window have files of their own.
+// The instants are worked out by hand: support/dcf_instants.hpp. What happens without an ACK, RTS and CTS, the NAV, rate
+// control, the contention window and the check of a configuration have files of their own.
 #include "netsim/mac/dcf.hpp"
 
 #include <algorithm>
@@ -9,20 +9,18 @@
 #include <gtest/gtest.h>
 
 #include "netsim/error.hpp"
-#include "support/air.hpp"
-#include "support/dcf_instants.hpp"
+#include "support/dcf_pair.hpp"
 
 namespace netsim {
 namespace {
 
 using test::ack_duration;
-using test::ack_timeout;
 using test::Air;
 using test::data_duration;
 using test::difs;
 using test::eifs;
-using test::Heard;
 using test::light_microsecond_m;
+using test::mac_of;
 using test::of_kind;
 using test::sifs;
 using test::slot;
@@ -30,13 +28,6 @@ using test::Sniffer;
 using test::Station;
 using test::us;
 using test::without_backoff;
-
-MacConfig mac_of(const char* op_mode, double bitrate_bps) {
-    MacConfig config;
-    config.op_mode = op_mode;
-    config.bitrate_bps = bitrate_bps;
-    return config;
-}
 
 struct Exchange {
     const char* op_mode;
@@ -105,33 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         return name;
     });
 
-// Two stations a light microsecond apart, and a sniffer at the first.
-class DcfTest : public testing::Test {
-protected:
-    void add_pair(const MacConfig& mac) {
-        a = &air.add_station({0, 0, 0}, mac);
-        b = &air.add_station({light_microsecond_m, 0, 0}, mac);
-        at_a = &air.add_sniffer({0, 0, 0});
-    }
-    // Station b gets what a sends, but its answers are too weak for a.
-    void add_pair_without_way_back(const MacConfig& mac) {
-        a = &air.add_station({0, 0, 0}, mac);
-        b = &air.add_station({light_microsecond_m, 0, 0}, mac, test::radio_of_power(1e-6));
-        at_a = &air.add_sniffer({0, 0, 0});
-    }
-    std::vector<SimTime> starts(FrameKind kind) const {
-        std::vector<SimTime> times;
-        for (const Heard& frame : of_kind(*at_a, kind)) {
-            times.push_back(frame.start);
-        }
-        return times;
-    }
-
-    Air air;
-    Station* a = nullptr;
-    Station* b = nullptr;
-    Sniffer* at_a = nullptr;
-};
+using DcfTest = test::DcfPair;
 
 TEST_F(DcfTest, AMessageIsDeliveredWithItsTextAndItsSource) {
     add_pair(MacConfig());
@@ -273,108 +238,6 @@ TEST_F(DcfTest, ABrokenFrameIsFollowedByEifs) {
     EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(1), us(1) + data_duration + eifs}));
 }
 
-// Without an ACK, the sender's own NAV runs until the ACK would be over; the next attempt comes DIFS after
-// that.
-TEST_F(DcfTest, AFrameWithoutAckIsRepeated) {
-    add_pair_without_way_back(without_backoff());
-    a->send(b->id(), 100);
-    air.run();
-    const SimTime attempt = data_duration + sifs + ack_duration + difs;
-    std::vector<SimTime> expected;
-    for (int i = 0; i < 7; ++i) {
-        expected.push_back(attempt * i);
-    }
-    EXPECT_EQ(starts(FrameKind::unicast), expected);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
-}
-
-// Where the ACK would last longer than the timeout waits for its beginning, the medium is free only after the
-// NAV.
-TEST_F(DcfTest, ASlowAckIsWaitedForByTheNav) {
-    MacConfig mac = without_backoff();
-    mac.bitrate_bps = 1e6;
-    mac.short_retry_limit = 2;
-    Station& alone = air.add_station({0, 0, 0}, mac);
-    Station& deaf = air.add_station({1e7, 0, 0}, mac);
-    at_a = &air.add_sniffer({0, 0, 0});
-    alone.send(deaf.id(), 100);
-    air.run();
-    EXPECT_EQ(starts(FrameKind::unicast), (std::vector{us(0), us(1504 + 10 + 304 + 50)}));
-}
-
-TEST_F(DcfTest, GivesUpWhenTheAckTimeoutOfTheLastAttemptIsOver) {
-    MacConfig mac = without_backoff();
-    mac.short_retry_limit = 1;
-    add_pair_without_way_back(mac);
-    a->send(b->id(), 100);
-    const auto given_up = [this] {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
-    };
-    air.run(data_duration + ack_timeout - SimTime::from_ps(1));
-    EXPECT_EQ(given_up(), 0U);
-    air.run(data_duration + ack_timeout);
-    EXPECT_EQ(given_up(), 1U);
-}
-
-TEST_F(DcfTest, AnAckThatHasBegunByTheTimeoutIsWaitedFor) {
-    // At 44 light microseconds to and fro, the ACK begins 54 us after the end of the data and ends at 88 us.
-    MacConfig mac;
-    a = &air.add_station({0, 0, 0}, mac, test::radio_of_power(100));
-    b = &air.add_station({22 * light_microsecond_m, 0, 0}, mac, test::radio_of_power(100));
-    a->send(b->id(), 100);
-    air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
-}
-
-TEST_F(DcfTest, AnAckThatBeginsAfterTheTimeoutIsTooLate) {
-    MacConfig mac;
-    mac.short_retry_limit = 1;
-    a = &air.add_station({0, 0, 0}, mac, test::radio_of_power(100));
-    b = &air.add_station({23 * light_microsecond_m, 0, 0}, mac, test::radio_of_power(100));
-    a->send(b->id(), 100);
-    air.run();
-    EXPECT_EQ(b->received.size(), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
-}
-
-TEST_F(DcfTest, AnotherFrameInsteadOfTheAckIsAFailure) {
-    MacConfig mac = without_backoff();
-    mac.short_retry_limit = 1;
-    add_pair_without_way_back(mac);
-    a->send(b->id(), 100);
-    test::BareRadio& rude = air.add_radio({0, 10, 0});
-    air.at(data_duration + us(20), [&] { rude.send(us(50)); });
-    const auto given_up = [this] {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
-    };
-    air.run(data_duration + ack_timeout);
-    EXPECT_EQ(given_up(), 0U);  // it may be the ACK
-    air.run(data_duration + us(71));
-    EXPECT_EQ(given_up(), 1U);
-}
-
-TEST_F(DcfTest, ADuplicateIsAcknowledgedButNotDeliveredAgain) {
-    add_pair_without_way_back(MacConfig());
-    a->send(b->id(), "once");
-    a->send(b->id(), "twice");
-    air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 14U);
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 14U);
-    EXPECT_EQ(b->texts(), (std::vector<std::string>{"once", "twice"}));
-}
-
-TEST_F(DcfTest, AfterGivingUpTheNextMessageHasItsTurn) {
-    add_pair(MacConfig());
-    Station& gone = air.add_station({1e7, 0, 0});
-    a->send(gone.id(), "lost");
-    a->send(b->id(), "next");
-    air.run();
-    EXPECT_EQ(b->texts(), std::vector<std::string>{"next"});
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
-}
-
 TEST_F(DcfTest, TheQueueHoldsAHundredAndTheOneInProgress) {
     add_pair(MacConfig());
     a->send(b->id(), 100);
@@ -427,50 +290,6 @@ TEST_F(DcfTest, AMessageThatIsTooLongIsAnErrorThatSaysHowLongItMayBe) {
                   "UDP headers)");
     }
     EXPECT_EQ(air.message_fates.accepted(MessageKind::unicast), 0U);
-}
-
-TEST(DcfCheck, TheDefaultsArePossibleInEveryMode) {
-    for (const std::string_view op_mode : op_mode_names) {
-        EXPECT_NO_THROW(Dcf::check(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
-    }
-}
-
-TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnError) {
-    EXPECT_THROW(Dcf::check(mac_of("b", 24e6)), ConfigError);
-    MacConfig mac;
-    mac.multicast_bitrate_bps = 7e6;
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
-    mac.multicast_bitrate_bps = -1;
-    mac.control_bitrate_bps = 7e6;
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
-}
-
-TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
-    MacConfig mac = mac_of("b", 24e6);
-    mac.multicast_bitrate_bps = mac.initial_rate_bps = 2e6;
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
-}
-
-TEST(DcfCheck, AWindowBeyondThatOfTheModeIsAnError) {
-    MacConfig mac;
-    mac.cw_min = 2000;  // the mode's largest is 1023
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
-    mac.cw_max = 4000;
-    EXPECT_NO_THROW(Dcf::check(mac));
-}
-
-TEST(DcfCheck, TheErrorNamesBothWindows) {
-    MacConfig mac;
-    mac.cw_max = 5;
-    try {
-        Dcf::check(mac);
-        FAIL() << "no error";
-    } catch (const ConfigError& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  "mac.cw_min = 31 and mac.cw_max = 5 slots: expected a cw_max of at least cw_min (what is "
-                  "not set is "
-                  "that of the operation mode, g(mixed))");
-    }
 }
 
 TEST_F(DcfTest, OnePairSharesTheChannelBothWays) {

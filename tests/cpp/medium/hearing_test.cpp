@@ -87,125 +87,79 @@ std::uint64_t thoroughness() {
     return factor == nullptr ? 1 : std::max(std::strtoull(factor, nullptr, 10), 1ULL);
 }
 
+// Those of one batch. make(seed) makes one.
+template <typename Make>
+void expect_same_courses(std::uint64_t batch, std::uint64_t count, const Make& make) {
+    const std::uint64_t scenarios = count * thoroughness();
+    for (std::uint64_t i = 0; i < scenarios; ++i) {
+        expect_same_course(make(batch * scenarios + i));
+        if (testing::Test::HasFatalFailure()) {
+            return;
+        }
+    }
+}
+
 class RandomScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    const std::uint64_t scenarios = 100 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(test::make_random_scenario(GetParam() * scenarios + i));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 100, [](std::uint64_t seed) { return test::make_random_scenario(seed); });
 }
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
-    const std::uint64_t scenarios = 100 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(
-            test::with_random_path_loss(test::make_random_scenario(GetParam() * scenarios + i)));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 100, [](std::uint64_t seed) {
+        return test::with_random_path_loss(test::make_random_scenario(seed));
+    });
 }
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
-    const std::uint64_t scenarios = 100 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        RandomScenario scenario =
-            test::with_random_surroundings(test::make_random_scenario(GetParam() * scenarios + i));
-        if (i % 4 == 0) {
-            scenario = test::with_random_path_loss(scenario);
-        }
-        expect_same_course(scenario);
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 100, [](std::uint64_t seed) {
+        const RandomScenario scenario = test::with_random_surroundings(test::make_random_scenario(seed));
+        return seed % 4 == 0 ? test::with_random_path_loss(scenario) : scenario;
+    });
 }
 
 TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
-    const std::uint64_t scenarios = 50 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        RandomScenario scenario =
-            test::with_random_interfaces(test::make_random_scenario(GetParam() * scenarios + i));
-        if (i % 4 == 0) {
-            scenario = test::with_random_surroundings(test::with_random_path_loss(scenario));
-        }
-        expect_same_course(scenario);
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 50, [](std::uint64_t seed) {
+        const RandomScenario scenario = test::with_random_interfaces(test::make_random_scenario(seed));
+        return seed % 4 == 0 ? test::with_random_surroundings(test::with_random_path_loss(scenario))
+                             : scenario;
+    });
 }
 
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    const std::uint64_t scenarios = 20 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(test::make_far_flung_scenario(GetParam() * scenarios + i));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 20, test::make_far_flung_scenario);
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
-    const std::uint64_t scenarios = 15 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(
-            test::with_random_path_loss(test::make_far_flung_scenario(GetParam() * scenarios + i)));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 15, [](std::uint64_t seed) {
+        return test::with_random_path_loss(test::make_far_flung_scenario(seed));
+    });
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
-    const std::uint64_t scenarios = 10 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(
-            test::with_random_surroundings(test::make_far_flung_scenario(GetParam() * scenarios + i)));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
+        return test::with_random_surroundings(test::make_far_flung_scenario(seed));
+    });
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
-    const std::uint64_t scenarios = 10 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(
-            test::with_random_interfaces(test::make_far_flung_scenario(GetParam() * scenarios + i)));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
+        return test::with_random_interfaces(test::make_far_flung_scenario(seed));
+    });
 }
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithOptionsOfTheReceiver) {
-    const std::uint64_t scenarios = 10 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(
-            test::with_random_receivers(test::make_far_flung_scenario(GetParam() * scenarios + i)));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
+        return test::with_random_receivers(test::make_far_flung_scenario(seed));
+    });
 }
 
 class NarrowbandScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(NarrowbandScenarios, TakeTheSameCourseAsWithThePlainModel) {
-    const std::uint64_t scenarios = 50 * thoroughness();
-    for (std::uint64_t i = 0; i < scenarios; ++i) {
-        expect_same_course(test::make_narrowband_scenario(GetParam() * scenarios + i));
-        if (HasFatalFailure()) {
-            return;
-        }
-    }
+    expect_same_courses(GetParam(), 50, test::make_narrowband_scenario);
 }
 
 TEST(NarrowbandScenario, MeetsEveryFateOften) {

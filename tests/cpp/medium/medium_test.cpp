@@ -17,10 +17,7 @@ using test::light_microsecond_m;
 using test::RadioEvent;
 using test::RadioWord;
 using test::Sniffer;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
+using test::us;
 
 TEST(Medium, ArrivesAfterThePropagationDelay) {
     Air air;

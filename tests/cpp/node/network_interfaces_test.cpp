@@ -7,21 +7,16 @@
 #include "netsim/error.hpp"
 #include "netsim/node/network.hpp"
 #include "support/recorder.hpp"
+#include "support/silent_node.hpp"
 
 namespace netsim {
 namespace {
 
 using test::Recorder;
+using test::silent_node;
 
 SimTime s(double seconds) {
     return SimTime::from_seconds(seconds);
-}
-
-NodeConfig silent_node(Position position = {}) {
-    NodeConfig config("node");
-    config.initial_position = position;
-    config.mobility.telemetry_interval_s = 0;
-    return config;
 }
 
 NodeConfig device(Position position = {}) {

@@ -15,6 +15,7 @@
 #include "support/narrowband_scenario.hpp"
 #include "support/random_scenario.hpp"
 #include "support/recorder.hpp"
+#include "support/silent_node.hpp"
 
 namespace netsim {
 namespace {
@@ -22,16 +23,10 @@ namespace {
 using test::RandomScenario;
 using test::Recorder;
 using test::ScenarioRun;
+using test::silent_node;
 
 SimTime s(double seconds) {
     return SimTime::from_seconds(seconds);
-}
-
-NodeConfig silent_node(Position position = {}) {
-    NodeConfig config("node");
-    config.initial_position = position;
-    config.mobility.telemetry_interval_s = 0;
-    return config;
 }
 
 TEST(Network, NodesGetTheirIdsInTheOrderOfAdding) {

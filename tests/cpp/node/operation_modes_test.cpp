@@ -1,4 +1,5 @@
 // Networks whose stations are of several operation modes: what one has not is noise to it.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,7 @@
 
 #include "netsim/node/network.hpp"
 #include "support/recorder.hpp"
+#include "support/silent_node.hpp"
 
 namespace netsim {
 namespace {
@@ -13,9 +15,7 @@ namespace {
 using test::Recorder;
 
 NodeConfig station(const std::string& op_mode, Position position = {}, double bitrate_bps = -1) {
-    NodeConfig config(op_mode);
-    config.initial_position = position;
-    config.mobility.telemetry_interval_s = 0;
+    NodeConfig config = test::silent_node(position);
     config.wlan[0].mac.op_mode = op_mode;
     config.wlan[0].mac.bitrate_bps = bitrate_bps;
     return config;

@@ -14,12 +14,9 @@ using test::Air;
 using test::BareRadio;
 using test::light_microsecond_m;
 using test::RadioWord;
+using test::us;
 
 constexpr double strong_w = 1e-10;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
 
 // A receiver whose frames come from a microsecond away; its channel is busy by energy only far above them.
 class RadioOptions : public testing::Test {

@@ -4,49 +4,19 @@
 
 #include <gtest/gtest.h>
 
-#include "support/air.hpp"
+#include "support/radio_among_senders.hpp"
 
 namespace netsim {
 namespace {
 
-using test::Air;
 using test::BareRadio;
-using test::light_microsecond_m;
 using test::RadioEvent;
 using test::RadioWord;
+using test::sensitivity_w;
+using test::strong_w;
+using test::us;
 
-constexpr double sensitivity_w = 3.1622776601683794e-12;
-constexpr double strong_w = 1e-10;
-
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
-
-// A receiver in the middle, and senders around it whose frames reach it after a microsecond with a given
-// power.
-class RadioTest : public testing::Test {
-protected:
-    BareRadio& add_receiver(const RadioConfig& config = RadioConfig()) {
-        return air.add_radio({0, 0, 0}, config);
-    }
-
-    BareRadio& add_sender(double received_w) {
-        constexpr Position directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
-        RadioConfig config;
-        config.tx_power_w = test::power_for(received_w, light_microsecond_m);
-        return air.add_radio(directions[senders_++] * light_microsecond_m, config);
-    }
-
-    // The frame is at the receiver from `start` for `duration`.
-    void arrives(BareRadio& sender, SimTime start, SimTime duration) {
-        air.at(start - us(1), [&sender, duration] { sender.send(duration); });
-    }
-
-    Air air;
-
-private:
-    std::size_t senders_ = 0;
-};
+using RadioTest = test::RadioAmongSenders;
 
 TEST_F(RadioTest, ReceivesAFrame) {
     BareRadio& receiver = add_receiver();
@@ -266,118 +236,6 @@ TEST_F(RadioTest, ItsOwnEarlierFrameIsNoInterference) {
     arrives(sender, us(15), us(100));
     air.run();
     EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::delivered), 1U);
-}
-
-// A signal of which one interferer leaves an SNIR of 5, and two at once 2.5, which is below the threshold.
-class PartialOverlap : public RadioTest {
-protected:
-    void SetUp() override {
-        receiver = &add_receiver();
-        arrives(add_sender(strong_w), us(100), us(100));
-        one = &add_sender(strong_w / 5);
-        other = &add_sender(strong_w / 5);
-    }
-    FrameFate fate() {
-        air.run();
-        for (const FrameFate fate : {FrameFate::delivered, FrameFate::interference, FrameFate::noise}) {
-            if (air.frame_fates.counts_at(receiver->id(),
-                                          FrameKind::broadcast)[static_cast<std::size_t>(fate)] == 1) {
-                return fate;
-            }
-        }
-        return FrameFate::in_air;
-    }
-
-    BareRadio* receiver = nullptr;
-    BareRadio* one = nullptr;
-    BareRadio* other = nullptr;
-};
-
-TEST_F(PartialOverlap, OneInterfererIsBearable) {
-    arrives(*one, us(150), us(100));
-    EXPECT_EQ(fate(), FrameFate::delivered);
-}
-
-TEST_F(PartialOverlap, TwoAtOnceAreNot) {
-    arrives(*one, us(120), us(50));
-    arrives(*other, us(150), us(50));
-    EXPECT_EQ(fate(), FrameFate::interference);
-}
-
-TEST_F(PartialOverlap, OnePicosecondOfBothIsEnough) {
-    arrives(*one, us(120), us(30) + SimTime::from_ps(1));
-    arrives(*other, us(150), us(30));
-    EXPECT_EQ(fate(), FrameFate::interference);
-}
-
-TEST_F(PartialOverlap, OneAfterTheOtherIsBearable) {
-    arrives(*one, us(120), us(30));
-    arrives(*other, us(150), us(30));
-    EXPECT_EQ(fate(), FrameFate::delivered);
-}
-
-TEST_F(PartialOverlap, BothAtOnceAfterTheFrameAreNoMatter) {
-    arrives(*one, us(180), us(100));
-    arrives(*other, us(200), us(100));
-    EXPECT_EQ(fate(), FrameFate::delivered);
-}
-
-TEST_F(PartialOverlap, BothAreNamed) {
-    arrives(*one, us(120), us(50));
-    arrives(*other, us(150), us(50));
-    air.run();
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver->id()),
-              (std::map<NodeId, std::uint64_t>{{one->id(), 1}, {other->id(), 1}}));
-}
-
-TEST_F(PartialOverlap, OnlyThoseOfTheWorstMomentAreNamed) {
-    BareRadio& loud = add_sender(strong_w);
-    arrives(*one, us(120), us(20));
-    arrives(loud, us(150), us(20));
-    air.run();
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver->id()),
-              (std::map<NodeId, std::uint64_t>{{loud.id(), 1}}));
-}
-
-TEST_F(PartialOverlap, ASenderOfTwoFramesIsNamedOnce) {
-    BareRadio& loud = add_sender(strong_w);
-    arrives(loud, us(120), us(20));
-    arrives(loud, us(150), us(20));
-    air.run();
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver->id()),
-              (std::map<NodeId, std::uint64_t>{{loud.id(), 1}}));
-}
-
-// Interferers below sensitivity, before a frame that touches or overlaps them.
-class TouchingFrames : public RadioTest {
-protected:
-    void SetUp() override {
-        RadioConfig config;
-        config.sensitivity_w = sensitivity_w;
-        receiver = &add_receiver(config);
-        arrives(add_sender(1.1 * sensitivity_w), us(100), us(100));
-        hidden = &add_sender(0.9 * sensitivity_w);
-    }
-    BareRadio* receiver = nullptr;
-    BareRadio* hidden = nullptr;
-};
-
-TEST_F(TouchingFrames, EndingAsTheFrameStartsIsNoOverlap) {
-    arrives(*hidden, us(50), us(50));
-    air.run();
-    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::delivered), 1U);
-}
-
-TEST_F(TouchingFrames, StartingAsTheFrameEndsIsNoOverlap) {
-    arrives(*hidden, us(200), us(50));
-    air.run();
-    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::delivered), 1U);
-}
-
-TEST_F(TouchingFrames, APicosecondMoreIsOne) {
-    arrives(*hidden, us(50), us(50) + SimTime::from_ps(1));
-    air.run();
-    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::interference), 1U);
 }
 
 TEST_F(RadioTest, AnotherChannelIsSilent) {

@@ -15,6 +15,10 @@
 
 namespace netsim::test {
 
+constexpr SimTime us(std::int64_t microseconds) {
+    return SimTime::from_us(microseconds);
+}
+
 // The distance that light covers in a microsecond, so that propagation takes exactly that long.
 inline constexpr double light_microsecond_m = 299.792458;
 

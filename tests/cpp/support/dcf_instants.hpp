@@ -10,15 +10,18 @@
 
 namespace netsim::test {
 
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
-
 // No backoff: every wait is an interframe space.
 inline MacConfig without_backoff() {
     MacConfig config;
     config.cw_min = 0;
     config.cw_max = 0;
+    return config;
+}
+
+inline MacConfig mac_of(const char* op_mode, double bitrate_bps) {
+    MacConfig config;
+    config.op_mode = op_mode;
+    config.bitrate_bps = bitrate_bps;
     return config;
 }
 

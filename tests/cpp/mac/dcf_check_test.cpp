@@ -1,0 +1,60 @@
+// What the Dcf refuses of a configuration before it is built.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "netsim/error.hpp"
+#include "netsim/mac/dcf.hpp"
+#include "support/dcf_instants.hpp"
+
+namespace netsim {
+namespace {
+
+using test::mac_of;
+
+TEST(DcfCheck, TheDefaultsArePossibleInEveryMode) {
+    for (const std::string_view op_mode : op_mode_names) {
+        EXPECT_NO_THROW(Dcf::check(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
+    }
+}
+
+TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnError) {
+    EXPECT_THROW(Dcf::check(mac_of("b", 24e6)), ConfigError);
+    MacConfig mac;
+    mac.multicast_bitrate_bps = 7e6;
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    mac.multicast_bitrate_bps = -1;
+    mac.control_bitrate_bps = 7e6;
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+}
+
+TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
+    MacConfig mac = mac_of("b", 24e6);
+    mac.multicast_bitrate_bps = mac.initial_rate_bps = 2e6;
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+}
+
+TEST(DcfCheck, AWindowBeyondThatOfTheModeIsAnError) {
+    MacConfig mac;
+    mac.cw_min = 2000;  // the mode's largest is 1023
+    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    mac.cw_max = 4000;
+    EXPECT_NO_THROW(Dcf::check(mac));
+}
+
+TEST(DcfCheck, TheErrorNamesBothWindows) {
+    MacConfig mac;
+    mac.cw_max = 5;
+    try {
+        Dcf::check(mac);
+        FAIL() << "no error";
+    } catch (const ConfigError& error) {
+        EXPECT_EQ(std::string(error.what()),
+                  "mac.cw_min = 31 and mac.cw_max = 5 slots: expected a cw_max of at least cw_min (what is "
+                  "not set is "
+                  "that of the operation mode, g(mixed))");
+    }
+}
+
+}  // namespace
+}  // namespace netsim

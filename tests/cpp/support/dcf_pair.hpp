@@ -1,0 +1,41 @@
+// The fixture of tests of the Dcf: two stations and what is on the air at the first.
+#pragma once
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/air.hpp"
+#include "support/dcf_instants.hpp"
+
+namespace netsim::test {
+
+// Two stations a light microsecond apart, and a sniffer at the first.
+class DcfPair : public testing::Test {
+protected:
+    void add_pair(const MacConfig& mac) {
+        a = &air.add_station({0, 0, 0}, mac);
+        b = &air.add_station({light_microsecond_m, 0, 0}, mac);
+        at_a = &air.add_sniffer({0, 0, 0});
+    }
+    // Station b gets what a sends, but its answers are too weak for a.
+    void add_pair_without_way_back(const MacConfig& mac) {
+        a = &air.add_station({0, 0, 0}, mac);
+        b = &air.add_station({light_microsecond_m, 0, 0}, mac, radio_of_power(1e-6));
+        at_a = &air.add_sniffer({0, 0, 0});
+    }
+    std::vector<SimTime> starts(FrameKind kind) const {
+        std::vector<SimTime> times;
+        for (const Heard& frame : of_kind(*at_a, kind)) {
+            times.push_back(frame.start);
+        }
+        return times;
+    }
+
+    Air air;
+    Station* a = nullptr;
+    Station* b = nullptr;
+    Sniffer* at_a = nullptr;
+};
+
+}  // namespace netsim::test
