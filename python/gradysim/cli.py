@@ -143,8 +143,6 @@ def run(
                             print(f"captured in {capture}")
                     if code != OK:
                         return code
-        except BrokenPipeError:
-            raise
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
     return OK
@@ -291,6 +289,8 @@ def make_result_dir(directory: Path) -> None:
 
 def say_mistake(mistake: Exception) -> int:
     """Say what the user got wrong, without a traceback, and return the exit code."""
+    if isinstance(mistake, BrokenPipeError):
+        raise mistake  # nobody's mistake: `main` knows
     print(mistake, file=sys.stderr)
     return MISTAKE
 

@@ -97,7 +97,14 @@ def test_a_result_directory_that_is_a_file_is_named_with_its_option(gradysim):
     assert (done.returncode, done.stderr.strip()) == (2, expected)
 
 
-@pytest.mark.parametrize("arguments", [["keys"], ["run", "test.ini", "--mode", "prototype", "--json"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["keys"],
+        ["run", "test.ini", "--mode", "prototype", "--json"],
+        pytest.param(["calibrate", "test.ini", "--range", "50m"], marks=compiled),
+    ],
+)
 def test_a_reader_that_has_had_enough_ends_it_silently(folder, arguments):
     theirs, ours = os.pipe()
     os.close(theirs)
