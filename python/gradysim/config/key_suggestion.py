@@ -50,11 +50,12 @@ def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Seque
     expected = "the name of one"
     if rest is not None and not names_node and rest.text.startswith("obstacle["):
         expected = "one of an obstacle that `*.environment.numObstacles` counts"
-    hint = _hint(found, groups, classes)
     interface = interface_in(key)
-    if interface and _is_of_first_interface(key[interface.end() :]):
+    if interface and _is_of_first_interface(key[interface.end() :]):  # the nearest key would be this one
         expected = "one of an interface that `numWlanInterfaces` of the node counts"
-    return f"`{key}` matches no parameter; expected {expected}{written_for(hint, key)}"
+        return f"`{key}` matches no parameter; expected {expected}"
+    hint = written_for(_hint(found, groups, classes), key)
+    return f"`{key}` matches no parameter; expected {expected}{hint}"
 
 
 def _is_of_first_interface(end: str) -> bool:

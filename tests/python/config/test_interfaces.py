@@ -84,3 +84,7 @@ def test_interfaces_of_both_kinds(folder: Any) -> None:
 def test_errors(folder: Any, added: str, message: str) -> None:
     assert folder.error(added).startswith("test.ini:6: ")
     assert message in folder.error(added)
+
+
+def test_a_key_of_an_interface_that_is_not_there_is_not_its_own_suggestion(folder: Any) -> None:
+    assert "did you mean" not in folder.error("*.uavs[*].wlan[1].radio.bandwidth = 20MHz\n")
