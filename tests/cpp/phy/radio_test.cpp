@@ -12,7 +12,6 @@ namespace {
 using test::BareRadio;
 using test::RadioEvent;
 using test::RadioWord;
-using test::sensitivity_w;
 using test::strong_w;
 using test::us;
 
