@@ -8,6 +8,7 @@
 // together when they outnumber the living.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -51,6 +52,17 @@ public:
     // True if the event was pending. O(1) amortised.
     bool cancel(EventHandle handle);
     bool is_pending(EventHandle handle) const;
+
+    // Whether a normal event of that time and place would be the next one; sometimes false though it would.
+    bool would_be_next(SimTime time, Place place) const {
+        const EventKey key{time.ps(), place, 0, 0};
+        const std::size_t first =
+            gap_at_top_ ? 1 : 0;  // no other is before the top, or before the two below it
+        const std::size_t end = std::min(2 * first + 1, heap_.size());
+        return !far_.is_far(key.time_ps) &&
+               std::none_of(heap_.data() + first, heap_.data() + end,
+                            [&key](const EventKey& other) { return other < key; });
+    }
 
     bool empty() const { return live_ == 0; }
     std::size_t size() const { return live_; }

@@ -10,15 +10,17 @@ inline void Simulator::run_next(SimTime time) {
 }
 
 bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
-    std::uint64_t budget = max_events;
+    limit_ = limit;
+    budget_ = max_events;
     while (!queue_.empty()) {
         const SimTime time = queue_.next_time();
         if (time > limit) {
             break;
         }
-        if (budget-- == 0) {
+        if (budget_ == 0) {
             return false;
         }
+        --budget_;
         run_next(time);
     }
     if (limit > now_) {
@@ -31,6 +33,7 @@ bool Simulator::step(SimTime limit) {
     if (queue_.empty() || queue_.next_time() > limit) {
         return false;
     }
+    budget_ = 0;
     run_next(queue_.next_time());
     return true;
 }

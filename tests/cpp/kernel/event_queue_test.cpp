@@ -174,6 +174,35 @@ TEST(EventQueue, CancellingEverythingLeavesAUsableQueue) {
     EXPECT_EQ(events.drain(), std::vector{7});
 }
 
+TEST(EventQueue, WhatIsEarlierThanAllWouldBeNext) {
+    LoggingQueue events;
+    EXPECT_TRUE(events.queue.would_be_next(at(9), 0));
+    events.push(at(5), Priority::normal, 1);
+    EXPECT_TRUE(events.queue.would_be_next(at(4), 2));
+    EXPECT_FALSE(events.queue.would_be_next(at(6), 2));
+}
+
+TEST(EventQueue, AtOneTimeThePlaceTellsWhatWouldBeNext) {
+    LoggingQueue events;
+    const Place before = events.queue.reserve_places(1);
+    events.push(at(5), Priority::normal, 1);
+    const Place after = events.queue.reserve_places(1);
+    EXPECT_TRUE(events.queue.would_be_next(at(5), before));
+    EXPECT_FALSE(events.queue.would_be_next(at(5), after));
+}
+
+TEST(EventQueue, WhatIsBeforeAllThatWaitBehindTheOneTakenOutWouldBeNext) {
+    LoggingQueue events;
+    for (int name = 1; name <= 3; ++name) {
+        events.push(at(10 * name), Priority::normal, name);
+    }
+    const Place place = events.queue.reserve_places(1);
+    events.queue.pop();
+    EXPECT_TRUE(events.queue.would_be_next(at(15), place));
+    EXPECT_FALSE(events.queue.would_be_next(at(25), place));
+    EXPECT_FALSE(events.queue.would_be_next(at(35), place));
+}
+
 // Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
 class EventQueueOracle : public testing::TestWithParam<unsigned> {};
 
@@ -218,6 +247,11 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
             oracle.erase(oracle.begin());
         }
         ASSERT_EQ(events.queue.size(), oracle.size());
+        const SimTime time = at(now + draw_ahead());
+        if (events.queue.would_be_next(time, events.queue.reserve_places(1)) && !oracle.empty()) {
+            const Key first = oracle.begin()->first;
+            ASSERT_LT(std::tuple(time, Priority::normal, name + 1), first);
+        }
         if (!spent.empty()) {
             ASSERT_FALSE(events.queue.is_pending(
                 spent[static_cast<std::size_t>(draw(static_cast<int>(spent.size())))]));

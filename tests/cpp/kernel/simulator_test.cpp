@@ -109,6 +109,85 @@ TEST(Simulator, AnEventIsNotPendingWhileItRuns) {
     EXPECT_FALSE(pending);
 }
 
+// An event at 1 µs and its successors, one a microsecond up to 5 µs, which go on without the queue where they may.
+class Chain {
+public:
+    explicit Chain(Simulator& simulator) : simulator_(simulator), first_place_(simulator.reserve_places(6)) {
+        schedule(1);
+    }
+
+    std::vector<std::int64_t> ran_at_us;
+    int passed_by_the_queue = 0;
+
+private:
+    void schedule(int number) {
+        simulator_.schedule_at_place(us(number), place(number), [this, number] { run(number); });
+    }
+    void run(int number) {
+        for (;; ++number) {
+            ran_at_us.push_back(simulator_.now().ps() / 1'000'000);
+            if (number == 5) {
+                return;
+            }
+            if (!simulator_.goes_on_at(us(number + 1), place(number + 1))) {
+                schedule(number + 1);
+                return;
+            }
+            ++passed_by_the_queue;
+        }
+    }
+    Place place(int number) const { return first_place_ + static_cast<Place>(number); }
+
+    Simulator& simulator_;
+    Place first_place_;
+};
+
+TEST(Simulator, GoesOnWithWhatWouldRunNext) {
+    Simulator simulator;
+    Chain chain(simulator);
+    simulator.schedule_at(us(7), [] {});
+    simulator.run_until(us(10));
+    EXPECT_EQ(chain.ran_at_us, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(chain.passed_by_the_queue, 4);
+    EXPECT_EQ(simulator.event_count(), 6U);
+}
+
+TEST(Simulator, DoesNotGoOnPastAnotherEvent) {
+    Simulator simulator;
+    Chain chain(simulator);
+    std::size_t ran_before = 0;
+    simulator.schedule_at(us(3), [&] { ran_before = chain.ran_at_us.size(); });
+    simulator.run_until(us(10));
+    EXPECT_EQ(ran_before, 3U);  // of equal times, in the order of places
+    EXPECT_EQ(chain.passed_by_the_queue, 3);
+}
+
+TEST(Simulator, DoesNotGoOnPastTheLimit) {
+    Simulator simulator;
+    Chain chain(simulator);
+    simulator.run_until(us(2));
+    EXPECT_EQ(chain.ran_at_us, (std::vector<std::int64_t>{1, 2}));
+    simulator.run_until(us(10));
+    EXPECT_EQ(chain.ran_at_us, (std::vector<std::int64_t>{1, 2, 3, 4, 5}));
+}
+
+TEST(Simulator, DoesNotGoOnPastMaxEvents) {
+    Simulator simulator;
+    Chain chain(simulator);
+    EXPECT_FALSE(simulator.run_until(us(10), 3));
+    EXPECT_EQ(chain.ran_at_us, (std::vector<std::int64_t>{1, 2, 3}));
+    EXPECT_EQ(simulator.now(), us(3));
+    EXPECT_EQ(simulator.event_count(), 3U);
+}
+
+TEST(Simulator, AStepDoesNotGoOn) {
+    Simulator simulator;
+    Chain chain(simulator);
+    simulator.run_until(us(1));
+    EXPECT_TRUE(simulator.step(us(10)));
+    EXPECT_EQ(chain.ran_at_us, (std::vector<std::int64_t>{1, 2}));
+}
+
 TEST(Simulator, AnExceptionLeavesItUsable) {
     Simulator simulator;
     int runs = 0;
