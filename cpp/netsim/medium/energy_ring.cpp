@@ -7,6 +7,7 @@ void EnergyRing::clear() {
     zones_.clear();
     zones_watched_ = 0;
     watched_.clear();
+    first_zone_.clear();
 }
 
 std::size_t EnergyRing::zones_needed() const {

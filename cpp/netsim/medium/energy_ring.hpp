@@ -29,7 +29,18 @@ public:
             0;  // more than that must come before its channel can become busy where it is not yet
     };
 
+    // Who gets so much that it is in the first zone or further in, and does not notice that alone.
+    struct Near {
+        RadioId radio = 0;
+        double received_w = 0;
+    };
+
     void clear();
+
+    // Those of the first zone are found while the transmission looks for receivers anyway: mostly no others are to be watched.
+    static double first_zone_w(double level_w) { return level_w * tenths / (tenths + 1); }
+    std::vector<Near>& first_zone() { return first_zone_; }
+    bool is_first_zone_enough() const { return zones_watched_ == 1 && level_w_ > 0; }
 
     // Begins to add up the others anew, of which there are `count`. `level_w` is the least energy that is noticed; if
     // that is none, everybody is watched. `reach_m(power_w)`: who gets that power is not farther away, in m.
@@ -57,6 +68,7 @@ private:
         double reach_m = 0;
         double others_w = 0;  // what the others bring there, at most
     };
+    static constexpr std::size_t tenths = 9;
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 
     std::size_t zones_needed() const;
@@ -66,6 +78,7 @@ private:
     std::vector<Zone> zones_;  // outwards
     std::size_t zones_watched_ = 0;
     std::vector<Watched> watched_;
+    std::vector<Near> first_zone_;
 };
 
 template <typename Reach>
@@ -82,7 +95,6 @@ void EnergyRing::forget_others(std::size_t count, double level_w, const Reach& r
     // Of k powers that reach the level together, the largest reaches a k-th of it. Twice as many may come.
     const double enough_w = level_w / static_cast<double>(2 * count + 4);
     while (zones_.empty() || zones_.back().least_w >= enough_w) {
-        constexpr std::size_t tenths = 9;
         const double least_w = zones_.size() < tenths
                                    ? level_w * static_cast<double>(tenths - zones_.size()) / (tenths + 1)
                                    : zones_.back().least_w / 2;

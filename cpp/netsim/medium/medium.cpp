@@ -67,7 +67,8 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
     audience->least_energy_w = std::min(audience->least_energy_w, energy_w);
     audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
     audience->most_antenna_gain = std::max(audience->most_antenna_gain, antenna.max_gain());
-    audience->reached_gain = -1;
+    audience->reach = {};
+    audience->first_zone_reach = {};
     audience->members.add(radio, *receiver.trajectory);
     return radio;
 }
@@ -103,8 +104,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.first_place = simulator_.reserve_places(2 * attached_.size());
     entry.odometer_m = odometer_.reading_m(now);
     entry.heard.clear();
-    entry.started = 0;
-    entry.ended = 0;
+    entry.told = {};
     entry.rings.resize(audiences_.size());
     for (EnergyRing& ring : entry.rings) {
         ring.clear();
@@ -146,11 +146,14 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     const RadioId addressee = addressee_of(sent);
     bool addressee_notices = false;
     double farthest_m = 0;
-    for (Audience& audience : audiences_) {
+    for (std::size_t index = 0; index < audiences_.size(); ++index) {
+        Audience& audience = audiences_[index];
         const double share = sent.band.share_in(audience.band);
         if (share == 0) {
             continue;
         }
+        std::vector<EnergyRing::Near>& first_zone = entry.rings[index].first_zone();
+        const double first_zone_w = EnergyRing::first_zone_w(noticed_energy_w(audience));
         const bool is_decodable = can_decode(audience, sent);
         copies += is_decodable ? audience.members.size() : 0;
         const double within_m = reach_m(audience, sent);
@@ -158,9 +161,10 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         entry.reach_m = std::max(entry.reach_m, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
         candidates_.clear();
-        audience.members.visit(sent.origin, within_m, [&](RadioId radio, const Position& place) {
+        const double search_m = std::max(within_m, first_zone_reach_m(audience, sent));
+        audience.members.visit(sent.origin, search_m, [&](RadioId radio, const Position& place) {
             const double squared_m2 = squared_distance(sent.origin, place);
-            if (squared_m2 <= within_m * within_m && radio != sent.radio) {
+            if (squared_m2 <= search_m * search_m && radio != sent.radio) {
                 __builtin_prefetch(&attached_[radio]);
                 candidates_.push_back(Candidate{radio, place, squared_m2});
             }
@@ -177,6 +181,9 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             if (can_lock || is_loud(there, received_w)) {
                 fetch(radio, sent.label.kind);
                 entry.heard.push_back(Heard{now + propagation_delay(distance_m), radio, received_w});
+            }
+            if (received_w >= first_zone_w && !is_surely_loud(there, received_w)) {
+                first_zone.push_back({radio, received_w});
             }
         }
     }
@@ -233,22 +240,29 @@ void Medium::fetch(RadioId radio, FrameKind kind) const {
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
     // Who cannot decode it notices only its energy.
     const double least_w = can_decode(audience, transmission) ? audience.least_w : audience.least_energy_w;
-    const double gain = least_w / most_power_w(transmission, audience);
-    if (audience.reached_gain != gain || audience.carrier_hz != transmission.band.carrier_hz) {
-        audience.reached_gain = gain;
-        audience.carrier_hz = transmission.band.carrier_hz;
-        audience.reach_m = reach_of_power_m(transmission, audience, least_w);
+    return known_reach_m(audience.reach, transmission, audience, least_w);
+}
+
+double Medium::first_zone_reach_m(Audience& audience, const Transmission& transmission) const {
+    const double least_w = EnergyRing::first_zone_w(noticed_energy_w(audience));
+    return least_w > 0 ? known_reach_m(audience.first_zone_reach, transmission, audience, least_w) : 0;
+}
+
+double Medium::known_reach_m(KnownReach& known, const Transmission& transmission, const Audience& audience,
+                             double power_w) const {
+    const double gain = power_w / most_power_w(transmission, audience);
+    if (known.gain != gain || known.carrier_hz != transmission.band.carrier_hz) {
+        known = {gain, transmission.band.carrier_hz, reach_of_power_m(transmission, audience, power_w)};
     }
-    return audience.reach_m;
+    return known.reach_m;
 }
 
 double Medium::reach_of_power_m(const Transmission& transmission, const Audience& audience,
                                 double power_w) const {
-    // Out of reach is said only with a margin for rounding; who is in doubt gets the exact calculation.
-    constexpr double margin = 1 + 1e-9;
+    // Who is in doubt gets the exact calculation.
     return power_w > 0 ? propagation_.reach_m(power_w / most_power_w(transmission, audience),
                                               transmission.band.carrier_hz) *
-                             margin
+                             (1 + margin)
                        : std::numeric_limits<double>::infinity();
 }
 
@@ -262,35 +276,45 @@ void Medium::schedule_arrivals(OnAir& entry) {
     std::sort(entry.heard.begin(), entry.heard.end(), [](const Heard& a, const Heard& b) {
         return a.start != b.start ? a.start < b.start : a.radio < b.radio;
     });
-    schedule_next_start(entry);
-    schedule_next_end(entry);
+    schedule_next(entry, Edge::start);
+    schedule_next(entry, Edge::end);
 }
 
-void Medium::schedule_next_start(OnAir& entry) {
-    const Heard& next = entry.heard[entry.started];
-    simulator_.schedule_at_place(
-        next.start, entry.first_place + 2 * static_cast<Place>(next.radio), [this, &entry] {
-            const Heard& now = entry.heard[entry.started];
-            if (++entry.started < entry.heard.size()) {
-                schedule_next_start(entry);
-            }
-            attached_[now.radio].listener->arrival_started(Arrival{
-                &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
-        });
+Medium::Due Medium::next_due(const OnAir& entry, Edge edge) {
+    const Heard& next = entry.heard[entry.told[edge]];
+    return {edge == Edge::start ? next.start : next.start + entry.transmission.duration,
+            entry.first_place + 2 * static_cast<Place>(next.radio) + edge};
 }
 
-void Medium::schedule_next_end(OnAir& entry) {
-    const Heard& next = entry.heard[entry.ended];
-    simulator_.schedule_at_place(
-        next.start + entry.transmission.duration, entry.first_place + 2 * static_cast<Place>(next.radio) + 1,
-        [this, &entry] {
-            const Heard& now = entry.heard[entry.ended];
-            if (++entry.ended < entry.heard.size()) {
-                schedule_next_end(entry);
+void Medium::schedule_next(OnAir& entry, Edge edge) {
+    const Due due = next_due(entry, edge);
+    simulator_.schedule_at_place(due.time, due.place, [this, &entry, edge] { tell_next(entry, edge); });
+}
+
+// And of those after it, as long as nothing else is due in between: mostly they come in one go, and need not pass through
+// the queue.
+void Medium::tell_next(OnAir& entry, Edge edge) {
+    Due due;
+    do {
+        const Heard& heard = entry.heard[entry.told[edge]++];
+        const Arrival arrival{&entry.transmission, heard.start, heard.start + entry.transmission.duration,
+                              heard.power_w};
+        const bool is_last = entry.told[edge] == entry.heard.size();
+        try {
+            MediumListener& listener = *attached_[heard.radio].listener;
+            edge == Edge::start ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
+        } catch (...) {  // a protocol's: the others hear the frame all the same
+            if (!is_last) {
+                schedule_next(entry, edge);
             }
-            attached_[now.radio].listener->arrival_ended(Arrival{
-                &entry.transmission, now.start, now.start + entry.transmission.duration, now.power_w});
-        });
+            throw;
+        }
+        if (is_last) {
+            return;
+        }
+        due = next_due(entry, edge);
+    } while (simulator_.goes_on_at(due.time, due.place));
+    schedule_next(entry, edge);
 }
 
 void Medium::tell(RadioId radio, const OnAir& on_air, const Arrival& arrival) {

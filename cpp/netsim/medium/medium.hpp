@@ -6,6 +6,9 @@
 // of the plain model, in which every radio hears of everything; the cost is that of the radios near by.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <deque>
 #include <limits>
 #include <memory>
@@ -113,6 +116,12 @@ private:
         Position place;
         double squared_m2 = 0;
     };
+    // The last one that was worked out: mostly all transmissions have the same.
+    struct KnownReach {
+        double gain = -1;
+        double carrier_hz = 0;
+        double reach_m = 0;
+    };
     // Receivers of one band and the same formats that notice about the same powers: what is too far away for the keenest of them is too
     // far away for all. Within a factor of 4, so that one of very keen ears does not make all others listen.
     struct Audience {
@@ -123,10 +132,15 @@ private:
         double least_energy_w = 0;  // below that, the sum of several is not noticed either
         double most_energy_w = 0;   // from that on, the noise or one transmission is enough for all of them
         double most_antenna_gain = 0;
-        double reached_gain = -1;  // of the last reach worked out
-        double carrier_hz = 0;
-        double reach_m = 0;
+        KnownReach reach;
+        KnownReach first_zone_reach;
         Neighbours members;
+    };
+    // What a radio is told of an arrival; at one time, in this order.
+    enum Edge : std::uint8_t { start = 0, end = 1 };
+    struct Due {
+        SimTime time;
+        Place place = 0;
     };
     // An arrival to come.
     struct Heard {
@@ -136,15 +150,14 @@ private:
     };
     struct OnAir {
         Transmission transmission;
-        SimTime last_end;               // at its most distant receiver, or later
-        Place first_place = 0;          // of its arrivals' events, two for each receiver
-        double odometer_m = 0;          // at its start
-        double reach_m = 0;             // nobody locks on to it farther away
-        double others_w = 0;            // within that, at most, of all that are on the air beside it
-        std::vector<Heard> heard;       // by those that notice it alone, in the order of their events
-        std::size_t started = 0;        // of `heard`
-        std::size_t ended = 0;          // of `heard`
-        std::vector<EnergyRing> rings;  // [audience]
+        SimTime last_end;                   // at its most distant receiver, or later
+        Place first_place = 0;              // of its arrivals' events, two for each receiver
+        double odometer_m = 0;              // at its start
+        double reach_m = 0;                 // nobody locks on to it farther away
+        double others_w = 0;                // within that, at most, of all that are on the air beside it
+        std::vector<Heard> heard;           // by those that notice it alone, in the order of their events
+        std::array<std::size_t, 2> told{};  // [edge]: so many of `heard`
+        std::vector<EnergyRing> rings;      // [audience]
     };
     // What a transmission can bring to any of the receivers that are to be watched.
     struct Bound {
@@ -190,14 +203,27 @@ private:
                    ? in_band_w
                    : in_band_w * antennas_.max_gain(sent.radio) * audience.most_antenna_gain;
     }
+    // Bounds are taken so much larger and levels so much lower, for rounding.
+    static constexpr double margin = 1e-9;
+
     // Beyond that, a transmission without others beside it cannot matter to the audience.
     double reach_m(Audience& audience, const Transmission& transmission) const;
+    // The sum of several is not noticed below that.
+    static double noticed_energy_w(const Audience& audience) {
+        return audience.least_energy_w * (1 - margin);
+    }
+    // How far its power reaches the first zone of its rings (energy_ring.hpp); 0 if they have none.
+    double first_zone_reach_m(Audience& audience, const Transmission& transmission) const;
+    double known_reach_m(KnownReach& known, const Transmission& transmission, const Audience& audience,
+                         double power_w) const;
     // Beyond that, nobody of the audience gets that power.
     double reach_of_power_m(const Transmission& transmission, const Audience& audience, double power_w) const;
     void fetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(OnAir& entry);
-    void schedule_next_start(OnAir& entry);
-    void schedule_next_end(OnAir& entry);
+    // Of the next one to start or to end.
+    static Due next_due(const OnAir& entry, Edge edge);
+    void schedule_next(OnAir& entry, Edge edge);
+    void tell_next(OnAir& entry, Edge edge);
     void tell(RadioId radio, const OnAir& on_air, const Arrival& arrival);
     void begin(RadioId radio, const OnAir& on_air, const Arrival& arrival);
     // Sums of energy: medium_energy.cpp.
@@ -237,6 +263,11 @@ private:
     template <typename ReceiverOrAttached>
     static bool is_loud(const ReceiverOrAttached& receiver, double power_w) {
         return receiver.noise_w + power_w >= receiver.energy_detection_w;
+    }
+    // However sums are rounded.
+    template <typename ReceiverOrAttached>
+    static bool is_surely_loud(const ReceiverOrAttached& receiver, double power_w) {
+        return is_loud(receiver, power_w * (1 - margin));
     }
     void forget_the_past();
 

@@ -14,13 +14,6 @@
 
 namespace netsim {
 
-namespace {
-
-// Bounds are taken so much larger and levels so much lower, for rounding.
-constexpr double margin = 1e-9;
-
-}  // namespace
-
 // At any receiver that gets `there` and is within a radius, in m, of where `here` began when that did.
 auto Medium::most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const {
     const double moved_m = std::abs(there.odometer_m - here.odometer_m);
@@ -104,7 +97,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
             }
         }
     };
-    ring.forget_others(beside_.size(), audience.least_energy_w * (1 - margin),
+    ring.forget_others(beside_.size(), noticed_energy_w(audience),
                        [&](double power_w) { return reach_of_power_m(sent, audience, power_w); });
     visit_others([&](const OnAir& other) {
         ring.add(most_brought_w(other, here, most_power_w(other.transmission, audience)));
@@ -125,6 +118,28 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
     double rest_w = 0;
     std::for_each(bounds_.rbegin(), bounds_.rend(),
                   [&](Bound& bound) { rest_w = bound.rest_w = rest_w + bound.most_w; });
+    const auto watch = [&](RadioId radio, double received_w) {
+        if (outlook_of_[radio] != no_outlook) {
+            ring.watched().push_back({radio, missing_at(radio, newest)});
+            return;
+        }
+        // Bounds give way to powers, one after the other, until it is known that something is missing.
+        const Attached& receiver = attached_[radio];
+        double known_w = receiver.noise_w + received_w;
+        const double level_w = receiver.energy_detection_w * (1 - margin);
+        auto bound = bounds_.begin();
+        for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
+            known_w += brought_w(*bound->transmission, radio);
+        }
+        const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
+        ring.watched().push_back({radio, missing_w > 0 ? missing_w : missing_at(radio, newest)});
+    };
+    if (ring.is_first_zone_enough()) {
+        for (const EnergyRing::Near& near : ring.first_zone()) {
+            watch(near.radio, near.received_w);
+        }
+        return;
+    }
     const double share = sent.band.share_in(audience.band);
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
@@ -136,24 +151,10 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
         const double received_w = moved_m > 0 || !odometer_.all_stand()
                                       ? arrival_at(sent, radio).power_w
                                       : power_w(sent, share, radio, place, distance(sent.origin, place));
-        const Receiver& receiver = receivers_[radio];
-        if (received_w < ring.least_power_w() || received_w >= watched_before_w ||
-            is_loud(receiver, received_w * (1 - margin))) {
-            return;
+        if (received_w >= ring.least_power_w() && received_w < watched_before_w &&
+            !is_surely_loud(attached_[radio], received_w)) {
+            watch(radio, received_w);
         }
-        if (outlook_of_[radio] != no_outlook) {
-            ring.watched().push_back({radio, missing_at(radio, newest)});
-            return;
-        }
-        // Bounds give way to powers, one after the other, until it is known that something is missing.
-        double known_w = receiver.noise_w + received_w;
-        const double level_w = receiver.energy_detection_w * (1 - margin);
-        auto bound = bounds_.begin();
-        for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
-            known_w += brought_w(*bound->transmission, radio);
-        }
-        const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
-        ring.watched().push_back({radio, missing_w > 0 ? missing_w : missing_at(radio, newest)});
     });
 }
 

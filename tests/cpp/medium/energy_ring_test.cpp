@@ -45,6 +45,24 @@ TEST(EnergyRing, IsThinIfTheOthersAreFarAway) {
     EXPECT_GE(ring.radius_m(), reach_m(0.99 * level_w));
 }
 
+TEST(EnergyRing, IsNoMoreThanTheFirstZoneThen) {
+    const EnergyRing ring = ring_beside(10'000);
+    EXPECT_TRUE(ring.is_first_zone_enough());
+    EXPECT_EQ(ring.least_power_w(), EnergyRing::first_zone_w(level_w));
+}
+
+TEST(EnergyRing, TheFirstZoneIsNotEnoughIfOneOfThemIsNear) {
+    EXPECT_FALSE(ring_beside(300).is_first_zone_enough());
+}
+
+TEST(EnergyRing, HasNoFirstZoneIfAnythingIsNoticed) {
+    EnergyRing ring;
+    ring.forget_others(1, 0, reach_m);
+    ring.add(from_distance(300));
+    ring.widen();
+    EXPECT_FALSE(ring.is_first_zone_enough());
+}
+
 TEST(EnergyRing, ReachesWhereTwoEqualPowersMakeTheLevel) {
     // Midway between them each brings half of it.
     EXPECT_GE(ring_beside(2 * 100 * std::sqrt(2) - 1).radius_m(), 100 * std::sqrt(2) - 1);

@@ -135,6 +135,20 @@ TEST(Network, AnExceptionOfAProtocolEndsRunUntil) {
     EXPECT_EQ(network.now(), s(2));
 }
 
+TEST(Network, AfterAnExceptionOfOneReceiverTheOthersGetTheFrame) {
+    Network network(MediumConfig(), 1);
+    Recorder& sender = test::add_recorder(network, silent_node());
+    Recorder& near = test::add_recorder(network, silent_node({10, 0, 0}));
+    Recorder& far = test::add_recorder(network, silent_node({20, 0, 0}));
+    sender.on_initialize = [](Recorder& self) { self.broadcast("text"); };
+    near.on_packet = [](Recorder&, const std::string&) { throw std::runtime_error("of the protocol"); };
+    network.initialize();
+    EXPECT_THROW(network.run_until(s(1)), std::runtime_error);
+    EXPECT_TRUE(far.packets.empty());
+    network.run_until(s(1));
+    EXPECT_EQ(far.packet_texts(), std::vector<std::string>{"text"});
+}
+
 TEST(Network, RunsWhatIsScheduledBesideItsNodes) {
     Network network(MediumConfig{}, 1);
     SimTime ran;
