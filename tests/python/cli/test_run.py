@@ -76,9 +76,27 @@ def test_runs_with_one_seed_are_warned_of(gradysim, runs, seed, warned):
     assert ("warning: the 3 runs of General have seed 4" in done.stderr) is warned
 
 
-def test_a_negative_seed_is_refused(gradysim):
-    done = gradysim("run", "test.ini", "--seed=-1")
-    assert (done.returncode, done.stderr.strip()) == (2, "--seed -1: expected 0 or more")
+@both_modes
+@pytest.mark.parametrize("seed", [-1, 2**63, 2**64 - 1, 2**64])
+def test_a_seed_out_of_range_is_refused(gradysim, mode, seed):
+    done = gradysim("run", "test.ini", "--mode", mode, f"--seed={seed}")
+    expected = f"--seed {seed}: it is out of range; expected 0 to {2**63 - 1}"
+    assert (done.returncode, done.stdout, done.stderr.strip()) == (2, "", expected)
+
+
+@both_modes
+def test_a_seed_that_leaves_no_room_for_the_last_run_is_refused(gradysim, mode):
+    largest = 2**63 - 1
+    done = gradysim("run", "test.ini", "--mode", mode, f"--seed={largest - 1}")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"--seed {largest - 1}: run 2 would have the seed {largest + 1}" in done.stderr
+    assert f"expected at most {largest - 2}, since run N adds N" in done.stderr
+
+
+@both_modes
+def test_the_largest_seed_runs(gradysim, mode):
+    done = gradysim("run", "test.ini", "--mode", mode, f"--seed={2**63 - 1}", "-r", "0", "--json")
+    assert [run["seed"] for run in objects(done.stdout)] == [2**63 - 1]
 
 
 def test_the_result_directory(gradysim, folder):

@@ -6,6 +6,9 @@ from gradysim.config.kinds import Kind, integer, quantity, text
 _MAX_SIM_TIME_S = 9_223_372.0
 """The engine's clock counts picoseconds in 64 bits."""
 
+LARGEST_SEED = 2**63 - 1
+"""Of a run, in both modes."""
+
 OPTION_KEYS: tuple[Key, ...] = (
     Key(
         "sim-time-limit",
@@ -17,7 +20,7 @@ OPTION_KEYS: tuple[Key, ...] = (
     Key(
         "seed-set",
         "option.seed_set",
-        integer(0, 2**63 - 1),
+        integer(0, LARGEST_SEED),
         "Seed of all random numbers of a run",
         default="${runnumber}",
     ),
