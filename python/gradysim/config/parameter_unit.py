@@ -1,7 +1,8 @@
 """The unit of a protocol's parameter, where something says it.
 
 Native protocols declare theirs. A class attribute in Python has no place for a unit but the end of its name,
-and only ends that hardly mean anything else count: `timeout_ms`, not `vector_x` or `point_a`.
+and only ends that hardly mean anything else count: `timeout_ms` and `power_dbm`, not `vector_x`, `point_a`,
+`size_b` or the `rician_k` that is no temperature.
 """
 
 from gradysim.config.native_protocol import NativeProtocol
@@ -12,7 +13,7 @@ _BY_END = {
     name.lower(): name
     for name in (
         "s", "ms", "us", "m", "km", "mps", "kmph", "Hz", "kHz", "MHz", "GHz", "bps", "kbps", "Mbps", "rad",
-        "deg",
+        "deg", "W", "mW", "dBm", "dBW", "dB",
     )
 }  # fmt: skip
 

@@ -43,7 +43,14 @@ class Quantity:
         assert self.unit is not None
         if self.unit == unit:
             return self.number
-        assert not unit.logarithmic
+        if unit.logarithmic:
+            ratio = self.unit.factor / unit.factor
+            if self.unit.logarithmic:
+                return float(self.number) + 10.0 * math.log10(ratio)
+            linear = float(self.number * ratio)
+            if linear <= 0.0:
+                raise BadValue(f"`{self}` has no logarithm, so it is no number of {unit.name}")
+            return 10.0 * math.log10(linear)
         if self.unit.logarithmic:
             return math.pow(10.0, float(self.number) / 10.0) * float(self.unit.factor / unit.factor)
         scale = self.unit.factor / unit.factor
@@ -75,7 +82,12 @@ class Quantity:
         """The quotient; by a plain number, or of two quantities of one dimension."""
         divisor = other.number
         if other.unit is not None:
-            if self.unit is None or self.unit.dimension is not other.unit.dimension or other.unit.logarithmic:
+            if (
+                self.unit is None
+                or self.unit.dimension is not other.unit.dimension
+                or self.unit.logarithmic
+                or other.unit.logarithmic
+            ):
                 raise BadValue(f"`{self}` divided by `{other}` has no unit here")
             divisor = other._to(self.unit)
         if divisor == 0:

@@ -24,6 +24,11 @@ class Native(NativeProtocol):
         ("carrier_mhz", "MHz"),
         ("bitrate_mbps", "Mbps"),
         ("heading_deg", "deg"),
+        ("power_w", "W"),
+        ("power_mw", "mW"),
+        ("power_dbm", "dBm"),
+        ("power_dbw", "dBW"),
+        ("lost_db", "dB"),
     ],
 )
 def test_the_end_of_a_name_says_it(name: str, unit: str) -> None:
@@ -31,7 +36,7 @@ def test_the_end_of_a_name_says_it(name: str, unit: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["interval", "s", "vector_x", "point_a", "size_b", "retry_min", "interval_S"]
+    "name", ["interval", "s", "vector_x", "point_a", "size_b", "rician_k", "retry_min", "interval_S"]
 )
 def test_other_names_say_nothing(name: str) -> None:
     assert unit_of(Quiet, name) is None

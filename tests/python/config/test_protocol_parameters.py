@@ -1,6 +1,8 @@
 from typing import ClassVar, Final
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from gradysim.config.error import BadValue
 from gradysim.config.expression import parse_value
@@ -20,6 +22,11 @@ class Mobile(Base):
     real_by_text: "float | None" = 0
     real_constant: ClassVar[float] = 0
     timeout_ms = 20.0
+    power_w = 0.1
+    power_mw = 100.0
+    power_dbm = 20.0
+    power_dbw = -10.0
+    lost_db = 3.0
     whole: int = 3
     text: Final = "x"
     flag = False
@@ -51,6 +58,11 @@ def test_are_public_plain_class_attributes() -> None:
         "real_by_text",
         "real_constant",
         "timeout_ms",
+        "power_w",
+        "power_mw",
+        "power_dbm",
+        "power_dbw",
+        "lost_db",
         "whole",
         "text",
         "flag",
@@ -67,6 +79,24 @@ def test_floats_take_quantities_and_whole_numbers(name: str) -> None:
 @pytest.mark.parametrize("written", ["2s", "2000ms", "2000"])
 def test_what_says_its_unit_is_in_that(written: str) -> None:
     assert converted("timeout_ms", written) == 2000.0
+
+
+@pytest.mark.parametrize("written", ["20dBm", "0.1W", "100mW", "-10dBW"])
+@pytest.mark.parametrize(
+    ("name", "value"), [("power_w", 0.1), ("power_mw", 100.0), ("power_dbm", 20.0), ("power_dbw", -10.0)]
+)
+def test_powers_are_in_the_unit_of_the_name(name: str, value: float, written: str) -> None:
+    assert converted(name, written) == pytest.approx(value, rel=1e-12)
+
+
+@given(st.floats(-200, 200), st.sampled_from([("dbm", "dBm"), ("dbw", "dBW"), ("mw", "mW"), ("w", "W")]))
+def test_a_number_is_in_the_unit_of_the_name(number: float, end: tuple[str, str]) -> None:
+    assert converted(f"power_{end[0]}", f"{number!r}") == number
+    assert converted(f"power_{end[0]}", f"{number!r}{end[1]}") == number
+
+
+def test_decibels_stay_decibels() -> None:
+    assert (converted("lost_db", "3"), converted("lost_db", "3dB")) == (3.0, 3.0)
 
 
 def test_other_types_are_kept() -> None:
@@ -89,6 +119,14 @@ def test_other_types_are_kept() -> None:
         ("real", "true"),
         ("real", "nan"),
         ("timeout_ms", "5m"),
+        ("power_w", "3V"),
+        ("power_mw", "3s"),
+        ("power_mw", "3dB"),
+        ("power_dbm", "3dB"),
+        ("power_dbm", "0W"),
+        ("lost_db", "3dBm"),
+        ("lost_db", "3kg"),
+        ("lost_db", "3x"),
     ],
 )
 def test_other_types_are_refused(name: str, written: str) -> None:

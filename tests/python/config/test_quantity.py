@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 from gradysim.config.error import BadValue
 from gradysim.config.expression import parse_value
 from gradysim.config.quantity import Quantity
-from gradysim.config.units import UNITS, Dimension
+from gradysim.config.units import UNITS, Dimension, Unit
 
 linear_units = st.sampled_from([unit for unit in UNITS.values() if not unit.logarithmic])
+powers = st.sampled_from([unit for unit in UNITS.values() if unit.dimension is Dimension.POWER])
+levels = powers.filter(lambda unit: unit.logarithmic)
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -50,6 +52,35 @@ def test_converts(quantity: Quantity, unit: str, expected: float) -> None:
 )
 def test_levels_become_powers(quantity: Quantity, watts: float) -> None:
     assert quantity.to(UNITS["W"]) == pytest.approx(watts, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "unit", "level"),
+    [
+        (q(100, "mW"), "dBm", 20.0),
+        (q(0.5, "W"), "dBW", -3.010299956639812),
+        (q(math.inf, "W"), "dBm", math.inf),
+        (q(20, "dBm"), "dBm", 20.0),
+        (q(20, "dBm"), "dBmW", 20.0),
+        (q(20, "dBm"), "dBW", -10.0),
+        (q(-3, "dBW"), "dBm", 27.0),
+    ],
+)
+def test_powers_become_levels(quantity: Quantity, unit: str, level: float) -> None:
+    assert quantity.to(UNITS[unit]) == pytest.approx(level, rel=1e-15)
+
+
+@given(st.floats(1e-30, 1e30), powers, levels)
+def test_a_power_is_the_same_one_after_a_level(number: float, power: Unit, level: Unit) -> None:
+    quantity = Quantity(Fraction(number), power)
+    again = Quantity(Fraction(quantity.to(level)), level).to(power)
+    assert again == pytest.approx(number, rel=1e-12)
+
+
+@pytest.mark.parametrize("number", [0, -1, Fraction(1, 10**400)])
+def test_what_has_no_logarithm_is_refused(number: int | Fraction) -> None:
+    with pytest.raises(BadValue, match=r"has no logarithm, so it is no number of dBm$"):
+        Quantity(number, UNITS["W"]).to(UNITS["dBm"])
 
 
 @given(finite, linear_units)
