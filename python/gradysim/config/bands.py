@@ -1,5 +1,7 @@
 """The frequency bands of 802.11 radios under INET's names, and the centres of their channels, counted from 0.
 
+Those of 802.15.4 radios have one band and the numbers of the standard, from 11 on.
+
 The channels of the 2.4 GHz band are those of the standard. The other bands are cut into channels of equal
 width, as INET cuts them: centre = start + (number + 1/2) * width. In the 5.9 GHz band these are channels 172,
 174, ... 184 of IEEE 802.11-2020, annex E; in the bands of 5 GHz they are not: there centerFrequency says
@@ -9,7 +11,7 @@ which is meant (channel 36: 5180 MHz).
 from dataclasses import replace
 
 from gradysim.config.expression import Value, parse_value
-from gradysim.config.kinds import Kind, channel_of_2_4_ghz, choice, integer
+from gradysim.config.kinds import Kind, Scalar, channel_of_2_4_ghz, choice, integer
 
 
 def _channel(band: str, start_hz: float, width_hz: float, count: int) -> Kind:
@@ -39,6 +41,45 @@ CHANNELS = {
     },
 }
 """The kind of a channel's number, by the name of its band."""
+
+_FIRST_OF_802154, _LAST_OF_802154 = 11, 26
+
+
+def _channel_of_802154() -> Kind:
+    """A channel of IEEE 802.15.4 in the 2450 MHz band, converted to its centre in hertz.
+
+    The centre of channel k is 2405 + 5 (k - 11) MHz (IEEE 802.15.4-2006, 6.1.2.1).
+    """
+    number = integer(_FIRST_OF_802154, _LAST_OF_802154)
+
+    def convert(value: Value) -> float:
+        return 2.405e9 + 5e6 * (int(number.convert(value)) - _FIRST_OF_802154)
+
+    def show(carrier_hz: Scalar) -> str:
+        channel = (float(carrier_hz) - 2.405e9) / 5e6 + _FIRST_OF_802154
+        is_one = channel.is_integer() and _FIRST_OF_802154 <= channel <= _LAST_OF_802154
+        return f"{channel:g}" if is_one else "none"
+
+    numbers = f"{_FIRST_OF_802154} to {_LAST_OF_802154}"
+    return Kind(
+        f"a channel of IEEE 802.15.4, {numbers} (2.405 GHz to 2.48 GHz)", convert, unit=numbers, show=show
+    )
+
+
+CHANNEL_OF_802154 = _channel_of_802154()
+"""The kind of a channel's number of an 802.15.4 radio."""
+
+
+def channel_by_default() -> Kind:
+    """The kind of a channel's number where no band is said; lists of keys show those of both standards."""
+    of_80211 = CHANNELS["2.4 GHz"]
+
+    def show(carrier_hz: Scalar) -> str:
+        channel = of_80211.show(carrier_hz)
+        return channel if channel != "none" else CHANNEL_OF_802154.show(carrier_hz)
+
+    return replace(of_80211, unit=f"{of_80211.unit}; 802.15.4: {CHANNEL_OF_802154.unit}", show=show)
+
 
 BAND = choice(*CHANNELS)
 """The name of a band."""

@@ -16,6 +16,7 @@ class InterfaceSpec:
         antenna: Fields of AntennaConfig.
         mac: Fields of MacConfig.
         csma: Fields of CsmaConfig.
+        band: Of no struct of the engine: the name of a band where nothing reads it.
         range_sets_power: Whether transmitter.communicationRange comes before transmitter.power: on a medium
             where power decides, the power is to be that for the range.
     """
@@ -25,6 +26,7 @@ class InterfaceSpec:
     antenna: Mapping[str, Setting] = field(default_factory=dict)
     mac: Mapping[str, Setting] = field(default_factory=dict)
     csma: Mapping[str, Setting] = field(default_factory=dict)
+    band: Mapping[str, Setting] = field(default_factory=dict)
     range_sets_power: bool = False
 
     def structs(self) -> dict[str, Mapping[str, Setting]]:
@@ -36,5 +38,5 @@ class InterfaceSpec:
         return {field: setting for struct in self.structs().values() for field, setting in struct.items()}
 
 
-STRUCTS = ("interface", "radio", "antenna", "mac", "csma")
+STRUCTS = ("interface", "radio", "antenna", "mac", "csma", "band")
 """The structs that an interface is made of: the first parts of its keys' targets."""

@@ -12,8 +12,13 @@ from gradysim.config.groups import Group
 from gradysim.config.interface_spec import STRUCTS, InterfaceSpec
 from gradysim.config.key import Key
 from gradysim.config.keys import WLAN_KEYS
-from gradysim.config.keys.interface import NUM_WLAN_INTERFACES, at_interface
-from gradysim.config.keys.radio import BAND_NAME, CHANNEL_NUMBER
+from gradysim.config.keys.interface import (
+    IEEE802154,
+    INTERFACE_TYPENAME,
+    NUM_WLAN_INTERFACES,
+    at_interface,
+)
+from gradysim.config.keys.radio import BAND_NAME, CHANNEL_NUMBER, OF_802154
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.setting import SettingReader
 from gradysim.config.struct_reader import read_struct
@@ -58,10 +63,16 @@ class InterfaceBuilder:
         known = tuple((key.path, entry) for key, entry in found.items())
         spec = self._known.get(known)
         if spec is None:
-            in_band = self._in_its_band(found)
+            in_band = _of_802154(found) if self._is_802154(found) else self._in_its_band(found)
             structs = {struct: read_struct(struct, in_band, self._settings) for struct in STRUCTS}
             spec = self._known[known] = InterfaceSpec(**structs, range_sets_power=_range_comes_first(found))
         return spec
+
+    def _is_802154(self, found: Mapping[Key, Found]) -> bool:
+        chosen = found.get(INTERFACE_TYPENAME)
+        if chosen is None or chosen.is_default:
+            return False
+        return self._settings.scalar(chosen.entry, INTERFACE_TYPENAME.kind) in IEEE802154.names
 
     def _in_its_band(self, found: Mapping[Key, Found]) -> Mapping[Key, Found]:
         """Read a channel's number as one of the band beside it, which then says nothing of its own."""
@@ -71,6 +82,11 @@ class InterfaceBuilder:
         name = str(self._settings.scalar(band.entry, BAND))
         of_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
         return {**of_band, replace(CHANNEL_NUMBER, kind=CHANNELS[name]): channel}
+
+
+def _of_802154(found: Mapping[Key, Found]) -> Mapping[Key, Found]:
+    """Read a channel's number as 802.15.4 counts, in its only band."""
+    return {OF_802154.get(key, key): entry for key, entry in found.items()}
 
 
 def _range_comes_first(found: Mapping[Key, Found]) -> bool:

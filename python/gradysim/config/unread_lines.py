@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from gradysim.config.key import ReadBy
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.config.keys.interface import written_for
+from gradysim.config.keys.radio import OF_802154
 from gradysim.config.source import Source
 
 Chosen = Callable[[str], str | None]
@@ -19,7 +20,7 @@ Chosen = Callable[[str], str | None]
 None: no model, and on purpose, as `typename = ""` is written. Then nothing is missing.
 """
 
-KEYS = {key.target: key for key in (*NODE_KEYS, *NETWORK_KEYS)}
+KEYS = {key.target: key for key in (*NODE_KEYS, *NETWORK_KEYS, *OF_802154.values())}
 
 _CHOOSERS_OF_THE_NETWORK = frozenset(key.target for key in NETWORK_KEYS)
 _MOST_LINES = 4

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gradysim.config.bands import CHANNELS, first_channel_of_band
+from gradysim.config.bands import CHANNEL_OF_802154, CHANNELS, channel_by_default, first_channel_of_band
 from gradysim.config.error import BadValue
 from gradysim.config.expression import parse_value
 
@@ -34,3 +34,28 @@ def test_the_nearest_name_is_suggested() -> None:
     with pytest.raises(BadValue) as caught:
         first_channel_of_band().convert(parse_value('"5 GHz (20MHz)"'))
     assert "5 GHz (20 MHz)" in caught.value.suggestion
+
+
+@pytest.mark.parametrize(("number", "centre_mhz"), [(11, 2405), (12, 2410), (20, 2450), (26, 2480)])
+def test_channels_of_802154_have_the_numbers_of_the_standard(number: int, centre_mhz: float) -> None:
+    assert CHANNEL_OF_802154.convert(parse_value(str(number))) == centre_mhz * 1e6
+    assert CHANNEL_OF_802154.show(centre_mhz * 1e6) == str(number)
+
+
+@pytest.mark.parametrize("number", [0, 10, 27])
+def test_802154_has_no_other_channels_at_2_4_ghz(number: int) -> None:
+    with pytest.raises(BadValue):
+        CHANNEL_OF_802154.convert(parse_value(str(number)))
+    assert CHANNEL_OF_802154.show(2.405e9 + 5e6 * (number - 11)) == "none"
+
+
+def test_no_centre_is_a_channel_of_both_standards() -> None:
+    of_80211 = {CHANNELS["2.4 GHz"].convert(parse_value(str(number))) for number in range(14)}
+    assert of_80211.isdisjoint(
+        CHANNEL_OF_802154.convert(parse_value(str(number))) for number in range(11, 27)
+    )
+
+
+@pytest.mark.parametrize(("centre_mhz", "shown"), [(2412, "0"), (2450, "20"), (2451, "none")])
+def test_a_channel_is_shown_as_its_standard_counts(centre_mhz: float, shown: str) -> None:
+    assert channel_by_default().show(centre_mhz * 1e6) == shown

@@ -57,6 +57,46 @@ def test_interfaces_of_both_kinds(folder: Any) -> None:
     assert [setting and setting.value for setting in typenames] == [None, "Ieee802154NarrowbandInterface"]
 
 
+SENSORS = '*.uavs[*].wlan[*].typename = "Ieee802154NarrowbandInterface"\n'
+
+
+def test_an_802154_interface_counts_channels_as_its_standard(folder: Any) -> None:
+    scenario = folder.load(SENSORS + "*.uavs[*].wlan[*].radio.channelNumber = 12\n")
+    assert [carriers(node) for node in scenario.nodes] == [[None], [2.41e9], [2.41e9]]
+
+
+def test_each_interface_of_a_node_counts_for_itself(folder: Any) -> None:
+    second = SENSORS.replace("wlan[*]", "wlan[1]")
+    scenario = folder.load(TWO + second + "*.uavs[*].wlan[*].radio.channelNumber = 11\n")
+    assert carriers(scenario.nodes[1]) == [2.467e9, 2.405e9]
+
+
+@pytest.mark.parametrize("number", [0, 10, 27])
+def test_a_channel_that_802154_has_not_is_refused(folder: Any, number: int) -> None:
+    error = folder.error(SENSORS + f"*.uavs[*].wlan[*].radio.channelNumber = {number}\n")
+    assert error.startswith("test.ini:7: ")
+    assert (
+        f"channelNumber = {number}: it is out of range; expected a channel of IEEE 802.15.4, 11 to 26"
+        in error
+    )
+
+
+def test_an_802154_interface_reads_no_name_of_a_band(folder: Any) -> None:
+    """A line with wildcards is meant for the others."""
+    scenario = folder.load(SENSORS + '**.bandName = "5.9 GHz"\n')
+    assert [carriers(node) for node in scenario.nodes] == [[5.86e9], [None], [None]]
+    assert carriers(
+        folder.load(SENSORS + '**.bandName = "5 GHz"\n*.uavs[*].**.channelNumber = 26\n').nodes[1]
+    ) == [2.48e9]
+
+
+@pytest.mark.parametrize("frequency_first", [True, False])
+def test_of_frequency_and_channel_the_first_counts_for_802154_too(folder: Any, frequency_first: bool) -> None:
+    lines = ["*.uavs[*].**.centerFrequency = 2.46GHz\n", "*.uavs[*].**.channelNumber = 11\n"]
+    scenario = folder.load(SENSORS + "".join(lines if frequency_first else lines[::-1]))
+    assert carriers(scenario.nodes[1]) == [2.46e9 if frequency_first else 2.405e9]
+
+
 @pytest.mark.parametrize(
     ("added", "message"),
     [

@@ -31,6 +31,7 @@ def test_every_key_is_listed_with_a_meaning_and_a_unit() -> None:
         ("centerFrequency", "carrier_hz", 2.412e9, "2412MHz"),
         ("channelNumber", "carrier_hz", 2.484e9, "13"),
         ("channelNumber", "carrier_hz", 2.437e9, "5"),
+        ("channelNumber", "carrier_hz", 2.45e9, "20"),
         ("bandName", "carrier_hz", 2.412e9, '"2.4 GHz"'),
         ("bandName", "carrier_hz", 2.437e9, "none"),
         ("snirThreshold", "snir_threshold", 2.51188643150958, "4dB"),

@@ -42,6 +42,14 @@ def warnings(make_scenario: MakeScenario) -> Callable[..., list[str]]:
     return of
 
 
+def test_a_band_at_an_802154_interface(warnings: Callable[..., list[str]]) -> None:
+    sensors = f'{UAVS}.wlan[*].typename="Ieee802154NarrowbandInterface"'
+    (text,) = warnings(sensors, f'{RADIO}.bandName="5 GHz"')
+    assert f"nothing reads `{RADIO}.bandName`: that takes" in text
+    assert '.wlan[*].typename = "Ieee80211Interface"' in text
+    assert not warnings(sensors.replace("[*]", "[0]", 1), f'{RADIO}.bandName="5 GHz"')
+
+
 @pytest.mark.parametrize(
     ("setting", "choice"),
     [

@@ -29,14 +29,14 @@ NUM_WLAN_INTERFACES = Key(
 
 _own = Below(WLAN, "interface", RADIO_MEDIA)
 
-INTERFACE_KEYS: tuple[Key, ...] = (
-    _own(
-        "typename",
-        "typename",
-        choice(*IEEE80211.names, *IEEE802154.names),
-        "The network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
-    ),
+INTERFACE_TYPENAME = _own(
+    "typename",
+    "typename",
+    choice(*IEEE80211.names, *IEEE802154.names),
+    "The network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
 )
+
+INTERFACE_KEYS: tuple[Key, ...] = (INTERFACE_TYPENAME,)
 
 
 def at_interface(path: str, index: int) -> str:

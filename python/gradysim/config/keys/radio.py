@@ -1,9 +1,11 @@
 """Keys of a radio: its channel, what it sends and what it receives."""
 
-from gradysim.config.bands import CHANNELS, first_channel_of_band
+from dataclasses import replace
+
+from gradysim.config.bands import CHANNEL_OF_802154, channel_by_default, first_channel_of_band
 from gradysim.config.key import Key
 from gradysim.config.keys.antenna import ANTENNA_KEYS
-from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.interface import IEEE80211, WLAN
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.receiver import RECEIVER_KEYS
 from gradysim.config.keys.shapes import Below
@@ -16,15 +18,22 @@ BAND_NAME = _own(
     "bandName",
     "carrier_hz",
     first_channel_of_band(),
-    "802.11: band that channelNumber counts in; without one, channel 0 of it",
+    "802.11: band that channelNumber counts in; without that, channel 0 of it",
 )
 CHANNEL_NUMBER = _own(
     "channelNumber",
     "carrier_hz",
-    CHANNELS["2.4 GHz"],
-    "802.11: channel of the band, counted from 0 (another way to set centerFrequency); up to 13 in the"
-    " 2.4 GHz band, without bandName; other bands are counted as in INET (docs/guides/interfaces.md)",
+    channel_by_default(),
+    "Channel of the band (another way to set centerFrequency). 802.11: counted from 0, up to 13 in the"
+    " 2.4 GHz band, without bandName; other bands are counted as in INET (docs/guides/interfaces.md)."
+    " 802.15.4: number of the standard, 11 (2405 MHz) to 26 (2480 MHz)",
 )
+
+OF_802154: dict[Key, Key] = {
+    CHANNEL_NUMBER: replace(CHANNEL_NUMBER, kind=CHANNEL_OF_802154),
+    BAND_NAME: replace(BAND_NAME, target="band.band_name", read_by=IEEE80211),
+}
+"""What stands for these two keys at an 802.15.4 interface, which has one band and reads no name."""
 
 RADIO_KEYS: tuple[Key, ...] = (
     BAND_NAME,
