@@ -41,12 +41,14 @@ class BadValue(ValueError):  # noqa: N818 - no error of its own: see below
     Attributes:
         problem: What is wrong.
         suggestion: "" or "; did you mean ...?", to be put at the end of the whole message.
+        expected: What was expected, if that is more to the point than what such values have to be in general.
     """
 
-    def __init__(self, problem: str, suggestion: str = "") -> None:
+    def __init__(self, problem: str, suggestion: str = "", *, expected: str = "") -> None:
         super().__init__(problem + suggestion)
         self.problem = problem
         self.suggestion = suggestion
+        self.expected = expected
 
 
 def format_config_error(error: ConfigError) -> str:

@@ -205,7 +205,7 @@ def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -
     try:
         return loader.load(reference, entry.source.file.parent)
     except BadValue as error:
-        expected = 'a protocol as "file.py:Class" or "package.module:Class"'
+        expected = error.expected or 'a protocol as "file.py:Class" or "package.module:Class"'
         text = f"{error.problem}; expected {expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 

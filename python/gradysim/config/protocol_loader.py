@@ -8,6 +8,7 @@ from types import ModuleType
 
 from gradysim.config.error import BadValue
 from gradysim.config.nearest import did_you_mean
+from gradysim.config.protocol_contract import check_contract
 from gradysim.config.protocol_module import ModuleLoader
 from gradysim.protocol.interface import IProtocol
 
@@ -68,6 +69,7 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     if inspect.isabstract(protocol):
         missing = ", ".join(f"{method}()" for method in sorted(protocol.__abstractmethods__))
         raise BadValue(f"`{name}` in {place} is not complete, it lacks {missing}")
+    check_contract(protocol)
     return protocol
 
 

@@ -115,3 +115,16 @@ def test_an_error_in_a_sibling_shows_the_siblings_line(folder: Any, error_of: An
     assert error_of("broken.py:Mobile") == (
         "broken.py does not load: ZeroDivisionError: division by zero (sibling_x.py:3)"
     )
+
+
+def test_a_callback_that_cannot_be_called_is_refused_with_its_line(folder: Any) -> None:
+    folder.write(
+        "wrong.py", "from protocols import Sensor\n\nclass Wrong(Sensor):\n    def handle_timer(self): pass\n"
+    )
+    error = folder.error('[X]\n*.uavs[1].protocol.class = "wrong.py:Wrong"\n', "X")
+    assert error.startswith(
+        'test.ini:7: *.uavs[1].protocol.class = "wrong.py:Wrong": `handle_timer(self)` of `Wrong` ('
+    )
+    assert error.endswith(
+        "wrong.py:4) cannot be called with `timer` alone; expected `def handle_timer(self, timer)`"
+    )
