@@ -111,6 +111,20 @@ std::int32_t interface_of(py::handle command) {
     return check(value).cast<std::int32_t>();
 }
 
+// The id of a node, or what equals one, as an integer of NumPy does.
+netsim::NodeId destination_of(py::handle value) {
+    if (PyLong_Check(value.ptr())) {
+        int overflow = 0;
+        const long id = PyLong_AsLongAndOverflow(value.ptr(), &overflow);
+        if (overflow == 0 && std::in_range<netsim::NodeId>(id)) {
+            return static_cast<netsim::NodeId>(id);
+        }
+    }
+    const auto check =
+        py::module_::import("gradysim.protocol.messages.destination_id").attr("checked_destination");
+    return check(value).cast<netsim::NodeId>();
+}
+
 void carry_out_communication(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const message_name = name_of("message");
@@ -131,8 +145,7 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     if (destination.is_none()) {
         throw py::value_error("a SEND command needs a destination: the id of a node");
     }
-    node.send(static_cast<netsim::NodeId>(integer(destination, "destination")), std::move(payload),
-              interface);
+    node.send(destination_of(destination), std::move(payload), interface);
 }
 
 void carry_out_mobility(netsim::Node& node, py::handle command) {

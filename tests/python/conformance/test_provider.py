@@ -1,16 +1,18 @@
 """What a protocol is told and may ask for is the same in both modes."""
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import count
 from typing import Any, ClassVar
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from perfect_channel import MODES, Case
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import BroadcastMessageCommand
+from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 from python.quiet_protocol import Quiet
 
@@ -152,3 +154,30 @@ def test_timers_of_any_times_are_due_within_the_picosecond_that_the_engine_count
     assert [time for _, time in integrated] == pytest.approx(
         [time for _, time in prototype], rel=0, abs=5.01e-13
     )
+
+
+class ToWhatEqualsOne(Quiet):
+    """Node 0 sends to node 1, in several ways to say that."""
+
+    destinations: ClassVar[list[Any]] = [1, True, 1.0, np.int64(1), np.int16(1), np.float64(1), Fraction(1)]
+    heard: ClassVar[list[int]]
+
+    def initialize(self) -> None:
+        if self.provider.get_id() == 0:
+            for number in range(len(self.destinations)):
+                self.provider.schedule_timer(str(number), 0.1 * number)
+
+    def handle_timer(self, timer: str) -> None:
+        command = SendMessageCommand(timer, self.destinations[int(timer)])
+        self.provider.send_communication_command(command)
+
+    def handle_packet(self, message: str) -> None:
+        assert self.provider.get_id() == 1
+        self.heard.append(int(message))
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_a_destination_is_whatever_equals_an_id(mode: str) -> None:
+    ToWhatEqualsOne.heard = []
+    Case(LINE).run(mode, ToWhatEqualsOne)
+    assert ToWhatEqualsOne.heard == list(range(len(ToWhatEqualsOne.destinations)))
