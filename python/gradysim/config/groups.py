@@ -66,6 +66,7 @@ class _Mentions:
 
     def __init__(self, entries: Iterable[Found]) -> None:
         self.with_class: set[str] = set()
+        self._with_protocol: set[str] = set()  # with an index, too
         self._names: dict[str, None] = {}  # a set that keeps its order; holds "num..." keys as well
         for found in entries:
             name, rest = _name_and_rest(found)
@@ -74,18 +75,28 @@ class _Mentions:
             if rest is None and not _is_size_key(name):
                 continue
             self._names.setdefault(name)
-            if rest in _PROTOCOL_PATHS and _names_single(found):
-                self.with_class.add(name)
+            if rest in _PROTOCOL_PATHS:
+                self._with_protocol.add(name)
+                if _names_single(found):
+                    self.with_class.add(name)
 
     def size_keys(self) -> dict[str, str]:
-        """Names of groups, each with the key that gives its size."""
+        """Names of groups, each with the key that gives its size.
+
+        `*.numUavs` is for one group: of several that differ in case only, the first that is given a protocol.
+        """
         groups = [name for name in self._names if not _is_size_key(name)]
+        groups.sort(key=lambda name: name not in self._with_protocol)
         by_folded = {name.casefold(): name for name in reversed(groups)}
+        taken = {name[3:].casefold() for name in self._names if _is_size_key(name)}
         result: dict[str, str] = {}
         for name in self._names:
+            folded = name.casefold()
             if _is_size_key(name):
-                group = by_folded.get(name[3:].casefold(), name[3].lower() + name[4:])
+                group = by_folded.get(folded[3:], name[3].lower() + name[4:])
                 result[group] = name
+            elif folded in taken and by_folded[folded] != name:
+                result[name] = f"{name}.{GROUP_SIZE.path}"
             else:
                 result.setdefault(name, f"num{name[0].upper()}{name[1:]}")
         return result

@@ -62,6 +62,23 @@ def test_the_number_may_be_written_in_other_case_than_the_group() -> None:
     assert names_of("*.numUavs = 1\n*.UAVs[*].x.y = 1") == ["UAVs[0]"]
 
 
+@pytest.mark.parametrize(
+    "lines",
+    [
+        '*.numUavs = 1\n*.uavs[*].protocol.class = "x"\n*.Uavs[*].x.y = 1',
+        '*.Uavs[*].x.y = 1\n*.numUavs = 1\n*.uavs[*].protocol.class = "x"',
+        '*.UAVS.protocol.speed = 1\n*.uavs[*].protocol.class = "x"\n*.Uavs[*].x.y = 1\n*.numUavs = 1',
+    ],
+)
+def test_a_number_is_for_one_of_several_spellings_that_which_has_a_protocol(lines: str) -> None:
+    assert names_of(lines) == ["uavs[0]"]
+
+
+def test_groups_that_differ_in_case_may_have_numbers_of_their_own() -> None:
+    lines = '*.numUavs = 1\n*.uavs[*].protocol.class = "x"\n*.Uavs.count = 2\n*.Uavs[*].protocol.class = "x"'
+    assert names_of(lines) == ["uavs[0]", "Uavs[0]", "Uavs[1]"]
+
+
 def test_order_is_that_of_first_mention_general_first() -> None:
     own = "*.numUavs = 1\n*.numSensors = 1"
     general = '*.base.protocol.class = "x"\n*.sensors[*].x.y = 1\n*.uavs[*].x.y = 1'

@@ -76,3 +76,13 @@ def test_overrides_are_checked(folder: Any) -> None:
         "--set *.uavz[*].mobility.speed=1mps: `*.uavz[*].mobility.speed` matches no node; "
         "expected one of `groundStation`, `uavs[*]`; did you mean `*.uavs[*].mobility.speed`?"
     )
+
+
+@pytest.mark.parametrize("base_first", [True, False])
+def test_a_group_in_the_wrong_case_is_told_at_its_line(folder: Any, base_first: bool) -> None:
+    line = "*.Uavs[*].mobility.speed = 3mps"
+    own = f"[X]\n{line}\n" if base_first else f"[X]\n*.numUavs = 3\n{line}\n*.uavs[*].mobility.speed = 2mps\n"
+    assert folder.error(own, "X") == (
+        f"test.ini:{7 if base_first else 8}: `*.Uavs[*].mobility.speed` matches no node; expected one of "
+        "`groundStation`, `uavs[*]`; did you mean `*.uavs[*].mobility.speed`?"
+    )
