@@ -132,8 +132,9 @@ def run(
             if mode == "integrated":
                 warn_of_what_is_seldom_meant(scenarios)
             with StopOnInterrupt() as interrupt:
-                for scenario in scenarios:
+                for done, scenario in enumerate(scenarios):
                     if interrupt.should_stop():  # pressed between two runs
+                        say_unfinished(scenarios, done)
                         return INTERRUPTED
                     bar = not quiet and not as_json
                     outcome = run_one(build, scenario, interrupt.should_stop, bar=bar)
@@ -142,6 +143,7 @@ def run(
                         for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
                             print(f"captured in {capture}")
                     if code != OK:
+                        say_unfinished(scenarios, done, "failed" if code == FAILED else "was interrupted")
                         return code
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
@@ -390,6 +392,15 @@ def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_js
     if outcome.failure is not None:
         return FAILED
     return INTERRUPTED if outcome.interrupted else OK
+
+
+def say_unfinished(scenarios: "Sequence[Scenario]", done: int, how: str = "") -> None:
+    """Say on the error output which of several runs are not there."""
+    from gradysim.report.unfinished_runs import text_of_unfinished
+
+    if len(scenarios) > 1:
+        numbers = [scenario.run_number for scenario in scenarios]
+        print(text_of_unfinished(scenarios[0].config, numbers, done, how), file=sys.stderr)
 
 
 def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:

@@ -1,7 +1,7 @@
-"""Which runs of a configuration are meant by `-r`: numbers and ranges such as "0,2,5..9"."""
+"""Which runs of a configuration are meant by `-r`, and how they are written: "0,2,5..9"."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from gradysim.config.error import ConfigError
 from gradysim.config.source import Source
@@ -28,6 +28,17 @@ def select_runs(runs: str | Iterable[int] | None, count: int, config: str, sourc
                 f"configuration `{config}` has no run {run}; expected {has} (`repeat = {count}`)", source
             )
     return sorted({run for numbers in ranges for run in numbers})
+
+
+def text_of_runs(numbers: Sequence[int]) -> str:
+    """Write run numbers that increase so that `-r` reads them."""
+    parts: list[list[int]] = []
+    for number in numbers:
+        if parts and parts[-1][-1] == number - 1:
+            parts[-1].append(number)
+        else:
+            parts.append([number])
+    return ",".join(f"{part[0]}..{part[-1]}" if part[1:] else str(part[0]) for part in parts)
 
 
 def _ranges(text: str) -> list[range]:

@@ -34,6 +34,7 @@ def test_a_second_ctrl_c_leaves_a_protocol_that_never_returns(gradysim, mode):
     assert done.returncode == 130
     (run,) = objects(done.stdout)
     assert (run["interrupted"], run["sim_time_s"]) == (True, 1.0)
+    assert "Stuck: run 0 was interrupted, 0 of 3 runs are done, 2 were not begun (1..2)" in done.stderr
 
 
 @both_modes

@@ -5,7 +5,7 @@ from python.cli.command import both_modes, objects
 
 @both_modes
 def test_a_failing_protocol(gradysim, mode):
-    done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode)
+    done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode, "-r", "0")
     assert done.returncode == 1
     lines = done.stderr.splitlines()
     assert lines[0] == "Traceback (most recent call last):"
@@ -21,8 +21,12 @@ def test_what_it_computed_until_then_is_shown(gradysim, mode):
     assert "said = 1" in done.stdout
 
 
-def test_the_runs_after_it_are_not_begun(gradysim):
-    done = gradysim("run", "test.ini", "-c", "Failing", "--mode", "prototype", "--json")
+@both_modes
+def test_the_runs_after_it_are_not_begun_and_that_is_said(gradysim, mode):
+    done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode, "--json")
+    assert done.stderr.splitlines()[-1] == (
+        "Failing: run 0 failed, 0 of 3 runs are done, 2 were not begun (1..2)"
+    )
     assert [(run["run"], run["interrupted"]) for run in objects(done.stdout)] == [(0, True)]
 
 

@@ -1,9 +1,11 @@
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from gradysim.config.error import ConfigError
-from gradysim.config.run_numbers import select_runs
+from gradysim.config.run_numbers import select_runs, text_of_runs
 from gradysim.config.source import Source
 
 SOURCE = Source(Path("a.ini"), 3)
@@ -46,3 +48,15 @@ def test_runs_that_do_not_exist(runs: str | list[int], run: int) -> None:
 def test_a_range_of_any_size_is_refused_at_once() -> None:
     with pytest.raises(ConfigError, match="has no run 999999999"):
         select_runs("0..999999999", 5, "X", SOURCE)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "text"), [([3], "3"), ([0, 1], "0..1"), ([0, 2, 5, 6, 7, 9], "0,2,5..7,9")]
+)
+def test_the_text_of_runs(numbers: list[int], text: str) -> None:
+    assert text_of_runs(numbers) == text
+
+
+@given(st.sets(st.integers(0, 30), min_size=1))
+def test_the_text_of_runs_selects_them(numbers: set[int]) -> None:
+    assert select_runs(text_of_runs(sorted(numbers)), 31, "X", SOURCE) == sorted(numbers)
