@@ -203,9 +203,13 @@ def calibrate_power(
     /,
     *,
     config: ConfigOption = "General",
-    range_text: Annotated[str, Parameter(name="--range", help="The wanted range, such as 50m.")],
+    range_text: Annotated[
+        str, Parameter(name="--range", allow_leading_hyphen=True, help="The wanted range, such as 50m.")
+    ],
     ratio: Annotated[float, Parameter(help="Share of the frames that is to be received there.")] = 0.5,
-    message: Annotated[str, Parameter(help="Length of the message in a frame.")] = "50B",
+    message: Annotated[
+        str, Parameter(allow_leading_hyphen=True, help="Length of the message in a frame.")
+    ] = "50B",
     sender: Annotated[str | None, Parameter(help="Node that sends; by default the first one.")] = None,
     receiver: Annotated[
         str | None, Parameter(help="Node that receives; by default another one like the sender.")
@@ -223,6 +227,8 @@ def calibrate_power(
 
     try:
         scenario = load(file, config, "0", settings)[0]
+        if picture is not None:
+            calibration.check_picture(picture)
         found = calibrate(
             scenario,
             range_m=quantity_option("--range", range_text, "m"),

@@ -71,6 +71,11 @@ def calibrate(
     """
     from_node = _node_named(scenario.nodes, sender)
     to_node = from_node if receiver is None else _node_named(scenario.nodes, receiver)
+    if receiver is not None and to_node is from_node:
+        raise ConfigError(
+            f"`{receiver}` would be sender and receiver; expected two nodes, or no receiver for one like the"
+            " sender"
+        )
     budget = link_budget(scenario, from_node, to_node, message_bytes)
     with errors_at({}):
         power_w = budget.tx_power_w_for(range_m, ratio)

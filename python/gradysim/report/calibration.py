@@ -2,8 +2,12 @@
 
 import math
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gradysim.integrated.calibration import Calibration
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 BAR_WIDTH = 40
 
@@ -31,6 +35,22 @@ def text(calibration: Calibration) -> str:
     return "\n".join(lines)
 
 
+def check_picture(path: Path) -> None:
+    """Check what can be known of a picture before there is something to draw.
+
+    Raises:
+        ImportError: matplotlib is missing; the text says how to get it.
+        ValueError: The ending names no format, there is no such folder, or it is one itself.
+    """
+    if path.suffix[1:].lower() not in _figure().canvas.get_supported_filetypes():
+        problem = f"`{path.suffix}` is no format" if path.suffix else "its name does not end in a format"
+        raise ValueError(f"--picture {path}: {problem}; expected .png, .svg or .pdf")
+    if not path.parent.is_dir():
+        raise ValueError(f"--picture {path}: there is no folder {path.parent}; expected one that is there")
+    if path.is_dir():
+        raise ValueError(f"--picture {path}: it is a folder; expected a file")
+
+
 def draw(calibration: Calibration, path: Path) -> None:
     """Draw reception over distance into a file whose ending says the format.
 
@@ -39,12 +59,8 @@ def draw(calibration: Calibration, path: Path) -> None:
         ValueError: The ending names no format.
         OSError: The file cannot be written.
     """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        raise ImportError("a picture needs matplotlib: pip install 'gradysim[plot]'") from error
     c = calibration
-    figure = Figure(figsize=(6, 4), dpi=120, layout="constrained")
+    figure = _figure()
     axes = figure.subplots()
     axes.plot([0.0, *(d for d, _ in c.curve)], [c.curve[0][1], *(r for _, r in c.curve)])
     axes.axvline(c.range_m, linestyle=":", color="gray")
@@ -52,3 +68,11 @@ def draw(calibration: Calibration, path: Path) -> None:
     axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
     axes.set_title(f"{c.sender} to {c.receiver}, {c.tx_power_w * 1000:.4g} mW, {c.bitrate_bps / 1e6:g} Mbps")
     figure.savefig(path)
+
+
+def _figure() -> "Figure":
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError("a picture needs matplotlib: pip install 'gradysim[plot]'") from error
+    return Figure(figsize=(6, 4), dpi=120, layout="constrained")

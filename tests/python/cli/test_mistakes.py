@@ -56,6 +56,34 @@ def test_wrong_arguments(gradysim, arguments):
     assert done.stdout == ""
 
 
+@compiled
+@pytest.mark.parametrize(
+    ("arguments", "refusal"),
+    [
+        (["--range", "-5m"], "--range -5m: it is out of range; expected a length such as 50m, at least 0m"),
+        (
+            ["--range", "50m", "--message", "-5B"],
+            "--message -5B: it is out of range; expected a size such as 100B, at least 0B",
+        ),
+        (
+            ["--range", "5s"],
+            "--range 5s: `s` is the unit of a time; expected a length such as 50m, at least 0m",
+        ),
+    ],
+)
+def test_a_quantity_of_calibrate_is_refused_for_what_it_is(gradysim, arguments, refusal):
+    done = gradysim("calibrate", "test.ini", *arguments)
+    assert (done.returncode, done.stdout, done.stderr.strip()) == (2, "", refusal)
+
+
+@compiled
+def test_where_a_picture_cannot_be_nothing_is_calculated(gradysim):
+    pytest.importorskip("matplotlib")
+    done = gradysim("calibrate", "test.ini", "--range", "50m", "--picture", "nowhere/curve.png")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "--picture nowhere/curve.png: there is no folder nowhere" in done.stderr
+
+
 def test_integrated_mode_without_the_compiled_part_says_how_to_get_it(folder):
     code = (
         "import sys; sys.modules['gradysim._netsim'] = None; from gradysim.cli import main; sys.exit(main())"

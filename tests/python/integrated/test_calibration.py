@@ -74,6 +74,8 @@ def test_a_range_that_no_power_reaches_is_an_error_at_its_line() -> None:
     ("options", "text"),
     [
         ({"sender": "reciever"}, "did you mean `receivers"),
+        ({"receiver": "sender"}, "`sender` would be sender and receiver; expected two nodes"),
+        ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` would be sender"),
         ({"range_m": 0.0}, "range_m = 0 m: expected more than 0 m"),
         ({"ratio": 1.0}, "ratio = 1: expected more than 0 and less than 1"),
         ({"message_bytes": 3000}, "payload_bytes = 3000 B: expected from 0 B to 2276 B"),

@@ -1,11 +1,13 @@
-"""The text of a calibration; tests of its figures are in tests/python/integrated."""
+"""The text and the picture of a calibration; tests of its figures are in tests/python/integrated."""
+
+from pathlib import Path
 
 import pytest
 
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.calibration import Calibration
-from gradysim.report.calibration import text
+from gradysim.report.calibration import check_picture, text
 
 
 @pytest.mark.parametrize(("interfaces", "wlan"), [(1, "wlan[*]"), (2, "wlan[0]")])
@@ -24,3 +26,28 @@ def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: i
         curve=(),
     )
     assert f"    *.relay.{wlan}.radio.transmitter.power = 1mW" in text(calibration).splitlines()
+
+
+@pytest.mark.parametrize(
+    ("name", "problem"),
+    [
+        ("nowhere/curve.png", r"there is no folder .*nowhere; expected one that is there"),
+        ("curve.xyz", r"`\.xyz` is no format; expected \.png, \.svg or \.pdf"),
+        ("curve", r"its name does not end in a format; expected \.png, \.svg or \.pdf"),
+        ("folder.png", r"it is a folder; expected a file"),
+    ],
+)
+def test_a_picture_that_cannot_be_is_refused_before_it_is_drawn(
+    tmp_path: Path, name: str, problem: str
+) -> None:
+    pytest.importorskip("matplotlib")
+    (tmp_path / "folder.png").mkdir()
+    with pytest.raises(ValueError, match=rf"^--picture .*: {problem}$"):
+        check_picture(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["curve.png", "curve.SVG"])
+def test_a_picture_that_can_be_is_not(tmp_path: Path, name: str) -> None:
+    pytest.importorskip("matplotlib")
+    check_picture(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
