@@ -99,6 +99,8 @@ def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> K
     def convert(value: Value) -> int:
         result = _plain(_quantity_of(value)).number
         if not isinstance(result, int):
+            if math.isfinite(result) and result == int(result):
+                raise BadValue("it is a floating-point number", f"; did you mean `{int(result)}`?")
             raise BadValue(f"`{value}` is no whole number")
         _check_range(result, value, at_least, None, at_most, None)
         return result

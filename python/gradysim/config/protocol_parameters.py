@@ -2,6 +2,7 @@
 
 import inspect
 import re
+from dataclasses import replace
 from functools import cache, lru_cache
 
 from gradysim.config.kinds import Kind, boolean, integer, number_in, si_number, text
@@ -21,7 +22,12 @@ def _float_of(unit: str | None) -> Kind:
     return si_number() if unit is None else number_in(unit)
 
 
-_INTEGER = integer(at_most=None)
+@cache
+def _integer_of(unit: str | None) -> Kind:
+    number = "a whole number" if unit is None else f"a whole number of {unit}, without the unit"
+    return replace(integer(at_most=None), expected=f"{number}, as the parameter is an int")
+
+
 _BOOLEAN = boolean()
 _TEXT = text()
 _CONTRACT = {*dir(IProtocol), *_annotations(IProtocol)}
@@ -57,7 +63,7 @@ def _kind_of(default: object, annotation: object, unit: str | None) -> Kind | No
     if type(default) is float or (type(default) is int and _mentions_float(annotation)):
         return _float_of(unit)
     if type(default) is int:
-        return _INTEGER
+        return _integer_of(unit)
     return _TEXT if type(default) is str else None
 
 

@@ -283,7 +283,7 @@ def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None
         ),
         (
             "**.retries = 1.5\n",
-            "**.retries = 1.5: `1.5` is no whole number; expected a whole number",
+            "**.retries = 1.5: `1.5` is no whole number; expected a whole number, as the parameter is an int",
         ),
         (
             "*.boat.protocol.class = 3\n",

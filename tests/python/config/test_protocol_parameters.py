@@ -28,6 +28,7 @@ class Mobile(Base):
     power_dbw = -10.0
     lost_db = 3.0
     whole: int = 3
+    period_ms: int = 100
     text: Final = "x"
     flag = False
     register = 1  # the name of a method of all abstract classes, but of no protocol
@@ -64,6 +65,7 @@ def test_are_public_plain_class_attributes() -> None:
         "power_dbw",
         "lost_db",
         "whole",
+        "period_ms",
         "text",
         "flag",
         "register",
@@ -132,3 +134,11 @@ def test_other_types_are_kept() -> None:
 def test_other_types_are_refused(name: str, written: str) -> None:
     with pytest.raises(BadValue):
         converted(name, written)
+
+
+def test_that_a_parameter_is_an_int_is_said() -> None:
+    kinds = parameters_of(Mobile)
+    assert kinds["whole"].expected == "a whole number, as the parameter is an int"
+    assert kinds["period_ms"].expected == (
+        "a whole number of ms, without the unit, as the parameter is an int"
+    )
