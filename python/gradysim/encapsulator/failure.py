@@ -6,7 +6,7 @@ def add_protocol_note(
 ) -> None:
     """Note node, simulated time and callback on the exception of a protocol; its traceback stays as it is.
 
-    Interruptions (KeyboardInterrupt, SystemExit) are nobody's failure and are left alone.
+    Ctrl-C (KeyboardInterrupt) is nobody's failure and is left alone; SystemExit is what a protocol asks for.
 
     Args:
         exception: What the protocol raised.
@@ -15,5 +15,5 @@ def add_protocol_note(
         time_s: Simulated time in seconds.
         callback: Name of the protocol's method that was running.
     """
-    if isinstance(exception, Exception):
+    if isinstance(exception, Exception | SystemExit):
         exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

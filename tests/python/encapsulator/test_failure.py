@@ -21,6 +21,10 @@ def test_times_are_written_for_people(time_s, text):
     assert f"at {text} s of" in notes_on(RuntimeError(), time_s)[0]
 
 
-@pytest.mark.parametrize("interruption", [KeyboardInterrupt, SystemExit])
+def test_a_protocol_that_leaves_python_is_named():
+    assert notes_on(SystemExit(3)) == notes_on(RuntimeError())
+
+
+@pytest.mark.parametrize("interruption", [KeyboardInterrupt, GeneratorExit])
 def test_interruptions_have_no_note(interruption):
     assert notes_on(interruption()) == []
