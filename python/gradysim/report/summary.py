@@ -1,6 +1,7 @@
 """What came out of one run, for people: times, nodes and what they tracked, fates."""
 
 from collections.abc import Mapping
+from numbers import Real
 
 from rich import box
 from rich.console import Console, Group, RenderableType
@@ -83,7 +84,7 @@ def node_table(nodes: tuple[NodeResult, ...]) -> Table:
             Text(node.name),
             Text(node.protocol),
             Text(", ".join(map(metres, node.position))),
-            Text("\n".join(f"{name} = {short(value)}" for name, value in node.tracked_variables.items())),
+            Text("\n".join(map(tracked, node.tracked_variables.items()))),
         )
     return table
 
@@ -93,9 +94,16 @@ def metres(coordinate: float) -> str:
     return f"{coordinate:z.1f}"
 
 
+def tracked(variable: tuple[str, object]) -> str:
+    """Return the line of a tracked variable. Lone surrogates, which no output can hold, are escaped."""
+    name, value = variable
+    return f"{name} = {short(value)}".encode(errors="backslashreplace").decode()
+
+
 def short(value: object) -> str:
     """Return `value` as text of at most `MAX_VALUE_LENGTH` characters."""
-    text = str(plain_value(value))
+    is_nan = isinstance(value, Real) and value != value
+    text = "nan" if is_nan else str(plain_value(value))
     return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 1] + "…"
 
 

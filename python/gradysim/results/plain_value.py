@@ -12,9 +12,9 @@ from typing import Any
 def plain_value(value: object) -> object:
     """Return `value` as None, bool, int, finite float, str, list or dict with text keys, all the way down.
 
-    Numbers and arrays of numpy become Python's, tuples become lists, keys become text. What JSON has no
-    form for, such as a set, an object of a user's class, NaN, an infinity, or a container inside itself,
-    is given as its `repr`. Never raises.
+    Numbers and arrays of numpy become Python's, tuples become lists, keys become text. NaN, which stands for
+    no number, becomes None. What JSON has no form for, such as a set, an object of a user's class, an
+    infinity, or a container inside itself, is given as its `repr`. Never raises.
     """
     return _plain(value, ())
 
@@ -29,7 +29,12 @@ def _plain(value: Any, containers: tuple[int, ...]) -> object:
     if isinstance(value, Integral):
         return int(value)
     if isinstance(value, Real):
-        number = float(value)
+        try:
+            number = float(value)
+        except OverflowError:  # a large fraction
+            return _representation(value)
+        if math.isnan(number):
+            return None
         return number if math.isfinite(number) else repr(number)
     if id(value) in containers:
         return _representation(value)

@@ -1,3 +1,4 @@
+import math
 from io import StringIO
 
 import pytest
@@ -83,6 +84,22 @@ def test_a_run_that_took_no_time_has_no_speed():
 
 def test_a_long_value_is_cut():
     assert short("x" * 1000) == "x" * (MAX_VALUE_LENGTH - 1) + "…"
+
+
+def test_what_is_no_number_is_shown_as_that():
+    assert short(math.nan) == "nan"
+
+
+def test_a_whole_number_of_any_size_is_shown():
+    assert short(10**198) == "1" + "0" * 198
+    assert short(10**400).endswith("…")
+
+
+def test_a_lone_surrogate_is_escaped():
+    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {"na\udc80me": "va\ud800lue"})
+    text = printed(nodes=(node,))
+    assert text.encode().decode() == text
+    assert r"na\udc80me = va\ud800lue" in text
 
 
 def nodes(count):

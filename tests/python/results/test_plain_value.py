@@ -1,6 +1,7 @@
 import enum
 import json
 import math
+from fractions import Fraction
 
 import pytest
 from hypothesis import given
@@ -46,9 +47,24 @@ def test_a_plain_value_stays_what_it_is(value):
     assert plain_value(value) == value
 
 
-@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
-def test_a_number_that_json_lacks_is_given_as_text(number):
+@pytest.mark.parametrize("number", [math.inf, -math.inf])
+def test_an_infinity_is_given_as_text(number):
     assert plain_value(number) == repr(number)
+
+
+def test_a_fraction_too_large_for_a_float_is_given_as_text():
+    assert plain_value(Fraction(10**400, 3)).startswith("Fraction(1000")
+
+
+def test_what_is_no_number_is_nothing():
+    np = pytest.importorskip("numpy")
+    assert plain_value(
+        {"level": math.nan, "levels": np.array([1.0, np.nan]), "small": np.float32("nan")}
+    ) == {
+        "level": None,
+        "levels": [1.0, None],
+        "small": None,
+    }
 
 
 def test_numpy_numbers_and_arrays_become_pythons():
