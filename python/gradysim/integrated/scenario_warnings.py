@@ -1,6 +1,7 @@
 """What is allowed in a scenario and yet seldom meant: told before a run, which goes on all the same."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+import math
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
@@ -12,10 +13,11 @@ from gradysim.config.unread_lines import Chosen, UnreadLines
 from gradysim.integrated.network import medium_config, node_config
 
 if TYPE_CHECKING:
-    from gradysim._netsim import InterfaceConfig, MediumConfig
+    from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig
 
 _TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
 _WITHOUT_RADIOS = "UnitDiskRadioMedium"
+_OF_NO_USE_M = 100e3  # farther than any node flies to
 
 
 def scenario_warnings(scenario: Scenario) -> list[str]:
@@ -25,6 +27,8 @@ def scenario_warnings(scenario: Scenario) -> list[str]:
         *_unread_lines(scenario, medium),
         *_nodes_on_the_ground(scenario, medium),
         *_stations_without_a_common_mode(scenario, medium),
+        *_nodes_that_nobody_hears(scenario, medium),
+        *_obstacles_far_from_all_nodes(scenario),
     ]
 
 
@@ -59,12 +63,17 @@ def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
     return lines.texts()
 
 
+def _by_kind(nodes: Iterable[NodeSpec]) -> Mapping[object, Sequence[NodeSpec]]:
+    """Nodes with the same lines in force share their mappings."""
+    kinds: dict[object, list[NodeSpec]] = {}
+    for spec in nodes:
+        kind = (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan))
+        kinds.setdefault(kind, []).append(spec)
+    return kinds
+
+
 def _one_of_each_kind(nodes: Iterable[NodeSpec]) -> Iterable[NodeSpec]:
-    """Nodes with the same lines in force share their mappings: one of them stands for all."""
-    return {
-        (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan)): spec
-        for spec in nodes
-    }.values()
+    return [specs[0] for specs in _by_kind(nodes).values()]
 
 
 def _sources(struct: str, settings: Mapping[str, Setting]) -> dict[str, Source]:
@@ -112,3 +121,61 @@ def _stations_without_a_common_mode(scenario: Scenario, medium: "MediumConfig") 
                 " they are noise to each other; expected one mode for both, or"
                 ' "g(mixed)", which has the frames of "b" and "g(erp)"'
             )
+
+
+def _nodes_that_nobody_hears(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
+    """Nodes that share no channel with any other."""
+    if medium.typename == _WITHOUT_RADIOS or len(scenario.nodes) < 2:
+        return
+    kinds = [
+        (specs[0], [interface.radio for interface in node_config(specs[0]).wlan], len(specs))
+        for specs in _by_kind(scenario.nodes).values()
+    ]
+    for index, (spec, radios, count) in enumerate(kinds):
+        others = [
+            listener
+            for other, (_, listeners, _) in enumerate(kinds)
+            if other != index or count > 1
+            for listener in listeners
+        ]
+        if not any(_fits_in(radio, listener) for radio in radios for listener in others):
+            line = next(_sources_of_channels([spec, *scenario.nodes]))
+            channels = " and ".join(f"{radio.carrier_hz / 1e6:g} MHz" for radio in radios)
+            yield (
+                f"{line}: warning: nobody hears {spec.name}: no other node listens at {channels} with at"
+                " least as much bandwidth; expected one channel for those that are to talk"
+            )
+
+
+def _sources_of_channels(specs: Iterable[NodeSpec]) -> Iterator[Source]:
+    for wlan in (wlan for spec in specs for wlan in spec.wlan):
+        for settings, field in (
+            (wlan.radio, "carrier_hz"),
+            (wlan.radio, "bandwidth_hz"),
+            (wlan.interface, "typename"),
+        ):
+            if field in settings:
+                yield settings[field].source
+
+
+def _fits_in(sender: "RadioConfig", listener: "RadioConfig") -> bool:
+    return sender.carrier_hz == listener.carrier_hz and sender.bandwidth_hz <= listener.bandwidth_hz
+
+
+def _obstacles_far_from_all_nodes(scenario: Scenario) -> Iterator[str]:
+    """A scene that is somewhere else, as when longitude and latitude are exchanged."""
+    corners = [corner for obstacle in scenario.obstacles for ring in obstacle.rings for corner in ring]
+    if not corners or not scenario.nodes:
+        return
+    west, east = min(x for x, _ in corners), max(x for x, _ in corners)
+    south, north = min(y for _, y in corners), max(y for _, y in corners)
+    nearest_m = min(
+        math.hypot(max(west - x, x - east, 0), max(south - y, y - north, 0))
+        for x, y, _ in (spec.initial_position for spec in scenario.nodes)
+    )
+    if nearest_m > _OF_NO_USE_M:
+        yield (
+            f"{scenario.obstacles[0].source}: warning: all obstacles are {nearest_m / 1000:.0f} km and more"
+            " from where any node starts; expected them around the nodes (a GeoJSON file has longitude"
+            " before latitude)"
+        )

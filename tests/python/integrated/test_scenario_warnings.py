@@ -47,7 +47,8 @@ def test_a_band_at_an_802154_interface(warnings: Callable[..., list[str]]) -> No
     (text,) = warnings(sensors, f'{RADIO}.bandName="5 GHz"')
     assert f"nothing reads `{RADIO}.bandName`: that takes" in text
     assert '.wlan[*].typename = "Ieee80211Interface"' in text
-    assert not warnings(sensors.replace("[*]", "[0]", 1), f'{RADIO}.bandName="5 GHz"')
+    some = warnings(sensors.replace("[*]", "[0]", 1), f'{RADIO}.bandName="5 GHz"')
+    assert [text for text in some if "nothing reads" in text] == []
 
 
 @pytest.mark.parametrize(
@@ -183,3 +184,53 @@ def test_stations_that_hear_each_other_or_nobody_are_not_told(
     warnings: Callable[..., list[str]], settings: tuple[str, ...]
 ) -> None:
     assert [text for text in warnings(*settings) if "on one channel" in text] == []
+
+
+CHANNEL_5 = "*.uavs[0].wlan[*].radio.channelNumber=5"
+
+
+def test_who_shares_no_channel_is_told(warnings: Callable[..., list[str]]) -> None:
+    first, second = warnings(CHANNEL_5)
+    assert first.startswith(
+        f"--set {CHANNEL_5}: warning: nobody hears uavs[0]: no other node listens at 2437 MHz"
+    )
+    assert second.startswith(
+        f"--set {CHANNEL_5}: warning: nobody hears uavs[1]: no other node listens at 2412 MHz"
+    )
+
+
+def test_who_is_heard_in_one_direction_is_told(warnings: Callable[..., list[str]]) -> None:
+    narrow = "*.uavs[0].wlan[*].radio.bandwidth=20MHz"
+    (text,) = warnings(narrow)
+    assert text.startswith(f"--set {narrow}: warning: nobody hears uavs[1]")
+
+
+def test_another_technology_is_another_channel(warnings: Callable[..., list[str]]) -> None:
+    sensor = '*.uavs[0].wlan[*].typename="Ieee802154NarrowbandInterface"'
+    assert [text.partition(": no other")[0] for text in warnings(sensor)] == [
+        f"--set {sensor}: warning: nobody hears uavs[{index}]" for index in (0, 1)
+    ]
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        ("*.uavs[*].wlan[*].radio.channelNumber=5",),
+        ("*.uavs[0].numWlanInterfaces=2", "*.uavs[0].wlan[1].radio.channelNumber=0", CHANNEL_5),
+        (CHANNEL_5, '*.radioMedium.typename="UnitDiskRadioMedium"'),
+        ("*.numUavs=1", CHANNEL_5),
+    ],
+)
+def test_who_is_heard_by_one_or_is_alone_is_not_told(
+    warnings: Callable[..., list[str]], settings: tuple[str, ...]
+) -> None:
+    assert [text for text in warnings(*settings) if "nobody hears" in text] == []
+
+
+IDEAL = '*.radioMedium.obstacleLoss.typename="IdealObstacleLoss"'
+
+
+def test_obstacles_far_from_all_nodes_are_told(warnings: Callable[..., list[str]]) -> None:
+    (text,) = warnings(*BOX, IDEAL, "*.uavs[*].mobility.initialX=4000km")
+    assert "warning: all obstacles are 4000 km and more from where any node starts" in text
+    assert warnings(*BOX, IDEAL, "*.uavs[0].mobility.initialX=4000km") == []

@@ -45,8 +45,9 @@ RADIO_KEYS: tuple[Key, ...] = (
         "transmitter.communicationRange",
         "communication_range_m",
         quantity("m", at_least=0),
-        "UnitDiskRadioMedium: radius of the circle. Other media: sets the power for which half of the"
-        " broadcast messages of 50 B arrive there; of it and transmitter.power the first line is in force",
+        "UnitDiskRadioMedium: radius of the circle. Other media: sets the least power for which at least"
+        " half of the broadcast messages of 50 B arrive there; of it and transmitter.power the first line is"
+        " in force",
     ),
     *RECEIVER_KEYS,
     *ANTENNA_KEYS,
