@@ -125,6 +125,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("queue_capacity", &MacConfig::queue_capacity)
         .def_readwrite("mtu_bytes", &MacConfig::mtu_bytes)
         .def_readwrite("backoff_optimization", &MacConfig::backoff_optimization)
+        .def_readwrite("initial_channel_busy", &MacConfig::initial_channel_busy)
         .def_readwrite("skip_backoff_if_idle", &MacConfig::skip_backoff_if_idle)
         .def_readwrite("own_frames_set_nav", &MacConfig::own_frames_set_nav)
         .def_readwrite("rate_control", &MacConfig::rate_control)

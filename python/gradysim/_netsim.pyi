@@ -159,6 +159,7 @@ class MacConfig:
     queue_capacity: int
     mtu_bytes: int
     backoff_optimization: bool
+    initial_channel_busy: bool
     skip_backoff_if_idle: bool
     own_frames_set_nav: bool
     rate_control: str

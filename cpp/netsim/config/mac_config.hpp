@@ -31,6 +31,7 @@ struct MacConfig {
     int queue_capacity = 100;  // waiting frames, without the one in progress; 1 … 1000000
     int mtu_bytes = 2304;      // largest IP packet; 29 … 2304: 28 B of IPv4 and UDP headers and a payload
     bool backoff_optimization = true;  // immediate access: idle time before the frame counts towards its wait
+    bool initial_channel_busy = true;  // for that, the channel was busy before the run; false: it never was
     bool skip_backoff_if_idle =
         false;                       // DIFS only, from then, for a frame that finds station and channel idle
     bool own_frames_set_nav = true;  // as INET has it; the standard: only frames of others do

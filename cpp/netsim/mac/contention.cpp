@@ -41,10 +41,6 @@ void Contention::channel_busy_changed(bool busy) {
     busy_ = busy;
     if (!busy) {
         free_since_ = simulator_.now();
-        if (broken_frame_) {
-            broken_frame_ = false;
-            eifs_until_ = free_since_ + timing_.eifs;
-        }
         if (state_ == State::deferring) {
             state_ = State::waiting;
             schedule_grant(free_since_);

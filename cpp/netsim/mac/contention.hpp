@@ -8,12 +8,14 @@
 //
 // Every wait is DIFS (EIFS after a broken frame) + backoff · slot. Immediate access (`backoff_optimization`): time for
 // which the channel was free and this station idle before `start` counts towards it, so a frame that meets a channel
-// idle for long enough leaves at once. Two stations whose slots end in the same instant both transmit and collide:
+// idle for long enough leaves at once; before the run the channel counts as busy, unless `initial_channel_busy` is off.
+// Two stations whose slots end in the same instant both transmit and collide:
 // neither can have sensed the other by then. A grant is the last event of its instant, so that it knows all of it.
 #pragma once
 
 #include <cstdint>
 
+#include "netsim/config/mac_config.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/timing.hpp"
@@ -30,12 +32,13 @@ protected:
 
 class Contention {
 public:
-    Contention(Simulator& simulator, const MacTiming& timing, bool backoff_optimization, RandomStream draws,
+    Contention(Simulator& simulator, const MacConfig& config, RandomStream draws,
                ContentionListener& listener)
         : simulator_(simulator),
-          backoff_optimization_(backoff_optimization),
+          backoff_optimization_(config.backoff_optimization),
+          free_since_(config.initial_channel_busy ? simulator.now() : SimTime::long_ago()),
           listener_(listener),
-          timing_(timing),
+          timing_(mode_set(config.op_mode)),
           draws_(draws) {}
 
     // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
@@ -47,9 +50,16 @@ public:
 
     // The channel became busy (by the radio's word or the NAV's) or free. Told in every state, at changes only.
     void channel_busy_changed(bool busy);
-    // A frame was received broken (reported while the channel is still busy with it): once the channel is free,
-    // EIFS takes the place of DIFS …
+    // A frame was received broken (reported while the radio still finds the channel busy with it) …
     void frame_corrupted() { broken_frame_ = true; }
+    // … and now it finds it free, told before the above: EIFS from here on, whatever the NAV says, takes the place of
+    // DIFS …
+    void radio_finds_it_free() {
+        if (broken_frame_) {
+            broken_frame_ = false;
+            eifs_until_ = simulator_.now() + timing_.eifs;
+        }
+    }
     // … unless a frame was received well in between.
     void frame_received() {
         broken_frame_ = false;
@@ -66,10 +76,10 @@ private:
     Simulator& simulator_;
     State state_ = State::idle;
     bool busy_ = false;
-    bool broken_frame_ = false;  // since the channel became busy
+    bool broken_frame_ = false;  // since the radio found the channel busy
     bool backoff_optimization_;
     int slots_left_ = 0;
-    SimTime free_since_ = SimTime::long_ago();
+    SimTime free_since_;
     SimTime eifs_until_ = SimTime::long_ago();
     SimTime idle_since_ = SimTime::long_ago();
     SimTime grant_time_;

@@ -34,8 +34,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       radio_(radio),
       listener_(listener),
       own_frames_set_nav_(config.own_frames_set_nav),
-      contention_(simulator, MacTiming(mode_set(config.op_mode)), config.backoff_optimization,
-                  RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
+      contention_(simulator, config, RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
       fates_(fates),
       modes_(mode_set(config.op_mode)),
       timing_(modes_),
@@ -324,7 +323,10 @@ void Dcf::set_nav(SimTime duration) {
     update_contention();
 }
 
-void Dcf::channel_busy_changed(bool) {
+void Dcf::channel_busy_changed(bool busy) {
+    if (!busy) {
+        contention_.radio_finds_it_free();
+    }
     update_contention();
 }
 

@@ -5,7 +5,8 @@
 // running: a CTS resets neither. Every failure doubles the window.
 //
 // Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window); that a frame of exactly the
-// threshold's length counts as long, and that a frame given up resets the window, is INET's choice.
+// threshold's length counts as long is INET's choice. A frame that is given up resets the window, as the standard has it;
+// in INET the window stays large from the second such frame in a row on (docs/decisions/0025).
 #pragma once
 
 #include <algorithm>

@@ -32,10 +32,14 @@ private:
 class ContentionTest : public testing::Test {
 protected:
     Contention& contention(bool backoff_optimization = true, std::uint64_t seed = 1) {
+        MacConfig config;
+        config.backoff_optimization = backoff_optimization;
+        return contention(config, seed);
+    }
+    Contention& contention(const MacConfig& config, std::uint64_t seed = 1) {
         if (!contention_) {
-            contention_ =
-                std::make_unique<Contention>(simulator, MacTiming(mode_set("g(mixed)")), backoff_optimization,
-                                             RandomStream(seed, 0, Purpose::backoff), log_);
+            contention_ = std::make_unique<Contention>(simulator, config,
+                                                       RandomStream(seed, 0, Purpose::backoff), log_);
         }
         return *contention_;
     }
@@ -45,7 +49,10 @@ protected:
     }
     void busy_at(SimTime time, SimTime duration) {
         simulator.schedule_at(time, [this] { contention().channel_busy_changed(true); });
-        simulator.schedule_at(time + duration, [this] { contention().channel_busy_changed(false); });
+        simulator.schedule_at(time + duration, [this] {
+            contention().radio_finds_it_free();
+            contention().channel_busy_changed(false);
+        });
     }
     void corrupted_at(SimTime time) {
         simulator.schedule_at(time, [this] { contention().frame_corrupted(); });
@@ -180,13 +187,28 @@ TEST_F(ContentionTest, AGrantIsTheLastEventOfItsInstant) {
     EXPECT_EQ(grants, std::vector{us(1000) + difs});
 }
 
+TEST_F(ContentionTest, AtTheStartOfARunTheChannelWasBusyUntilThen) {
+    contention();
+    start_at(us(20));
+    run();
+    EXPECT_EQ(grants, std::vector{difs});
+}
+
+TEST_F(ContentionTest, IfItWasNotBusyInitiallyAFrameLeavesAtOnce) {
+    MacConfig config;
+    config.initial_channel_busy = false;
+    contention(config);
+    start_at(us(20), 1023);
+    run();
+    EXPECT_EQ(grants, std::vector{us(20)});
+}
+
 TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {
     std::set<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         Simulator own;
         GrantLog log(own);
-        Contention own_contention(own, MacTiming(mode_set("g(mixed)")), false,
-                                  RandomStream(seed, 0, Purpose::backoff), log);
+        Contention own_contention(own, MacConfig(), RandomStream(seed, 0, Purpose::backoff), log);
         own_contention.start(15);
         own.run_until(us(10'000));
         const SimTime backoff = log.times.at(0) - difs;
@@ -272,6 +294,18 @@ TEST_F(ContentionTest, EifsBeginsWhenTheChannelIsFreeHoweverLongThatTakes) {
     corrupted_at(us(100));
     run();
     EXPECT_EQ(grants, std::vector{us(1000) + eifs});
+}
+
+TEST_F(ContentionTest, EifsBeginsWhenTheRadioFindsItFreeWhateverKeepsTheStationSilent) {
+    contention();
+    corrupted_at(us(100));
+    simulator.schedule_at(us(0), [this] { contention().channel_busy_changed(true); });
+    simulator.schedule_at(us(200), [this] { contention().radio_finds_it_free(); });
+    simulator.schedule_at(us(1000),
+                          [this] { contention().channel_busy_changed(false); });  // the end of a NAV
+    start_at(us(500));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
 }
 
 TEST_F(ContentionTest, AGoodFrameAfterTheBrokenOneBringsBackDifs) {

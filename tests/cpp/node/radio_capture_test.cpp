@@ -107,7 +107,10 @@ TEST_F(RadioCaptureTest, WhatFailedIsFlagged) {
 
 TEST_F(RadioCaptureTest, FramesMissedWhileTransmittingAreNotThere) {
     const TemporaryFile file;
-    sender.on_initialize = receiver.on_initialize = [](Recorder& self) { self.broadcast("hello"); };
+    sender.on_initialize = receiver.on_initialize = [](Recorder& self) {
+        self.node.schedule_timer("both", SimTime::from_us(5000));
+    };
+    sender.on_timer = receiver.on_timer = [](Recorder& self, const std::string&) { self.broadcast("hello"); };
     network.capture(0, file.path());
     run();
     const std::vector<Captured> captured = packets(file);

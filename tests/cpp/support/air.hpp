@@ -157,8 +157,10 @@ public:
         return radios_.emplace_back(simulator, medium, next_node(), config, place, seed_, frame_fates,
                                     fingerprint);
     }
-    Station& add_station(Position place, const MacConfig& mac = MacConfig(),
+    // The channel has always been idle: what it sends first leaves at once.
+    Station& add_station(Position place, MacConfig mac = MacConfig(),
                          const RadioConfig& radio = RadioConfig()) {
+        mac.initial_channel_busy = false;
         return stations_.emplace_back(simulator, medium, next_node(), radio, mac, place, seed_, frame_fates,
                                       message_fates, fingerprint);
     }

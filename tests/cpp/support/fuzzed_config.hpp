@@ -171,6 +171,7 @@ private:
         mac.queue_capacity = bytes_.integer(bytes_.flag() ? 1 + bytes_.byte() % 4 : mac.queue_capacity);
         mac.mtu_bytes = bytes_.integer(bytes_.flag() ? 29 + 8 * bytes_.byte() : mac.mtu_bytes);
         mac.backoff_optimization = bytes_.flag();
+        mac.initial_channel_busy = bytes_.flag();
         mac.skip_backoff_if_idle = bytes_.flag();
         mac.own_frames_set_nav = bytes_.flag();
         if (bytes_.flag()) {

@@ -113,6 +113,7 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
             mac.cw_max = 3;
         }
         mac.backoff_optimization = chance(0.8);
+        mac.initial_channel_busy = chance(0.5);
         mac.queue_capacity = chance(0.8) ? 100 : 2;
         if (with_rts) {
             mac.rts_threshold_bytes = static_cast<int>(rts_draws.uniform_int(600));

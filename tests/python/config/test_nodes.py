@@ -80,6 +80,7 @@ def test_only_what_was_written_is_set(folder: Any) -> None:
         ("**.cwMax", "63", "mac", "cw_max", 63),
         ("**.packetCapacity", "10", "mac", "queue_capacity", 10),
         ("**.backoffOptimization", "false", "mac", "backoff_optimization", False),
+        ("**.initialChannelBusy", "false", "mac", "initial_channel_busy", False),
         ("**.skipBackoffIfIdle", "true", "mac", "skip_backoff_if_idle", True),
         ("wlan[*].radio.channelNumber", "5", "radio", "carrier_hz", 2.437e9),
         ("wlan[*].radio.bandName", '"5.9 GHz"', "radio", "carrier_hz", 5.86e9),

@@ -75,6 +75,12 @@ MAC_KEYS: tuple[Key, ...] = (
         "Whether idle time before a frame is there counts towards its wait",
     ),
     _dcf(
+        "channelAccess.contention.initialChannelBusy",
+        "initial_channel_busy",
+        boolean(),
+        "For that, whether the channel was busy until the run began; false: it has always been idle",
+    ),
+    _dcf(
         "channelAccess.contention.skipBackoffIfIdle",
         "skip_backoff_if_idle",
         boolean(),
