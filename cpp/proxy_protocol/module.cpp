@@ -2,12 +2,14 @@
 #include <pybind11/pybind11.h>
 
 #include "netsim/error.hpp"
+#include "netsim/kernel/sim_time.hpp"
 #include "proxy_protocol/bindings.hpp"
 
 namespace py = pybind11;
 
 PYBIND11_MODULE(_netsim, module) {
     module.doc() = "The engine of integrated mode.";
+    module.attr("longest_run_s") = netsim::SimTime::longest_run_s;
     py::register_exception<netsim::ConfigError>(module, "ConfigError", PyExc_ValueError);
     py::register_exception<netsim::SimulationError>(module, "SimulationError", PyExc_RuntimeError);
     proxy_protocol::bind_config(module);

@@ -185,7 +185,7 @@ void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) 
     carry_out("TimerException", [&] {
         std::string name = utf8_from_python(timer, "a timer's name");
         const double time_s = number(timestamp, "timestamp", "a number of seconds");
-        node.schedule_timer(std::move(name), netsim::SimTime::from_seconds(time_s));
+        node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s));
     });
 }
 

@@ -9,6 +9,9 @@ class ConfigError(ValueError):
 class SimulationError(RuntimeError):
     """A command that cannot be carried out: a timer in the past, an unknown destination."""
 
+longest_run_s: float
+"""The largest time that a run can reach, in seconds."""
+
 class MediumConfig:
     """The type chooses the defaults of the other fields, so it is given at the start and stays."""
 

@@ -12,6 +12,10 @@ namespace netsim {
 
 class SimTime {
 public:
+    // The end of the longest run. int64 picoseconds end at 9.223e6 s: what begins before this ends before that.
+    // `sim-time-limit` in python/gradysim/config/keys/options.py has the same bound.
+    static constexpr double longest_run_s = 9.2e6;
+
     constexpr SimTime() = default;
 
     static constexpr SimTime from_ps(std::int64_t picoseconds) { return SimTime(picoseconds); }
@@ -19,8 +23,7 @@ public:
     static constexpr SimTime from_us(std::int64_t microseconds) { return SimTime(microseconds * 1'000'000); }
     // Rounds to the nearest picosecond. Throws SimulationError for NaN and for what is out of range.
     static SimTime from_seconds(double seconds) {
-        constexpr double limit_s = 9.2e6;  // int64 picoseconds end at 9.223e6 s
-        const bool is_representable = seconds >= -limit_s && seconds <= limit_s;  // NaN is not
+        const bool is_representable = seconds >= -longest_run_s && seconds <= longest_run_s;  // NaN is not
         if (!is_representable) {
             refuse_seconds(seconds);
         }
@@ -29,6 +32,13 @@ public:
         const double rest_ps = exact_ps - static_cast<double>(whole_ps);
         return SimTime(whole_ps + static_cast<int>(rest_ps >= 0.5) - static_cast<int>(rest_ps <= -0.5));
     }
+    // The same for an instant that something is to happen at: from the end of the longest run on, it is never().
+    static SimTime of_event(double seconds) {
+        const bool is_too_late = seconds > longest_run_s && seconds <= std::numeric_limits<double>::max();
+        return is_too_late ? never() : from_seconds(seconds);
+    }
+    // An instant that no run reaches.
+    static constexpr SimTime never() { return from_us(9'210'000'000'000); }
     static constexpr SimTime max() { return SimTime(std::numeric_limits<std::int64_t>::max()); }
     // Far enough in the past to count as "always"; differences with any instant of a run do not overflow.
     static constexpr SimTime long_ago() { return SimTime(std::numeric_limits<std::int64_t>::min() / 4); }

@@ -31,8 +31,8 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
         add(Leg{now, now, target, target, {}});
         return;
     }
-    const double travel_s = length_m / speed_mps;                         // infinite at speed 0
-    constexpr SimTime end_of_time = SimTime::from_us(9'200'000'000'000);  // no run is longer
+    const double travel_s = length_m / speed_mps;  // infinite at speed 0
+    const SimTime end_of_time = SimTime::from_seconds(SimTime::longest_run_s);
     const double rest_s = (end_of_time - now).seconds();
     if (!(travel_s < rest_s)) {
         // So slow that the run ends before the arrival: keep the direction, shorten the leg.

@@ -22,7 +22,9 @@ public:
     SimTime interval() const { return interval_; }
     void add(Node& node) { nodes_.push_back(&node); }
     void start() {
-        simulator_.schedule_after(interval_, [this] { tick(); });
+        if (interval_ < SimTime::never() - simulator_.now()) {
+            simulator_.schedule_after(interval_, [this] { tick(); });
+        }
     }
 
 private:

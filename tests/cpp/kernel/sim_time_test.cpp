@@ -49,6 +49,22 @@ TEST(SimTime, TheErrorNamesValueAndRange) {
     }
 }
 
+TEST(SimTime, AnEventAfterTheLongestRunIsNever) {
+    EXPECT_EQ(SimTime::of_event(1.5), SimTime::from_seconds(1.5));
+    EXPECT_EQ(SimTime::of_event(SimTime::longest_run_s), SimTime::from_seconds(SimTime::longest_run_s));
+    for (const double seconds : {9'200'000.001, 1e7, 1e300}) {
+        EXPECT_EQ(SimTime::of_event(seconds), SimTime::never()) << seconds;
+    }
+    EXPECT_GT(SimTime::never(), SimTime::from_seconds(SimTime::longest_run_s));
+}
+
+TEST(SimTime, TheTimeOfAnEventHasToBeANumber) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double seconds : {std::nan(""), infinity, -infinity, -9.3e6}) {
+        EXPECT_THROW(SimTime::of_event(seconds), SimulationError) << seconds;
+    }
+}
+
 TEST(SimTime, Arithmetic) {
     constexpr SimTime a = SimTime::from_us(5);
     constexpr SimTime b = SimTime::from_us(2);

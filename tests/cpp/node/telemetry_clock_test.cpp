@@ -45,6 +45,13 @@ TEST_F(TelemetryClockTest, DoesNotDrift) {
     EXPECT_EQ(recorder.telemetry_times.back(), s(100));
 }
 
+TEST_F(TelemetryClockTest, EndsWithTheLongestRun) {
+    const Recorder& recorder = add_node(1e6);
+    run(SimTime::longest_run_s);
+    EXPECT_EQ(recorder.telemetry_times.size(), 9U);
+    EXPECT_EQ(network.pending_count(), 0U);
+}
+
 TEST_F(TelemetryClockTest, GivesEachNodeItsOwnPosition) {
     const Recorder& standing = add_node(1, {5, 6, 7});
     Recorder& moving = add_node(1);

@@ -6,6 +6,10 @@ from contextlib import suppress
 
 import pytest
 
+from gradysim.config.error import BadValue
+from gradysim.config.expression import parse_value
+from gradysim.config.keys.options import OPTIONS
+from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
 from gradysim.protocol.errors import TimerException
 
@@ -192,3 +196,28 @@ def test_runs_in_one_process_do_not_disturb_each_other(make_scenario):
     first.execute()
     second.execute()
     assert {first.result().fingerprint, second.result().fingerprint} == {alone}
+
+
+def test_the_longest_run_that_a_file_can_ask_for_is_the_engines():
+    limit, longest_s = OPTIONS["sim-time-limit"], load_netsim().longest_run_s
+    assert limit.convert(parse_value(f"{longest_s}s")) == longest_s
+    with pytest.raises(BadValue):
+        limit.convert(parse_value(f"{longest_s + 1}s"))
+
+
+def test_a_timer_after_the_longest_run_is_never_due(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet):\n"
+        "    def initialize(self):\n"
+        "        self.provider.schedule_timer('tick', 9.2e6 - 1)\n"
+        "        self.provider.schedule_timer('never', 1e300)\n"
+        "    def handle_timer(self, timer):\n"
+        "        due = self.provider.tracked_variables.get('due', [])\n"
+        "        self.provider.tracked_variables['due'] = [*due, timer]\n"
+        "        self.provider.schedule_timer('tick', self.provider.current_time() + 1)\n",
+        "sim-time-limit = 9200000s",
+        "*.uavs[*].mobility.telemetryInterval = 0s",
+    )
+    result = run(scenario)
+    assert result.sim_time_s == 9.2e6
+    assert result.nodes[0].tracked_variables == {"due": ["tick", "tick"]}

@@ -42,7 +42,7 @@ void BeaconProtocol::schedule() {
     // Multiplied, not added up: all nodes round alike, and no error grows.
     const double time_s = start_s_ + static_cast<double>(sent_) * config_.interval_s;
     if (time_s < config_.stop_s) {
-        node_.schedule_timer("beacon", SimTime::from_seconds(time_s));
+        node_.schedule_timer("beacon", SimTime::of_event(time_s));
     }
 }
 

@@ -64,7 +64,7 @@ void FloodProtocol::initialize() {
 void FloodProtocol::schedule() {
     const double time_s = config_.first_send_s + static_cast<double>(sent_) * config_.interval_s;
     if (time_s < config_.stop_s) {
-        node_.schedule_timer(std::string(origin_timer), SimTime::from_seconds(time_s));
+        node_.schedule_timer(std::string(origin_timer), SimTime::of_event(time_s));
     }
 }
 
@@ -102,7 +102,7 @@ void FloodProtocol::handle_packet(const Payload& message) {
     if (hops < config_.hop_limit) {
         const double time_s = node_.now().seconds() + node_.random().uniform(0, config_.jitter_s);
         // Not before now, whatever the rounding.
-        node_.schedule_timer(text(number, hops + 1), std::max(node_.now(), SimTime::from_seconds(time_s)));
+        node_.schedule_timer(text(number, hops + 1), std::max(node_.now(), SimTime::of_event(time_s)));
     }
 }
 

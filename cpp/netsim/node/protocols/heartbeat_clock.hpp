@@ -21,7 +21,7 @@ public:
 
     SimTime next() {
         number_ += 1;
-        return SimTime::from_seconds(number_ * interval_s_ + random_.uniform(0, jitter_s_));
+        return SimTime::of_event(number_ * interval_s_ + random_.uniform(0, jitter_s_));
     }
 
 private:

@@ -38,7 +38,7 @@ NativeProtocol SaturatingSource::description() {
 
 void SaturatingSource::initialize() {
     start_s_ = node_.random().uniform(0, config_.spread_s);
-    node_.schedule_timer("burst", SimTime::from_seconds(start_s_));
+    node_.schedule_timer("burst", SimTime::of_event(start_s_));
 }
 
 void SaturatingSource::handle_timer(const std::string&) {
@@ -47,7 +47,7 @@ void SaturatingSource::handle_timer(const std::string&) {
     }
     ++bursts_;
     const double time_s = start_s_ + static_cast<double>(bursts_) * config_.interval_s;
-    node_.schedule_timer("burst", SimTime::from_seconds(time_s));
+    node_.schedule_timer("burst", SimTime::of_event(time_s));
 }
 
 }  // namespace netsim

@@ -55,7 +55,7 @@ double ZigZagMobileProtocol::launch_time_s() const {
 
 void ZigZagMobileProtocol::initialize() {
     track();
-    node_.schedule_timer("launch", SimTime::from_seconds(launch_time_s()));
+    node_.schedule_timer("launch", SimTime::of_event(launch_time_s()));
 }
 
 void ZigZagMobileProtocol::handle_timer(const std::string& timer) {

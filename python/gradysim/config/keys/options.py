@@ -3,8 +3,8 @@
 from gradysim.config.key import Key
 from gradysim.config.kinds import Kind, integer, quantity, text
 
-_MAX_SIM_TIME_S = 9_223_372.0
-"""The engine's clock counts picoseconds in 64 bits."""
+_MAX_SIM_TIME_S = 9_200_000
+"""The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""
 
 LARGEST_SEED = 2**63 - 1
 """Of a run, in both modes."""
