@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "netsim/config/check.hpp"
+#include "netsim/error.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -12,7 +13,11 @@ void AntennaConfig::validate(double carrier_hz) const {
     check_at_least("antenna.gain", gain, 0, "");
     check_at_least("antenna.max_gain", max_gain, 0, "");
     if (type_name == "ParabolicAntenna") {
-        check_between("antenna.min_gain", min_gain, 0, max_gain, "");
+        check_at_least("antenna.min_gain", min_gain, 0, "");
+        if (!(min_gain <= max_gain)) {
+            throw ConfigError("antenna.min_gain = " + text_of(min_gain) +
+                              ": expected at most antenna.max_gain, " + text_of(max_gain));
+        }
     }
     if (type_name == "CosineAntenna" || type_name == "ParabolicAntenna") {
         check_greater("antenna.beam_width_rad", beam_width_rad, 0, "rad");

@@ -69,7 +69,7 @@ void Dcf::check(const MacConfig& config) {
     if (cw_max(config, modes) < cw_min(config, modes)) {
         throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) +
                           " and mac.cw_max = " + std::to_string(cw_max(config, modes)) +
-                          " slots: expected a cw_max of at least cw_min (what " +
+                          " slots: expected the second to be at least the first (what " +
                           "is not set is that of the operation mode, " + config.op_mode + ")");
     }
 }

@@ -140,7 +140,7 @@ void Network::capture(NodeId node, const std::string& path, std::int32_t interfa
     const std::string& name = this->node(node).name();
     if (perfect_channel_) {
         throw ConfigError("cannot capture the frames of " + name +
-                          ": a medium of typename UnitDiskRadioMedium has no radios; expected " +
+                          ": medium.typename = \"UnitDiskRadioMedium\" has no radios; expected " +
                           "Ieee80211ScalarRadioMedium or another radio medium");
     }
     const std::size_t count = this->node(node).links().size();

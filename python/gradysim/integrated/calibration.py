@@ -9,7 +9,7 @@ from gradysim.config.nearest import did_you_mean
 from gradysim.config.scenario import NodeSpec, Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at
-from gradysim.integrated.network import medium_config, node_config
+from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 
 if TYPE_CHECKING:
@@ -97,8 +97,7 @@ def calibrate(
 
 def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, message_bytes: int) -> "LinkBudget":
     """Return the chances of a message from one node to another. Raises ConfigError."""
-    settings = {**scenario.medium, **sender.wlan[0].radio, **sender.wlan[0].mac}
-    with errors_at(settings):
+    with errors_at(node_settings(sender, 0, scenario.medium)):
         budget: LinkBudget = load_netsim().LinkBudget(
             medium_config(scenario), node_config(sender), node_config(receiver), message_bytes
         )

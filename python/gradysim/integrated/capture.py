@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from gradysim.config.error import ConfigError
 from gradysim.config.nearest import did_you_mean
 from gradysim.config.scenario import NodeSpec, Scenario
-from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.engine_errors import errors_at, settings_by_target
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network
@@ -64,5 +64,5 @@ def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, P
             file.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise ConfigError(f"cannot write the capture file '{file}': {error}") from error
-        with errors_at(scenario.medium):
+        with errors_at(settings_by_target("medium", scenario.medium)):
             network.capture(node_id, str(file), index)

@@ -1,4 +1,4 @@
-"""What the engine finds wrong with a configuration, told where the .ini file says it."""
+"""What the engine finds wrong with a configuration, told where the .ini file says it, and in its terms."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -6,31 +6,105 @@ from contextlib import contextmanager
 
 from gradysim.config.error import ConfigError
 from gradysim.config.setting import Setting
+from gradysim.integrated.engine_defaults import engine_defaults
+from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
+
+_COMPARED_WITH = {
+    "antenna.length_m": ("radio.carrier_hz",),
+    "antenna.min_gain": ("antenna.max_gain",),
+    "csma.min_be": ("csma.max_be",),
+    "mac.bitrate_bps": ("mac.op_mode",),
+    "mac.control_bitrate_bps": ("mac.op_mode",),
+    "mac.cw_max": ("mac.cw_min", "mac.op_mode"),
+    "mac.cw_min": ("mac.cw_max", "mac.op_mode"),
+    "mac.initial_rate_bps": ("mac.op_mode",),
+    "mac.max_increase_threshold": ("mac.increase_threshold",),
+    "mac.multicast_bitrate_bps": ("mac.op_mode",),
+    "radio.bandwidth_hz": ("radio.carrier_hz",),
+    "radio.carrier_hz": ("node.num_wlan_interfaces", "interface.typename"),
+    "radio.communication_range_m": ("medium.typename",),
+    "radio.energy_detection_w": (
+        "medium.background_noise_w",
+        "medium.temperature_k",
+        "radio.noise_figure",
+        "radio.bandwidth_hz",
+        "medium.background_noise",
+        "interface.typename",
+    ),
+    "radio.error_model": ("interface.typename",),
+}
+"""What may make the default of a field wrong, the nearest cause first; beside the choice of its model."""
+
+_LITERAL = re.compile(r'[-+]?[\d.]+(?:[eE][-+]?\d+)? *[A-Za-z]*|"[^"$]*"')
 
 
 @contextmanager
 def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
-    """Turn an error of the engine's check into a ConfigError, at the setting whose field its text names."""
+    """Turn an error of the engine's check into a ConfigError in the terms of the .ini file.
+
+    `settings` are those that the engine was given, by the targets of their keys: "radio.tx_power_w". The
+    place is that of the field which the text names; if it has its default, that of what the default does not
+    go with.
+    """
     try:
         yield
+    except ConfigError:
+        raise  # which knows its place
     except ValueError as error:  # the engine's ConfigError is one
-        setting = named_in(str(error), settings)
-        if setting is None:
-            raise ConfigError(str(error)) from error
-        raise ConfigError.at(setting.source, str(error)) from error
+        raise _told(str(error), settings) from error
 
 
 @contextmanager
-def errors_at_line(setting: Setting) -> Iterator[None]:
-    """Turn an error of the engine's check into a ConfigError at that setting."""
+def errors_at_line(setting: Setting, hint: str = "") -> Iterator[None]:
+    """Turn an error of the engine's check into a ConfigError at that setting, with a hint at its end."""
     try:
         yield
     except ValueError as error:
-        raise ConfigError.at(setting.source, str(error)) from error
+        raise ConfigError.at(setting.source, in_ini_terms(str(error)) + hint) from error
 
 
-def named_in(text: str, settings: Mapping[str, Setting]) -> Setting | None:
-    """Return the setting whose field is named first in `text`, or None."""
-    found = {field: re.search(rf"\b{re.escape(field)}\b", text) for field in settings}
-    places = {match.start(): field for field, match in found.items() if match is not None}
-    return settings[places[min(places)]] if places else None
+def settings_by_target(struct: str, settings: Mapping[str, Setting]) -> dict[str, Setting]:
+    """Return the settings of the fields of one struct as `errors_at` takes them."""
+    return {f"{struct}.{field}": setting for field, setting in settings.items()}
+
+
+def _told(text: str, settings: Mapping[str, Setting]) -> ConfigError:
+    field = FIELD.search(text)
+    if field is None:
+        return ConfigError(text)
+    named = [match["target"] for match in FIELD.finditer(text)]
+    target = named[0]
+    place = settings.get(_nearest(named, settings))
+    value = re.match(rf'{re.escape(field[0])} = ("[^"]*"|\S+(?: [A-Za-z/]+)?): ', text)
+    if value is None or field.start() > 0:
+        told = in_ini_terms(text, target)
+    else:
+        shown, rest = (in_ini_terms(part, target) for part in (value[1], text[value.end() :]))
+        if target not in settings:
+            told = f"{key_name(field)} = {shown} (its default): {rest}"
+        elif place is None or _LITERAL.fullmatch(place.source.value):
+            told = rest
+        else:
+            told = f"that is {shown}: {rest}"
+    return ConfigError(told) if place is None else ConfigError.at(place.source, told)
+
+
+def _nearest(named: list[str], settings: Mapping[str, Setting]) -> str:
+    """The setting to blame, of the fields that a text names and of those that decide about the first one."""
+    key = keys_by_target().get(named[0])
+    model = (key.read_by.chosen_by,) if key and key.read_by else ()
+    of_protocol = ("protocol.",) if named[0].startswith("protocol.") else ()
+    causes = (*_COMPARED_WITH.get(named[0], ()), *model, *of_protocol, "node.num_wlan_interfaces")
+    candidates = (*named, *(target for target in causes if _is_read(target, settings)))
+    return next((target for target in candidates if target in settings), "")
+
+
+def _is_read(target: str, settings: Mapping[str, Setting]) -> bool:
+    """Whether the model is chosen that reads the setting."""
+    key = keys_by_target().get(target)
+    if key is None or key.read_by is None:
+        return True
+    chooser = key.read_by.chosen_by
+    struct, _, field = chooser.partition(".")
+    chosen = settings[chooser].value if chooser in settings else getattr(engine_defaults()[struct][""], field)
+    return chosen in key.read_by.names

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.config.native_protocol import NativeParameter, NativeProtocol
 from gradysim.config.protocol_class import parametrize
-from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.scenario import NodeSpec
 from gradysim.config.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider
 
 if TYPE_CHECKING:
@@ -34,10 +33,12 @@ def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
     Raises ConfigError, with the place in the .ini file, when a parameter is outside its range.
     """
     values = cast("Mapping[str, bool | int | float]", spec.protocol_parameters)
-    chosen = spec.protocol_sources.get("")
-    sources = dict.fromkeys(parameters_of(spec.protocol), chosen) if chosen else {}  # of the defaults
-    sources |= {name: source for name, source in spec.protocol_sources.items() if name in values}
-    with errors_at({name: Setting(values.get(name, ""), source) for name, source in sources.items()}):
+    settings = {
+        f"protocol.{name}": Setting(values.get(name, ""), source)
+        for name, source in spec.protocol_sources.items()
+        if not name or name in values
+    }
+    with errors_at({**settings_by_target("mobility", spec.mobility), **settings}):
         node.set_native_protocol(spec.protocol.__name__, values)
 
 

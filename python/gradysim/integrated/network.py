@@ -15,7 +15,7 @@ from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import errors_at, errors_at_line, named_in
+from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
 
@@ -29,10 +29,10 @@ def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     Raises ConfigError, with the place in the .ini file, when a value is outside the engine's range.
     """
     config = medium_config(scenario)
-    with errors_at(scenario.medium):
+    with errors_at(settings_by_target("medium", scenario.medium)):
         network: Network = load_netsim().Network(config, scenario.seed)
     powers = PowersForRanges(config)
-    nodes = tuple(add_node(network, spec, powers) for spec in scenario.nodes)
+    nodes = tuple(add_node(network, spec, powers, scenario.medium) for spec in scenario.nodes)
     for spec, node in zip(scenario.nodes, nodes, strict=True):
         if is_native(spec):
             set_native_protocol(node, spec)
@@ -47,10 +47,12 @@ def check_scenario(scenario: Scenario) -> None:
     build_network(scenario)
 
 
-def add_node(network: "Network", spec: NodeSpec, powers: PowersForRanges) -> "Node":
+def add_node(
+    network: "Network", spec: NodeSpec, powers: PowersForRanges, medium: Mapping[str, Setting]
+) -> "Node":
     """Add one node to `network`; what only the whole configuration shows to be wrong is found now."""
     config = node_config(spec)
-    with node_errors_at(spec):
+    with node_errors_at(spec, medium):
         powers.set_powers(config, spec)
         return network.add_node(config)
 
@@ -60,7 +62,7 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
     netsim = load_netsim()
     settings = dict(scenario.medium)
     chosen = settings.pop("typename", None)
-    with errors_at(scenario.medium):
+    with errors_at(settings_by_target("medium", scenario.medium)):
         config: MediumConfig = netsim.MediumConfig() if chosen is None else netsim.MediumConfig(chosen.value)
         set_fields(config, settings)
         config.obstacles = [obstacle_config(spec) for spec in scenario.obstacles]
@@ -95,7 +97,7 @@ def node_config(spec: NodeSpec) -> "NodeConfig":
         set_fields(interface.csma, wlan.csma)
     set_fields(config.mobility, spec.mobility)
     config.initial_position = spec.initial_position
-    with node_errors_at(spec):
+    with node_errors_at(spec, {}):
         config.validate()
     return config
 
@@ -106,11 +108,10 @@ def _typename(wlan: InterfaceSpec) -> str:
 
 
 @contextmanager
-def node_errors_at(spec: NodeSpec) -> Iterator[None]:
+def node_errors_at(spec: NodeSpec, medium: Mapping[str, Setting]) -> Iterator[None]:
     """Turn an error of the engine about a node into a ConfigError, at the line that sets the field it names.
 
-    The engine says which of several interfaces it means: "wlan[1].radio.tx_power_w = -1 W: ...". If that
-    is the default of an interface, the error is at the line that says how many there are.
+    The engine says which of several interfaces it means: "wlan[1].radio.tx_power_w = -1 W: ...".
     """
     try:
         yield
@@ -118,14 +119,17 @@ def node_errors_at(spec: NodeSpec) -> Iterator[None]:
         raise  # which knows its place
     except ValueError as error:
         named = re.match(r"wlan\[(\d+)\]", str(error))
-        wlan = spec.wlan[int(named[1]) if named else 0]
-        settings = {**spec.node, **spec.mobility, **wlan.settings()}
-        count = spec.node.get("num_wlan_interfaces")
-        if named and count and named_in(str(error), settings) is None:
-            with errors_at_line(count):
-                raise
-        with errors_at(settings):
+        with errors_at(node_settings(spec, int(named[1]) if named else 0, medium)):
             raise
+
+
+def node_settings(spec: NodeSpec, interface: int, medium: Mapping[str, Setting]) -> dict[str, Setting]:
+    """Return what was set for one interface of a node, and for all that is around it, by target."""
+    settings = settings_by_target("medium", medium)
+    settings |= settings_by_target("node", spec.node) | settings_by_target("mobility", spec.mobility)
+    for struct, fields in spec.wlan[interface].structs().items():
+        settings |= settings_by_target(struct, fields)
+    return settings
 
 
 def set_fields(config: object, settings: Mapping[str, Setting]) -> None:

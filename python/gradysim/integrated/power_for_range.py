@@ -2,7 +2,8 @@
 
 from typing import TYPE_CHECKING
 
-from gradysim.config.interface_spec import InterfaceSpec
+from gradysim.config.error import ConfigError
+from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at_line
@@ -13,6 +14,10 @@ if TYPE_CHECKING:
 RATIO = 0.5
 MESSAGE_BYTES = 50
 """What a range means if nothing else is said: half of the broadcast messages of that length arrive."""
+
+
+_MTU_BYTES = MESSAGE_BYTES + 28
+"""With the headers of IPv4 and UDP."""
 
 
 class PowersForRanges:
@@ -34,13 +39,22 @@ class PowersForRanges:
             return
         for index, wlan in enumerate(spec.wlan):
             if wlan.range_sets_power:
-                config.wlan[index].radio.tx_power_w = self._power_w(config, index, wlan)
+                config.wlan[index].radio.tx_power_w = self._power_w(config, spec, index)
 
-    def _power_w(self, config: "NodeConfig", index: int, wlan: InterfaceSpec) -> float:
+    def _power_w(self, config: "NodeConfig", spec: NodeSpec, index: int) -> float:
+        wlan = spec.wlan[index]
         # Interfaces with the same lines in force share their specification.
         key = (id(wlan), config.initial_position[2])
         power_w = self._known.get(key)
         if power_w is None:
+            mtu = wlan.mac.get("mtu_bytes")
+            is_80211 = config.wlan[index].typename == DEFAULT_INTERFACE
+            if mtu is not None and is_80211 and int(mtu.value) < _MTU_BYTES:
+                text = (
+                    f"expected at least {_MTU_BYTES}B: transmitter.communicationRange is about messages of"
+                    f" {MESSAGE_BYTES}B, which have {_MTU_BYTES - MESSAGE_BYTES}B of headers"
+                )
+                raise ConfigError.at(mtu.source, text)
             budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)
             with errors_at_line(wlan.radio["communication_range_m"]):
                 power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)

@@ -40,7 +40,7 @@ TEST(AntennaConfig, ABeamNeedsItsWidth) {
 TEST(AntennaConfig, TheLeastGainIsNotMoreThanTheLargest) {
     EXPECT_EQ(
         text_of_error({.type_name = "ParabolicAntenna", .max_gain = 1, .min_gain = 2, .beam_width_rad = 1}),
-        "antenna.min_gain = 2: expected from 0 to 1");
+        "antenna.min_gain = 2: expected at most antenna.max_gain, 1");
 }
 
 TEST(AntennaConfig, ADipoleIsNotLongerThanTheWave) {

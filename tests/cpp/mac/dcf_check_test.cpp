@@ -49,10 +49,11 @@ TEST(DcfCheck, TheErrorNamesBothWindows) {
         Dcf::check(mac);
         FAIL() << "no error";
     } catch (const ConfigError& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  "mac.cw_min = 31 and mac.cw_max = 5 slots: expected a cw_max of at least cw_min (what is "
-                  "not set is "
-                  "that of the operation mode, g(mixed))");
+        EXPECT_EQ(
+            std::string(error.what()),
+            "mac.cw_min = 31 and mac.cw_max = 5 slots: expected the second to be at least the first (what is "
+            "not set is "
+            "that of the operation mode, g(mixed))");
     }
 }
 

@@ -164,7 +164,7 @@ TEST(RadioCapture, AUnitDiskMediumHasNoRadios) {
         FAIL();
     } catch (const ConfigError& error) {
         EXPECT_EQ(std::string(error.what()),
-                  "cannot capture the frames of uavs[0]: a medium of typename UnitDiskRadioMedium has no "
+                  "cannot capture the frames of uavs[0]: medium.typename = \"UnitDiskRadioMedium\" has no "
                   "radios; expected Ieee80211ScalarRadioMedium or another radio medium");
     }
 }

@@ -27,12 +27,12 @@ def key_of(line: str) -> str:
 @pytest.mark.parametrize(
     ("lines", "wrong", "text"),
     [
-        ([CHANNEL], "*.uavs[*].wlan[1].bitrate = 7Mbps", "wlan[1].mac.bitrate_bps = 7000000 bps"),
-        ([CHANNEL], "*.uavs[*].wlan[1].mac.mtu = 10B", "wlan[1].mac.mtu_bytes = 10 B"),
+        ([CHANNEL], "*.uavs[*].wlan[1].bitrate = 7Mbps", "bitrate=7Mbps: expected a bitrate of g(mixed)"),
+        ([CHANNEL], "*.uavs[*].wlan[1].mac.mtu = 10B", "mtu=10B: expected from 29B to 2304B"),
         (
             [CHANNEL],
             "*.uavs[*].wlan[1].radio.receiver.energyDetection = -120dBm",
-            "wlan[1].radio.energy_detect",
+            "energyDetection=-120dBm: expected more than the background noise of -110dBm",
         ),
         ([CHANNEL], "*.uavs[*].wlan[1].radio.transmitter.communicationRange = 1e30m", "no power reaches"),
         ([], "*.uavs[*].wlan[*].radio.channelNumber = 5", "another channel than that of wlan[0] of uavs[0]"),
@@ -49,7 +49,9 @@ def test_interfaces_that_share_a_channel_by_default_are_told_where_they_are_coun
     with pytest.raises(ConfigError) as error:
         check_scenario(make_scenario(QUIET, TWO))
     assert error.value.key == key_of(TWO)
-    assert "wlan[1].radio.carrier_hz = 2412000000 Hz: expected another channel" in str(error.value)
+    assert "wlan[1].radio.centerFrequency = 2412MHz (its default): expected another channel" in str(
+        error.value
+    )
 
 
 def test_where_there_are_no_radios_they_need_no_channels(make_scenario):

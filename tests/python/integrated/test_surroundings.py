@@ -57,9 +57,15 @@ def test_the_engine_is_given_what_the_file_says() -> None:
 @pytest.mark.parametrize(
     ("override", "message"),
     [
-        ("*.station.wlan[*].radio.antenna.beamWidth=360deg", "antenna.beam_width_rad"),
-        ("*.station.wlan[*].radio.antenna.minGain=20dB", "antenna.min_gain"),
-        ("*.station.wlan[*].radio.antenna.length=13cm", "antenna.length_m = 0.13 m: expected from 0 m"),
+        (
+            "*.station.wlan[*].radio.antenna.beamWidth=360deg",
+            "beamWidth=360deg: expected from 0deg to 359.82deg",
+        ),
+        (
+            "*.station.wlan[*].radio.antenna.minGain=20dB",
+            "minGain=20dB: expected at most wlan[*].radio.antenna.maxGain, 15dB",
+        ),
+        ("*.station.wlan[*].radio.antenna.length=13cm", "length=13cm: expected from 0m to 0.124292m"),
     ],
 )
 def test_values_outside_of_the_engines_range_are_told(override: str, message: str) -> None:
