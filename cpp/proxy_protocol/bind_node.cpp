@@ -33,6 +33,7 @@ void bind_node(py::module_& module) {
             py::arg("protocol"), py::arg("on_failure"))
         .def("set_native_protocol", &netsim::set_native_protocol, py::arg("name"),
              py::arg("parameters") = netsim::Parameters())
+        .def("check_protocol", &Node::check_protocol)
         .def_property_readonly("tracked_variables",
                                [](const Node& node) {
                                    py::dict variables;

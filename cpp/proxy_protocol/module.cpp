@@ -12,6 +12,7 @@ PYBIND11_MODULE(_netsim, module) {
     module.attr("longest_run_s") = netsim::SimTime::longest_run_s;
     py::register_exception<netsim::ConfigError>(module, "ConfigError", PyExc_ValueError);
     py::register_exception<netsim::SimulationError>(module, "SimulationError", PyExc_RuntimeError);
+    proxy_protocol::bind_protocol_error(module);
     proxy_protocol::bind_config(module);
     proxy_protocol::bind_propagation(module);
     proxy_protocol::bind_link_budget(module);

@@ -12,6 +12,13 @@ class SimulationError(RuntimeError):
 longest_run_s: float
 """The largest time that a run can reach, in seconds."""
 
+class ProtocolError(SimulationError):
+    """A native protocol got something wrong in a run; one of Python raises what it raises."""
+
+    node_id: int
+    callback: str
+    time_s: float
+
 class MediumConfig:
     """The type chooses the defaults of the other fields, so it is given at the start and stays."""
 
@@ -281,6 +288,8 @@ class Node:
 
         ConfigError: there is none of that name, it has no such parameter, or a value is out of range.
         """
+    def check_protocol(self) -> None:
+        """Raise ConfigError for parameters that this node cannot have among those that are there now."""
     @property
     def tracked_variables(self) -> dict[str, bool | int | float | str]:
         """What a native protocol tracks; those of a protocol in Python are its provider's."""

@@ -21,6 +21,9 @@ public:
     // From now on, also on the present leg, fly at `speed_mps` ≥ 0.
     virtual void set_speed(SimTime now, double speed_mps) = 0;
 
+    // Whether it ever obeys.
+    virtual bool can_move() const { return true; }
+
     const Trajectory& trajectory() const { return trajectory_; }
 
 protected:

@@ -12,6 +12,7 @@ public:
 
     void go_to(SimTime, Position) override { refuse(); }
     void set_speed(SimTime, double) override { refuse(); }
+    bool can_move() const override { return false; }
 
 private:
     [[noreturn]] static void refuse() {

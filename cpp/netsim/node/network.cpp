@@ -174,6 +174,9 @@ void Network::close_captures() {
 }
 
 void Network::initialize() {
+    for (const Node& node : nodes_) {
+        node.check_protocol();
+    }
     for (const Radio& radio : radios_) {
         Node& node = nodes_[radio.node()];
         medium_.set_touched(radio.id(), node.links()[radio.interface().index].get(), &node, node.protocol());

@@ -1,6 +1,7 @@
 #include "netsim/node/node.hpp"
 
 #include "netsim/error.hpp"
+#include "netsim/node/protocol_error.hpp"
 
 namespace netsim {
 
@@ -22,16 +23,30 @@ Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint6
       attitude_(config.mobility),
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
 
-void Node::initialize() {
-    if (protocol_) {
-        protocol_->initialize();
+template <typename Call>
+void Node::call_protocol(const char* callback, Call call) {
+    if (!protocol_) {
+        return;
+    }
+    try {
+        call(*protocol_);
+    } catch (const SimulationError& error) {
+        throw ProtocolError(error.what(), id_, callback, now());
     }
 }
 
-void Node::finish() {
+void Node::check_protocol() const {
     if (protocol_) {
-        protocol_->finish();
+        protocol_->check();
     }
+}
+
+void Node::initialize() {
+    call_protocol("initialize", [](Protocol& protocol) { protocol.initialize(); });
+}
+
+void Node::finish() {
+    call_protocol("finish", [](Protocol& protocol) { protocol.finish(); });
 }
 
 Link& Node::link(std::int32_t interface) {
@@ -85,7 +100,7 @@ void Node::message_received(NodeId source, const Payload& payload) {
     fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(source) << 40) ^
                      static_cast<std::uint64_t>(id_));
     fingerprint_.add_text(*payload);
-    protocol_->handle_packet(payload);
+    call_protocol("handle_packet", [&payload](Protocol& protocol) { protocol.handle_packet(payload); });
 }
 
 void Node::timer_due(std::size_t number) {
@@ -93,15 +108,11 @@ void Node::timer_due(std::size_t number) {
     fingerprint_.add(timer_word ^ static_cast<std::uint64_t>(id_));
     fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
     fingerprint_.add_text(timer);
-    if (protocol_) {
-        protocol_->handle_timer(timer);
-    }
+    call_protocol("handle_timer", [&timer](Protocol& protocol) { protocol.handle_timer(timer); });
 }
 
 void Node::report_position() {
-    if (protocol_) {
-        protocol_->handle_telemetry(position());
-    }
+    call_protocol("handle_telemetry", [this](Protocol& protocol) { protocol.handle_telemetry(position()); });
 }
 
 }  // namespace netsim

@@ -43,10 +43,15 @@ public:
     Protocol* protocol() { return protocol_.get(); }
     const std::vector<std::unique_ptr<Link>>& links() const { return links_; }
 
-    // Life cycle, driven by the Network.
+    // Life cycle, driven by the Network. A SimulationError of the protocol comes out as a ProtocolError.
+    void check_protocol() const;
     void initialize();
     void report_position();
     void finish();
+
+    // What a protocol may know of its surroundings, also before the run.
+    std::int32_t node_count() const { return *node_count_; }
+    bool can_move() const { return mobility_->can_move(); }
 
     // What a protocol may ask for. All throw SimulationError for what cannot be done.
     SimTime now() const { return simulator_.now(); }
@@ -69,6 +74,8 @@ public:
 
 private:
     Link& link(std::int32_t interface);
+    template <typename Call>
+    void call_protocol(const char* callback, Call call);
     void message_received(NodeId source, const Payload& payload) override;
     void timer_due(std::size_t number);
 

@@ -15,6 +15,10 @@ class Protocol {
 public:
     virtual ~Protocol() = default;
 
+    // Before the run, when all nodes are there. Throws ConfigError for parameters that this node, in this network, cannot
+    // have: another node that is not there, say.
+    virtual void check() const {}
+
     // Once, at the start of the run, in the order of node ids.
     virtual void initialize() = 0;
     // A timer of this node is due.

@@ -28,9 +28,10 @@ def is_native(spec: NodeSpec) -> bool:
 
 
 def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
-    """Give `node` the native protocol of `spec`.
+    """Give `node` the native protocol of `spec`, when all nodes are there.
 
-    Raises ConfigError, with the place in the .ini file, when a parameter is outside its range.
+    Raises ConfigError, with the place in the .ini file, when a parameter is outside its range, or is one that
+    this node cannot have in this network.
     """
     values = cast("Mapping[str, bool | int | float]", spec.protocol_parameters)
     settings = {
@@ -40,6 +41,7 @@ def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
     }
     with errors_at({**settings_by_target("mobility", spec.mobility), **settings}):
         node.set_native_protocol(spec.protocol.__name__, values)
+        node.check_protocol()
 
 
 class NativeView:

@@ -9,21 +9,28 @@ import weakref
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from time import perf_counter, process_time
+from typing import TYPE_CHECKING
 
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario
+from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import start_captures
+from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
 from gradysim.integrated.real_time import RealTimeRun
+from gradysim.protocol.errors import NativeProtocolError
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.node_results import node_results
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor
+
+if TYPE_CHECKING:
+    from gradysim._netsim import ProtocolError
 
 
 class IntegratedRun:
@@ -95,9 +102,10 @@ class IntegratedRun:
         """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
 
         `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
-        passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
-        handler raises, as for an assertion that failed. Handlers are finalized in any case. A capture
-        file that could not be written to its end raises SimulationError when all else is done.
+        passed on, with a note of node, time and callback, and ends the run without `finish`; what a native
+        one gets wrong becomes a NativeProtocolError with such a note. So does what a handler raises, as for
+        an assertion that failed. Handlers are finalized in any case. A capture file that could not be written
+        to its end raises SimulationError when all else is done.
         """
         network = self._network
         random.seed(self._scenario.seed)  # another run may have been built in between
@@ -115,6 +123,9 @@ class IntegratedRun:
                 self._complete = False
             network.finish()
             self._handlers.finalize()
+        except load_netsim().ProtocolError as failure:
+            self._complete = False
+            raise self._native_failure(failure) from None
         except BaseException:
             self._complete = False
             raise
@@ -124,6 +135,19 @@ class IntegratedRun:
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
             if self._captures:
                 network.close_captures()
+
+    def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
+        """Return what a native protocol got wrong, told as the exception of one in Python."""
+        protocol = self._scenario.nodes[failure.node_id].protocol
+        told = NativeProtocolError(str(failure))
+        add_protocol_note(
+            told,
+            node_id=failure.node_id,
+            label=f"{protocol.__name__} {failure.node_id}",
+            time_s=failure.time_s,
+            callback=failure.callback,
+        )
+        return told
 
     def _advance(self) -> Callable[[int], bool]:
         """Return what runs the next events, at the pace that is wanted; its clock starts now."""

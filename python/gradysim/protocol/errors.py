@@ -15,3 +15,7 @@ class TimerException(Exception):  # noqa: N818 (the published name)
 
 class MasslessMobilityException(Exception):  # noqa: N818 (the published name)
     """A mobility command cannot be carried out: not a place, a negative speed, a node that stands, ..."""
+
+
+class NativeProtocolError(RuntimeError):
+    """A protocol of the engine got something wrong. No code of the user led to it: its note tells all."""

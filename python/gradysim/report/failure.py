@@ -5,12 +5,16 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
+from gradysim.protocol.errors import NativeProtocolError
+
 PACKAGE = Path(__file__).resolve().parent.parent
 
 
 def print_failure(failure: BaseException, file: TextIO) -> None:
     """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out."""
-    traceback.print_exception(type(failure), failure, from_users_code(failure.__traceback__), file=file)
+    is_native = isinstance(failure, NativeProtocolError)
+    frames = None if is_native else from_users_code(failure.__traceback__)
+    traceback.print_exception(type(failure), failure, frames, file=file)
 
 
 def from_users_code(frames: TracebackType | None) -> TracebackType | None:

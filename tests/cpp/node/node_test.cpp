@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/error.hpp"
+#include "netsim/node/protocol_error.hpp"
 #include "support/recorder.hpp"
 
 namespace netsim {
@@ -180,6 +181,21 @@ TEST_F(NodeTest, AMessageToAnUnknownNodeIsAnErrorThatNamesThoseThatExist) {
 
 TEST_F(NodeTest, AMessageToItselfIsAnError) {
     EXPECT_EQ(error_of([this] { first->send(0, "text"); }), "node 0 cannot send a message to itself");
+}
+
+TEST_F(NodeTest, AnErrorOfItsProtocolKnowsItsPlaceInTheRun) {
+    first->on_initialize = [](Recorder& self) { self.node.schedule_timer("late", s(1)); };
+    first->on_timer = [](Recorder& self, const std::string&) { self.send(0, "hello"); };
+    network.initialize();
+    try {
+        network.run_until(s(2));
+        FAIL() << "no error";
+    } catch (const ProtocolError& error) {
+        EXPECT_STREQ(error.what(), "node 0 cannot send a message to itself");
+        EXPECT_EQ(error.node(), 0);
+        EXPECT_STREQ(error.callback(), "handle_timer");
+        EXPECT_EQ(error.time(), s(1));
+    }
 }
 
 TEST_F(NodeTest, GoesWhereItIsSent) {

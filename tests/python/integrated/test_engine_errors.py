@@ -119,6 +119,11 @@ def test_what_was_calculated_is_told():
             ],
             "6: *.uavs[*].protocol.payload_bytes = 3000: expected from 0B to 2276B, the longest message",
         ),
+        (
+            ['*.uavs[*].protocol.typename = "SaturatingSource"'],
+            '5: *.uavs[*].protocol.typename = "SaturatingSource": protocol.destination = 0 (its default):'
+            " expected the id of another node than uavs[0] itself, from 0 to 1",
+        ),
     ],
 )
 def test_a_mistake_is_told_in_the_terms_of_the_file_at_its_nearest_cause(

@@ -11,6 +11,7 @@ from gradysim.config.scenario import load_scenarios
 from gradysim.integrated.native_protocols import native_protocols
 from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import IntegratedRun, run
+from gradysim.protocol.errors import NativeProtocolError
 from gradysim.simulator.handler.assertion import AssertionHandler, assert_always_true_for_protocol
 
 ROOT = Path(__file__).parents[3]
@@ -48,26 +49,27 @@ def test_beside_protocols_in_python(make_scenario):
 
 def test_a_parameter_out_of_range_is_an_error_at_its_setting(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", BEACON, "*.uavs[1].protocol.interval = 0s")
-    with pytest.raises(ConfigError, match=r"interval = 0 s: expected more than 0 s") as error:
+    with pytest.raises(ConfigError, match=r"interval=0s: expected more than 0s") as error:
         check_scenario(scenario)
     assert error.value.key == "*.uavs[1].protocol.interval"
 
 
 @pytest.mark.parametrize(
-    ("line", "payload_bytes", "longest_bytes", "place"),
+    ("line", "place", "told"),
     [
         (
             "*.node.protocol.payload_bytes = 2277",
-            2277,
-            2276,
             "test.ini:4: *.node.protocol.payload_bytes = 2277",
+            "expected from 0B to 2276B, the longest message of node",
         ),
-        ("*.node.wlan[*].mac.mtu = 127B", 100, 99, "test.ini:3: *.node.protocol.typename"),
+        (
+            "*.node.wlan[*].mac.mtu = 127B",
+            "test.ini:3: *.node.protocol.typename",
+            "protocol.payload_bytes = 100B (its default): expected from 0B to 99B, the longest message",
+        ),
     ],
 )
-def test_a_message_that_the_interface_cannot_send_is_refused_before_the_run(
-    tmp_path, line, payload_bytes, longest_bytes, place
-):
+def test_a_message_that_the_interface_cannot_send_is_refused_before_the_run(tmp_path, line, place, told):
     path = tmp_path / "test.ini"
     path.write_text(
         f'[General]\nsim-time-limit = 9s\n*.node.protocol.typename = "BeaconProtocol"\n{line}\n'
@@ -77,7 +79,7 @@ def test_a_message_that_the_interface_cannot_send_is_refused_before_the_run(
     with pytest.raises(ConfigError) as error:
         check_scenario(scenario)
     assert place in str(error.value)
-    assert f"payload_bytes = {payload_bytes} B: expected from 0 B to {longest_bytes} B" in str(error.value)
+    assert told in str(error.value)
 
 
 def test_prototype_mode_names_the_class_to_use(make_scenario):
@@ -91,11 +93,51 @@ def test_prototype_mode_names_the_class_to_use(make_scenario):
     assert error.value.key == "*.uavs[*].protocol.typename"
 
 
-def test_a_command_that_cannot_be_carried_out_ends_the_run(make_scenario):
-    lost = '*.uavs[0].protocol.typename = "SaturatingSource"', "*.uavs[0].protocol.destination = 7"
-    built = IntegratedRun(make_scenario("class Tested(Quiet): pass", *lost))
-    with pytest.raises(RuntimeError, match=r"cannot send to node 7: nodes are 0 … 1"):
+@pytest.mark.parametrize(
+    ("lines", "key", "text"),
+    [
+        (
+            ['*.uavs[*].protocol.typename = "SaturatingSource"', "*.uavs[*].protocol.destination = 77"],
+            "*.uavs[*].protocol.destination",
+            "expected the id of a node, from 0 to 1",
+        ),
+        (
+            ['*.uavs[*].protocol.typename = "SaturatingSource"'],
+            "*.uavs[*].protocol.typename",
+            "expected the id of another node than uavs[0] itself, from 0 to 1",
+        ),
+        (
+            ['*.uavs[*].protocol.typename = "FloodProtocol"', "*.uavs[*].protocol.origin = 2"],
+            "*.uavs[*].protocol.origin",
+            "expected the id of a node, from 0 to 1",
+        ),
+        (
+            [
+                '*.uavs[1].protocol.typename = "ZigZagMobileProtocol"',
+                '*.uavs[*].mobility.typename = "StationaryMobility"',
+            ],
+            "*.uavs[*].mobility.typename",
+            'expected "MasslessMobility" for uavs[1], as ZigZagMobileProtocol flies',
+        ),
+    ],
+)
+def test_what_only_the_whole_network_shows_to_be_wrong_is_refused_before_the_run(
+    make_scenario, lines, key, text
+):
+    scenario = make_scenario("class Tested(Quiet): pass", *lines)
+    with pytest.raises(ConfigError) as error:
+        check_scenario(scenario)
+    assert error.value.key == key
+    assert text in str(error.value)
+
+
+def test_what_it_gets_wrong_in_the_run_ends_it_with_a_note_of_the_place(make_scenario):
+    flood = '*.uavs[1].protocol.typename = "FloodProtocol"'
+    built = IntegratedRun(make_scenario("class Tested(Talker): pass", flood))
+    with pytest.raises(NativeProtocolError, match=r"not a message of FloodProtocol") as error:
         built.execute()
+    (note,) = error.value.__notes__
+    assert note.startswith("in handle_packet of node 1 (FloodProtocol 1) at 0.1")
     assert built.result().interrupted
 
 

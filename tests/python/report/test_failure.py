@@ -1,5 +1,6 @@
 from io import StringIO
 
+from gradysim.protocol.errors import NativeProtocolError
 from gradysim.report.failure import PACKAGE, from_users_code, print_failure
 
 USER = "/home/user/protocol.py"
@@ -58,3 +59,16 @@ def test_notes_are_printed():
     assert text.getvalue().splitlines()[0] == "Traceback (most recent call last):"
     assert text.getvalue().splitlines()[-2:] == ["RuntimeError: spoilt", "in handle_timer of node 3"]
     assert OURS not in text.getvalue()
+
+
+def test_a_native_protocol_has_no_frames_to_show():
+    text = StringIO()
+    try:
+        raise NativeProtocolError("no message")
+    except NativeProtocolError as failure:
+        failure.add_note("in handle_timer of node 3")
+        print_failure(failure, text)
+    assert text.getvalue().splitlines() == [
+        "gradysim.protocol.errors.NativeProtocolError: no message",
+        "in handle_timer of node 3",
+    ]

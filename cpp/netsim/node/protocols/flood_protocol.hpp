@@ -29,6 +29,7 @@ public:
     FloodProtocol(Node& node, const FloodConfig& config) : node_(node), config_(config) {}
     static NativeProtocol description();
 
+    void check() const override { check_node_id(node_, "protocol.origin", config_.origin); }
     void initialize() override;
     void handle_timer(const std::string& timer) override;
     void handle_packet(const Payload& message) override;

@@ -35,4 +35,28 @@ void check_payload_bytes(Node& node, std::int64_t payload_bytes) {
     }
 }
 
+void check_node_id(const Node& node, std::string_view field, std::int64_t id) {
+    if (id < 0 || id >= node.node_count()) {
+        throw ConfigError(std::string(field) + " = " + std::to_string(id) +
+                          ": expected the id of a node, from 0 to " + std::to_string(node.node_count() - 1));
+    }
+}
+
+void check_other_node_id(const Node& node, std::string_view field, std::int64_t id) {
+    check_node_id(node, field, id);
+    if (id == node.id()) {
+        throw ConfigError(std::string(field) + " = " + std::to_string(id) +
+                          ": expected the id of another node than " + node.name() + " itself" +
+                          (node.node_count() == 1 ? ", but there is no other"
+                                                  : ", from 0 to " + std::to_string(node.node_count() - 1)));
+    }
+}
+
+void check_can_move(const Node& node, std::string_view protocol) {
+    if (!node.can_move()) {
+        throw ConfigError(R"(mobility.typename = "StationaryMobility": expected "MasslessMobility" for )" +
+                          node.name() + ", as " + std::string(protocol) + " flies");
+    }
+}
+
 }  // namespace netsim

@@ -58,6 +58,13 @@ struct ParameterField {
 // For a size of messages, from 0 to what the node's wlan[0] takes, and at most 65,507 B (the largest UDP payload).
 void check_payload_bytes(Node& node, std::int64_t payload_bytes);
 
+// For the id of a node of the network that `node` is in, and for that of another one than `node`.
+void check_node_id(const Node& node, std::string_view field, std::int64_t id);
+void check_other_node_id(const Node& node, std::string_view field, std::int64_t id);
+
+// For a protocol that moves its node: refuses a mobility that cannot.
+void check_can_move(const Node& node, std::string_view protocol);
+
 // A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults and validate(), which
 // leaves a field `payload_bytes` to the check above: how long a message may be is up to the node.
 template <typename Type, typename Config>

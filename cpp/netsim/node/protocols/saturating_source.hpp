@@ -25,6 +25,7 @@ public:
     SaturatingSource(Node& node, const SaturatingSourceConfig& config);
     static NativeProtocol description();
 
+    void check() const override { check_other_node_id(node_, "protocol.destination", config_.destination); }
     void initialize() override;
     void handle_timer(const std::string& timer) override;
     void handle_packet(const Payload&) override {}

@@ -32,6 +32,7 @@ public:
     ZigZagMobileProtocol(Node& node, const ZigZagMobileConfig& config);
     static NativeProtocol description();
 
+    void check() const override { check_can_move(node_, "ZigZagMobileProtocol"); }
     void initialize() override;
     void handle_timer(const std::string& timer) override;
     void handle_packet(const Payload& message) override;

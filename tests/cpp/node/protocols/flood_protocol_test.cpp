@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "config/error_text.hpp"
 #include "netsim/error.hpp"
 #include "support/pair_of_nodes.hpp"
 
@@ -23,7 +24,7 @@ protected:
         };
         other->on_timer = [](test::Recorder& self, const std::string& text) { self.broadcast(text); };
     }
-    Parameters far_origin{{"origin", std::int64_t{7}}, {"payload_bytes", std::int64_t{6}}};
+    Parameters far_origin{{"origin", std::int64_t{1}}, {"payload_bytes", std::int64_t{6}}};
 };
 
 TEST_F(FloodProtocolTest, TheOriginNumbersItsMessages) {
@@ -45,6 +46,11 @@ TEST_F(FloodProtocolTest, AtTheHopLimitAMessageEnds) {
     far_origin["hop_limit"] = std::int64_t{2};
     run("FloodProtocol", far_origin, 5);
     EXPECT_EQ(other->packet_texts(), std::vector<std::string>{"0 2 xx"});
+}
+
+TEST_F(FloodProtocolTest, AnOriginThatIsNotThereIsRefused) {
+    const auto error = [this] { run("FloodProtocol", {{"origin", std::int64_t{2}}}, 1); };
+    EXPECT_EQ(error_text(error), "protocol.origin = 2: expected the id of a node, from 0 to 1");
 }
 
 TEST_F(FloodProtocolTest, AnotherTextEndsTheRun) {

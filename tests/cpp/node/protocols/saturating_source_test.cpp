@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "config/error_text.hpp"
 #include "support/pair_of_nodes.hpp"
 
 namespace netsim {
@@ -37,6 +38,24 @@ TEST_F(SaturatingSourceTest, ItsQueueNeverRunsEmpty) {
     EXPECT_GT(network.message_fates().counts(MessageKind::unicast)[dropped], 0U);
     // Nothing but frame, ACK and waiting: more than 2 Mbps at the default rate of 6 Mbps or more.
     EXPECT_GT(other->packets.size() * 8000, 2e6);
+}
+
+TEST_F(SaturatingSourceTest, ItselfIsNoDestination) {
+    EXPECT_EQ(error_text([this] { run("SaturatingSource", {}, 1); }),
+              "protocol.destination = 0: expected the id of another node than tested itself, from 0 to 1");
+}
+
+TEST_F(SaturatingSourceTest, ANodeThatIsNotThereIsNoDestination) {
+    EXPECT_EQ(error_text([this] { run("SaturatingSource", {{"destination", std::int64_t{77}}}, 1); }),
+              "protocol.destination = 77: expected the id of a node, from 0 to 1");
+}
+
+TEST(SaturatingSourceAlone, HasNoDestination) {
+    Network network(MediumConfig(), 1);
+    set_native_protocol(network.add_node(NodeConfig("node")), "SaturatingSource");
+    EXPECT_EQ(
+        error_text([&] { network.initialize(); }),
+        "protocol.destination = 0: expected the id of another node than node itself, but there is no other");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "config/error_text.hpp"
 #include "netsim/node/protocols/zigzag_message.hpp"
 #include "support/pair_of_nodes.hpp"
 
@@ -42,6 +43,16 @@ protected:
 
 Parameters hovering() {
     return {{"speed", 0.0}};
+}
+
+TEST(ZigZagMobileProtocolOnANodeThatStands, IsRefused) {
+    Network network(MediumConfig(), 1);
+    NodeConfig config("node");
+    config.mobility.type_name = "StationaryMobility";
+    set_native_protocol(network.add_node(config), "ZigZagMobileProtocol");
+    EXPECT_EQ(error_text([&] { network.initialize(); }),
+              "mobility.typename = \"StationaryMobility\": expected \"MasslessMobility\" for node, as "
+              "ZigZagMobileProtocol flies");
 }
 
 TEST_F(ZigZagMobileTest, CollectsReadings) {

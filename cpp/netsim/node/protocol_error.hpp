@@ -1,0 +1,28 @@
+// What a protocol in C++ got wrong during a run, and where in the run. Node throws it; who shows it to people wants all of it.
+#pragma once
+
+#include <string>
+
+#include "netsim/error.hpp"
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/mac/frame.hpp"
+
+namespace netsim {
+
+class ProtocolError : public SimulationError {
+public:
+    ProtocolError(const std::string& what, NodeId node, const char* callback, SimTime time)
+        : SimulationError(what), node_(node), callback_(callback), time_(time) {}
+
+    NodeId node() const { return node_; }
+    // Name of the protocol's method that was running; lives as long as the program.
+    const char* callback() const { return callback_; }
+    SimTime time() const { return time_; }
+
+private:
+    NodeId node_;
+    const char* callback_;
+    SimTime time_;
+};
+
+}  // namespace netsim
