@@ -4,12 +4,17 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "netsim/config/check.hpp"
+#include "netsim/config/mac_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/units.hpp"
 
@@ -18,12 +23,52 @@ namespace {
 
 constexpr std::string_view first_line = "bitrate_mbps,psdu_bytes,snir_db,success";
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 struct Row {
     double bitrate_mbps = 0;
     double psdu_bytes = 0;
     double snir_db = 0;
     double success = 0;
 };
+
+std::set<std::int64_t> bitrates_of_modes_bps() {
+    std::set<std::int64_t> bitrates_bps;
+    for (const std::string_view op_mode : op_mode_names) {
+        for (const Mode& mode : mode_set(op_mode).modes()) {
+            bitrates_bps.insert(mode.bitrate_bps);
+        }
+    }
+    return bitrates_bps;
+}
+
+bool is_bitrate_of_a_mode(double mbps) {
+    return std::ranges::any_of(bitrates_of_modes_bps(), [mbps](std::int64_t bitrate_bps) {
+        return static_cast<double>(bitrate_bps) == mbps * 1e6;
+    });
+}
+
+std::string bitrates_of_modes_mbps() {
+    std::string text;
+    for (const std::int64_t bitrate_bps : bitrates_of_modes_bps()) {
+        text.append(text.empty() ? "" : ", ").append(text_of(static_cast<double>(bitrate_bps) / 1e6));
+    }
+    return text;
+}
+
+// A file of another kind, or of another encoding, could not even be shown.
+void check_ascii(const std::string& path, int number, std::string_view text) {
+    for (const char character : text) {
+        const auto byte = static_cast<unsigned char>(character);
+        if (byte > 126 || (byte < 32 && byte != '\t')) {
+            std::array<char, 8> code{};
+            std::snprintf(code.data(), code.size(), "0x%02X", byte);
+            throw ConfigError(path + ":" + std::to_string(number) + ": the byte " + code.data() +
+                              " is no character of a number: expected a CSV file, a text with the line " +
+                              std::string(first_line));
+        }
+    }
+}
 
 // Reads what is at a line of a file, and refuses what should not be there.
 class Line {
@@ -51,8 +96,8 @@ public:
             rest = comma == std::string_view::npos ? std::string_view{} : rest.substr(comma + 1);
         }
         const Row row{values[0], values[1], values[2], values[3]};
-        require(row.bitrate_mbps > 0 && row.bitrate_mbps < 1e6, "bitrate_mbps", row.bitrate_mbps,
-                "more than 0 Mbps");
+        require(is_bitrate_of_a_mode(row.bitrate_mbps), "bitrate_mbps", row.bitrate_mbps,
+                "the bitrate of a mode, one of " + bitrates_of_modes_mbps());
         require(row.psdu_bytes >= 1 && row.psdu_bytes <= 1e6 && std::trunc(row.psdu_bytes) == row.psdu_bytes,
                 "psdu_bytes", row.psdu_bytes, "a whole number of bytes from 1 on");
         require(row.success >= 0 && row.success <= 1, "success", row.success, "from 0 to 1");
@@ -60,7 +105,7 @@ public:
     }
 
 private:
-    void require(bool holds, const char* name, double value, const char* expected) const {
+    void require(bool holds, const char* name, double value, const std::string& expected) const {
         if (!holds) {
             refuse(std::string(name) + " = " + text_of(value) + ": expected " + expected);
         }
@@ -74,20 +119,27 @@ private:
 }  // namespace
 
 BerTableErrorModel::BerTableErrorModel(const std::string& path) {
+    std::error_code ignored;
+    const bool is_folder = std::filesystem::is_directory(path, ignored);
     std::ifstream file(path);
-    if (!file) {
-        throw ConfigError("radio.ber_table_file = \"" + path + "\": expected a file that can be read");
+    if (!file || is_folder) {
+        throw ConfigError("radio.ber_table_file = \"" + path + "\": expected a file that can be read" +
+                          (is_folder ? ", not a folder" : ""));
     }
     bool is_first = true;
     int number = 0;
     for (std::string text; std::getline(file, text);) {
         ++number;
+        if (number == 1 && text.starts_with(byte_order_mark)) {  // which Excel puts there
+            text.erase(0, byte_order_mark.size());
+        }
         if (!text.empty() && text.back() == '\r') {
             text.pop_back();
         }
         if (text.empty() || text.front() == '#') {
             continue;
         }
+        check_ascii(path, number, text);
         const Line line(path, number, text);
         if (std::exchange(is_first, false)) {
             if (text != first_line) {
@@ -102,6 +154,10 @@ BerTableErrorModel::BerTableErrorModel(const std::string& path) {
                         text_of(curve.back().snir_db) + " before it, of the same bitrate and length");
         }
         curve.push_back({row.snir_db, row.success});
+    }
+    if (number == 0) {
+        throw ConfigError(path + ": the file is empty; expected the line " + std::string(first_line) +
+                          ", and at least one line below");
     }
     if (rates_.empty()) {
         Line(path, number, {}).refuse("expected at least one line below " + std::string(first_line));

@@ -1,7 +1,7 @@
 // An error model that is given by a file: packet success over SNIR as somebody measured it.
 //
 // The file is CSV. Its first line is "bitrate_mbps,psdu_bytes,snir_db,success"; empty lines and those that begin with #
-// say nothing. The lines of one bitrate and length form a curve, in rising order of SNIR. Between two points the
+// say nothing; a byte order mark neither. The lines of one bitrate and length form a curve, in rising order of SNIR. Between two points the
 // success is interpolated linearly over the SNIR in dB, outside of them it stays that of the nearest. A PSDU of another
 // length n takes the curve whose length m is nearest by ratio, to the power of n/m.
 //

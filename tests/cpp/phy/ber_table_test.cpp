@@ -91,7 +91,10 @@ TEST(BerTable, WhatIsMalformedIsRefusedAtItsLine) {
     EXPECT_EQ(refusal_of(start + "6,100,3\n"),
               ":2: \"6,100,3\": expected four numbers, bitrate_mbps,psdu_bytes,snir_db,success");
     EXPECT_EQ(refusal_of(start + "\n6,100,3dB,1\n"), ":3: \"3dB\": expected a number");
-    EXPECT_EQ(refusal_of(start + "0,100,3,1\n"), ":2: bitrate_mbps = 0: expected more than 0 Mbps");
+    EXPECT_EQ(
+        refusal_of(start + "7,100,3,1\n"),
+        ":2: bitrate_mbps = 7: expected the bitrate of a mode, one of 1, 2, 5.5, 6, 9, 11, 12, 18, 24, 36, "
+        "48, 54");
     EXPECT_EQ(refusal_of(start + "6,0.5,3,1\n"),
               ":2: psdu_bytes = 0.5: expected a whole number of bytes from 1 on");
     EXPECT_EQ(refusal_of(start + "6,100,3,1.5\n"), ":2: success = 1.5: expected from 0 to 1");
@@ -99,6 +102,42 @@ TEST(BerTable, WhatIsMalformedIsRefusedAtItsLine) {
               ":3: snir_db = 2: expected more than the 3 before it, of the same bitrate and length");
     EXPECT_EQ(refusal_of(start),
               ":1: expected at least one line below bitrate_mbps,psdu_bytes,snir_db,success");
+}
+
+TEST(BerTable, AnotherEncodingIsRefusedWithTheByte) {
+    const std::string expected = " is no character of a number: expected a CSV file, a text with the line " +
+                                 std::string(header).substr(0, std::string(header).size() - 1);
+    EXPECT_EQ(refusal_of(std::string(header) + "24,100,10,0.5\n24,100,12\xB4,1\n"),
+              ":3: the byte 0xB4" + expected);
+    EXPECT_EQ(refusal_of(std::string("\x7F"
+                                     "ELF",
+                                     4)),
+              ":1: the byte 0x7F" + expected);
+    EXPECT_EQ(refusal_of(std::string("a\0b", 3)), ":1: the byte 0x00" + expected);
+}
+
+TEST(BerTable, AByteOrderMarkIsNoMatter) {
+    const auto model = model_of("\xEF\xBB\xBF" + std::string(header) + "24,100,10,0.2\n");
+    EXPECT_NEAR(data_success(model, 24, 10, 100), 0.2, 1e-12);
+}
+
+TEST(BerTable, CommentsMayBeInAnyEncoding) {
+    const auto model = model_of(
+        "# Pr\xFC"
+        "fstand\n" +
+        std::string(header) + "24,100,10,0.2\n");
+    EXPECT_NEAR(data_success(model, 24, 10, 100), 0.2, 1e-12);
+}
+
+TEST(BerTable, AnEmptyFileIsCalledOne) {
+    EXPECT_EQ(refusal_of(""),
+              ": the file is empty; expected the line "
+              "bitrate_mbps,psdu_bytes,snir_db,success, and at least one line below");
+}
+
+TEST(BerTable, AFolderIsCalledOne) {
+    EXPECT_EQ(error_text([] { BerTableErrorModel{"/"}; }),
+              "radio.ber_table_file = \"/\": expected a file that can be read, not a folder");
 }
 
 TEST(BerTable, AFileThatIsNotThereIsRefused) {
