@@ -9,8 +9,10 @@ from gradysim.config.nearest import did_you_mean
 from gradysim.config.scenario import NodeSpec, Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.ini_terms import in_ini_terms
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
+from gradysim.integrated.two_ray_ground import ground_hint
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget
@@ -77,8 +79,15 @@ def calibrate(
             " sender"
         )
     budget = link_budget(scenario, from_node, to_node, message_bytes)
-    with errors_at({}):
+    try:
         power_w = budget.tx_power_w_for(range_m, ratio)
+    except ValueError as error:
+        text = str(error)
+        if text.startswith("no power"):
+            nodes = [from_node] if to_node is from_node else [from_node, to_node]
+            hint = ground_hint(medium_config(scenario), nodes)
+            text = in_ini_terms(text) + (f"; {hint}" if hint else "")
+        raise ConfigError(text) from error
     distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
     return Calibration(
         sender=from_node.name,

@@ -7,6 +7,7 @@ from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at_line
+from gradysim.integrated.two_ray_ground import ground_hint
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, NodeConfig
@@ -56,7 +57,8 @@ class PowersForRanges:
                 )
                 raise ConfigError.at(mtu.source, text)
             budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)
-            with errors_at_line(wlan.radio["communication_range_m"]):
+            hint = ground_hint(self._medium, [spec])
+            with errors_at_line(wlan.radio["communication_range_m"], f"; {hint}" if hint else ""):
                 power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)
             self._known[key] = power_w
         return power_w

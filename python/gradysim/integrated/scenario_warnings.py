@@ -11,11 +11,11 @@ from gradysim.config.setting import Setting
 from gradysim.config.source import Source
 from gradysim.config.unread_lines import Chosen, UnreadLines
 from gradysim.integrated.network import medium_config, node_config
+from gradysim.integrated.two_ray_ground import ground_hint
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig
 
-_TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
 _WITHOUT_RADIOS = "UnitDiskRadioMedium"
 _OF_NO_USE_M = 100e3  # farther than any node flies to
 
@@ -92,15 +92,9 @@ def _chosen(structs: Mapping[str, object], written: Container[str]) -> Chosen:
 def _nodes_on_the_ground(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
     """Nodes whose two rays cancel."""
     path_loss = scenario.medium.get("path_loss")
-    low = [spec.name for spec in scenario.nodes if spec.initial_position[2] == 0]
-    if path_loss is None or medium.path_loss not in _TWO_RAY or medium.typename == _WITHOUT_RADIOS or not low:
-        return
-    start = "starts" if len(low) == 1 else f"and {len(low) - 1} more start"
-    yield (
-        f"{path_loss.source}: warning: with {medium.path_loss}, a node on the ground hears next to nothing,"
-        f" as both rays cancel, and {low[0]} {start} at z = 0m; expected a height, such as"
-        f" `*.{low[0]}.mobility.initialZ = 1.5m`"
-    )
+    hint = ground_hint(medium, scenario.nodes)
+    if path_loss is not None and hint:
+        yield f"{path_loss.source}: warning: {hint}"
 
 
 def _stations_without_a_common_mode(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:

@@ -65,9 +65,24 @@ def test_a_range_alone_sets_no_power_where_the_range_itself_counts() -> None:
 
 def test_a_range_that_no_power_reaches_is_an_error_at_its_line() -> None:
     deaf = '**.antenna.typename = "ConstantGainAntenna"', "**.antenna.gain = -300dB"
-    with pytest.raises(ConfigError, match="no power reaches 150 m") as error:
+    with pytest.raises(ConfigError, match="no power reaches 150m: even of 1000GW") as error:
         run(link(RANGE, *deaf))
     assert error.value.key == RANGE.partition(" ")[0]
+
+
+ON_THE_GROUND = (
+    "with TwoRayInterference, a node on the ground hears next to nothing, as both rays cancel, and"
+    r" {} at z = 0m; expected a height, such as `\*\.{}\.mobility\.initialZ = 1.5m`"
+)
+TWO_RAYS = '*.radioMedium.pathLoss.typename = "TwoRayInterference"'
+
+
+def test_two_rays_that_cancel_are_why_no_power_reaches_a_range() -> None:
+    hint = "; " + ON_THE_GROUND.format(r"sender starts", "sender")
+    with pytest.raises(ConfigError, match=hint):
+        run(link(RANGE, TWO_RAYS, "*.sender.mobility.initialZ = 0m"))
+    with pytest.raises(ConfigError, match=hint):
+        calibrate(link(TWO_RAYS, "*.sender.mobility.initialZ = 0m"), range_m=50.0)
 
 
 @pytest.mark.parametrize(

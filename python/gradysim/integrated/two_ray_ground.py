@@ -1,0 +1,23 @@
+"""Nodes at z = 0m under a two-ray model: both rays cancel there, so that next to nothing is heard."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from gradysim.config.node_spec import NodeSpec
+
+if TYPE_CHECKING:
+    from gradysim._netsim import MediumConfig
+
+_TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
+
+
+def ground_hint(medium: "MediumConfig", nodes: Sequence[NodeSpec]) -> str:
+    """Return what to do about those of `nodes` that start on the ground, or "" if nothing is to be done."""
+    low = [node.name for node in nodes if node.initial_position[2] == 0]
+    if medium.path_loss not in _TWO_RAY or medium.typename == "UnitDiskRadioMedium" or not low:
+        return ""
+    start = "starts" if len(low) == 1 else f"and {len(low) - 1} more start"
+    return (
+        f"with {medium.path_loss}, a node on the ground hears next to nothing, as both rays cancel, and"
+        f" {low[0]} {start} at z = 0m; expected a height, such as `*.{low[0]}.mobility.initialZ = 1.5m`"
+    )
