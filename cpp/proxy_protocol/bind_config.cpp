@@ -15,7 +15,9 @@
 #include "netsim/config/node_config.hpp"
 #include "netsim/config/obstacle_config.hpp"
 #include "netsim/config/radio_config.hpp"
+#include "netsim/mac/frame_802154.hpp"
 #include "netsim/node/known_formats.hpp"
+#include "netsim/phy/oqpsk_mode.hpp"
 #include "proxy_protocol/bindings.hpp"
 
 namespace py = pybind11;
@@ -145,6 +147,11 @@ void bind_config(py::module_& module) {
         .def_readwrite("use_acks", &CsmaConfig::use_acks)
         .def_readwrite("max_frame_retries", &CsmaConfig::max_frame_retries)
         .def_readwrite("ack_wait_s", &CsmaConfig::ack_wait_s)
+        .def_property_readonly("ack_end_s",
+                               [](const CsmaConfig& config) {
+                                   return config.sifs_s +
+                                          oqpsk_250_kbps.duration(narrowband_ack_bytes).seconds();
+                               })
         .def_readwrite("sifs_s", &CsmaConfig::sifs_s)
         .def_readwrite("lifs_s", &CsmaConfig::lifs_s)
         .def_readwrite("backoff_method", &CsmaConfig::backoff_method)

@@ -187,6 +187,9 @@ class CsmaConfig:
     use_acks: bool
     max_frame_retries: int
     ack_wait_s: float
+    @property
+    def ack_end_s(self) -> float:
+        """From the end of a frame to that of its ACK, next to its sender."""
     sifs_s: float
     lifs_s: float
     backoff_method: str

@@ -1,5 +1,7 @@
 #include "netsim/config/radio_config.hpp"
 
+#include <algorithm>
+
 #include "netsim/config/check.hpp"
 
 namespace netsim {
@@ -18,9 +20,14 @@ RadioConfig::RadioConfig(std::string_view interface_type_name) {
 }
 
 void RadioConfig::validate() const {
-    check_greater("radio.carrier_hz", carrier_hz, 0, "Hz");
-    check_greater("radio.bandwidth_hz", bandwidth_hz, 0, "Hz");
-    check_at_least("radio.tx_power_w", tx_power_w, 0, "W");
+    constexpr double lowest_carrier_hz = 1e6;
+    constexpr double highest_carrier_hz = 1e12;
+    constexpr double narrowest_hz = 1e3;
+    constexpr double widest_hz = 1e9;
+    constexpr double strongest_w = 1e12;  // of LinkBudget::tx_power_w_for, too
+    check_between("radio.carrier_hz", carrier_hz, lowest_carrier_hz, highest_carrier_hz, "Hz");
+    check_between("radio.bandwidth_hz", bandwidth_hz, narrowest_hz, std::min(widest_hz, carrier_hz), "Hz");
+    check_between("radio.tx_power_w", tx_power_w, 0, strongest_w, "W");
     check_at_least("radio.communication_range_m", communication_range_m, 0, "m");
     check_greater("radio.sensitivity_w", sensitivity_w, 0, "W");
     check_greater("radio.energy_detection_w", energy_detection_w, 0, "W");

@@ -5,6 +5,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from gradysim.config.keys.interface import IEEE802154
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
 from gradysim.config.setting import Setting
@@ -29,6 +30,7 @@ def scenario_warnings(scenario: Scenario) -> list[str]:
         *_stations_without_a_common_mode(scenario, medium),
         *_nodes_that_nobody_hears(scenario, medium),
         *_obstacles_far_from_all_nodes(scenario),
+        *_acks_that_come_too_late(scenario, medium),
     ]
 
 
@@ -173,3 +175,25 @@ def _obstacles_far_from_all_nodes(scenario: Scenario) -> Iterator[str]:
             " from where any node starts; expected them around the nodes (a GeoJSON file has longitude"
             " before latitude)"
         )
+
+
+def _acks_that_come_too_late(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
+    """Devices of 802.15.4 that have given up before an ACK can have ended."""
+    if medium.typename == _WITHOUT_RADIOS:
+        return
+    told = set()
+    for spec in _one_of_each_kind(scenario.nodes):
+        for interface, wlan in zip(node_config(spec).wlan, spec.wlan, strict=True):
+            csma = interface.csma
+            setting = wlan.csma.get("ack_wait_s", wlan.csma.get("sifs_s"))
+            is_read = interface.typename == IEEE802154.names[0] and csma.use_acks
+            if not is_read or setting is None or csma.ack_wait_s > csma.ack_end_s or setting.source in told:
+                continue
+            told.add(setting.source)
+            ack_us = (csma.ack_end_s - csma.sifs_s) * 1e6
+            yield (
+                f"{setting.source}: warning: who waits {csma.ack_wait_s * 1e6:.6g}us for an ACK, which ends"
+                f" {csma.ack_end_s * 1e6:.6g}us after the frame (a sifs, and {ack_us:.6g}us on the air),"
+                " repeats frames that have arrived; expected a longer macAckWaitDuration, or"
+                " `useMACAcks = false`"
+            )

@@ -30,7 +30,8 @@ TEST(NodeConfig, PositionMustBeInTheScene) {
 TEST(NodeConfig, ChecksItsInterface) {
     NodeConfig config("uavs[0]");
     config.wlan[0].radio.tx_power_w = -1;
-    EXPECT_EQ(error_text([&] { config.validate(); }), "radio.tx_power_w = -1 W: expected at least 0 W");
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "radio.tx_power_w = -1 W: expected from 0 W to 1000000000000 W");
 }
 
 TEST(NodeConfig, SaysWhichOfSeveralInterfacesIsWrong) {
@@ -38,7 +39,7 @@ TEST(NodeConfig, SaysWhichOfSeveralInterfacesIsWrong) {
     EXPECT_NO_THROW(config.validate());
     config.wlan[1].radio.tx_power_w = -1;
     EXPECT_EQ(error_text([&] { config.validate(); }),
-              "wlan[1].radio.tx_power_w = -1 W: expected at least 0 W");
+              "wlan[1].radio.tx_power_w = -1 W: expected from 0 W to 1000000000000 W");
 }
 
 TEST(NodeConfig, HasAtLeastOneInterfaceAndNotTooMany) {

@@ -50,11 +50,12 @@ std::string text_with(Value RadioConfig::* field, Value value) {
 }
 
 TEST(RadioConfig, ValidateNamesTheField) {
-    EXPECT_EQ(text_with(&RadioConfig::carrier_hz, 0.0), "radio.carrier_hz = 0 Hz: expected more than 0 Hz");
-    EXPECT_EQ(text_with(&RadioConfig::bandwidth_hz, -1.0),
-              "radio.bandwidth_hz = -1 Hz: expected more than 0 Hz");
+    EXPECT_EQ(text_with(&RadioConfig::carrier_hz, 1.0),
+              "radio.carrier_hz = 1 Hz: expected from 1000000 Hz to 1000000000000 Hz");
+    EXPECT_EQ(text_with(&RadioConfig::bandwidth_hz, 5e9),
+              "radio.bandwidth_hz = 5000000000 Hz: expected from 1000 Hz to 1000000000 Hz");
     EXPECT_EQ(text_with(&RadioConfig::tx_power_w, -0.02),
-              "radio.tx_power_w = -0.02 W: expected at least 0 W");
+              "radio.tx_power_w = -0.02 W: expected from 0 W to 1000000000000 W");
     EXPECT_EQ(text_with(&RadioConfig::communication_range_m, -1.0),
               "radio.communication_range_m = -1 m: expected at least 0 m");
     EXPECT_EQ(text_with(&RadioConfig::sensitivity_w, 0.0),
@@ -98,6 +99,13 @@ TEST(RadioConfig, OptionsInTheDecibelsThatPeopleKnow) {
     EXPECT_DOUBLE_EQ(config.preamble_threshold, ratio_from_db(4));
     EXPECT_NEAR(config.preamble_minimum_power_w / w_from_dbm(-82), 1, 1e-14);
     EXPECT_DOUBLE_EQ(config.capture_margin, ratio_from_db(5));
+}
+
+TEST(RadioConfig, ABandIsNoWiderThanItsCentreIsHigh) {
+    RadioConfig config;
+    config.carrier_hz = 1e6;
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "radio.bandwidth_hz = 22000000 Hz: expected from 1000 Hz to 1000000 Hz");
 }
 
 TEST(RadioConfig, ASilentRadioIsAllowed) {

@@ -62,6 +62,9 @@ public:
     }
 
 private:
+    // What is over the bound of a field, else a whole scenario is refused for it. NaN stays.
+    static double up_to(double most, double value) { return value > most ? most : value; }
+
     void path_loss_parameters(MediumConfig& config) {
         config.breakpoint_distance_m = bytes_.number(config.breakpoint_distance_m);
         config.l01_db = bytes_.number(config.l01_db);
@@ -108,8 +111,8 @@ private:
     InterfaceConfig interface() {
         InterfaceConfig config(bytes_.name(interface_type_names));
         RadioConfig& radio = config.radio;
-        radio.bandwidth_hz = bytes_.number(radio.bandwidth_hz);
-        radio.tx_power_w = bytes_.number(radio.tx_power_w);
+        radio.bandwidth_hz = up_to(1e9, bytes_.number(radio.bandwidth_hz));
+        radio.tx_power_w = up_to(1e12, bytes_.number(radio.tx_power_w));
         radio.sensitivity_w = bytes_.number(radio.sensitivity_w);
         radio.energy_detection_w = bytes_.number(radio.energy_detection_w);
         radio.snir_threshold = bytes_.number(radio.snir_threshold);

@@ -113,6 +113,14 @@ def test_what_was_calculated_is_told():
             f"5: {WLAN}.bitrate = 7Mbps: expected a bitrate of g(mixed), which has",
         ),
         (
+            [f"{WLAN}.radio.transmitter.power = 1e300W"],
+            f"5: {WLAN}.radio.transmitter.power = 1e300W: expected from 0mW to 1000GW",
+        ),
+        (
+            [f"{WLAN}.radio.centerFrequency = 1Hz"],
+            f"5: {WLAN}.radio.centerFrequency = 1Hz: expected from 1MHz to 1000GHz",
+        ),
+        (
             [
                 '*.uavs[*].protocol.typename = "BeaconProtocol"',
                 "*.uavs[*].protocol.payload_bytes = 3000",

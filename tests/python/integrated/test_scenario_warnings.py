@@ -234,3 +234,33 @@ def test_obstacles_far_from_all_nodes_are_told(warnings: Callable[..., list[str]
     (text,) = warnings(*BOX, IDEAL, "*.uavs[*].mobility.initialX=4000km")
     assert "warning: all obstacles are 4000 km and more from where any node starts" in text
     assert warnings(*BOX, IDEAL, "*.uavs[0].mobility.initialX=4000km") == []
+
+
+NARROWBAND = f'{UAVS}.wlan[*].typename="Ieee802154NarrowbandInterface"'
+ACK_WAIT = f"{UAVS}.wlan[*].mac.macAckWaitDuration"
+
+
+def test_an_ack_that_nobody_waits_for(warnings: Callable[..., list[str]]) -> None:
+    (text,) = warnings(NARROWBAND, f"{ACK_WAIT}=500us")
+    assert text == (
+        f"--set {ACK_WAIT}=500us: warning: who waits 500us for an ACK, which ends 544us after the frame (a"
+        " sifs, and 352us on the air), repeats frames that have arrived; expected a longer"
+        " macAckWaitDuration, or `useMACAcks = false`"
+    )
+
+
+def test_a_rest_that_makes_acks_too_late(warnings: Callable[..., list[str]]) -> None:
+    (text,) = warnings(NARROWBAND, f"{UAVS}.wlan[*].mac.sifs=1ms")
+    assert "who waits 560us for an ACK, which ends 1352us after the frame" in text
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        [NARROWBAND, f"{ACK_WAIT}=545us"],
+        [NARROWBAND, f"{ACK_WAIT}=500us", f"{UAVS}.wlan[*].mac.useMACAcks=false"],
+    ],
+    ids=["long enough", "no ACKs"],
+)
+def test_acks_in_time_or_none_at_all(warnings: Callable[..., list[str]], settings: list[str]) -> None:
+    assert warnings(*settings) == []

@@ -3,7 +3,7 @@
 from gradysim.config.key import Key
 from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
 from gradysim.config.keys.radio_media import RADIO_MEDIA
-from gradysim.config.keys.shapes import Below
+from gradysim.config.keys.shapes import Below, level
 from gradysim.config.kinds import choice, quantity
 
 _own = Below("radioMedium", "medium")
@@ -28,7 +28,7 @@ MEDIUM_KEYS: tuple[Key, ...] = (
     _isotropic_noise(
         "power",
         "background_noise_w",
-        quantity("W", at_least=0, shown="dBm"),
+        level(zero=True),
         "noise in the channel",
     ),
     _thermal_noise(

@@ -57,7 +57,7 @@ RECEIVER_KEYS: tuple[Key, ...] = (
     _preamble(
         "preambleDetection.minimumPower",
         "preamble_minimum_power_w",
-        quantity("W", at_least=0, shown="dBm"),
+        level(zero=True),
         "least power of the frame",
     ),
     _preamble(

@@ -3,8 +3,12 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
+from gradysim.config.error import BadValue
+from gradysim.config.expression import Value
 from gradysim.config.key import Key, ReadBy
-from gradysim.config.kinds import Kind, quantity
+from gradysim.config.kinds import Kind, Scalar, quantity
+
+_STRONGEST_W = 1
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,17 @@ def bit_rate() -> Kind:
     return quantity("bps", above=0, special=-1, shown="Mbps")
 
 
-def level() -> Kind:
-    """A power that a receiver compares with."""
-    return quantity("W", above=0, shown="dBm")
+def level(zero: bool = False) -> Kind:
+    """A power that a receiver compares with, in the air around it; `zero` is allowed or not.
+
+    At most 1 W (30 dBm): more than anybody receives, and less than the usual levels without their minus.
+    """
+    power = quantity("W", at_least=0, shown="dBm") if zero else quantity("W", above=0, shown="dBm")
+
+    def convert(value: Value) -> Scalar:
+        power_w = power.convert(value)
+        if float(power_w) > _STRONGEST_W:
+            raise BadValue(f"`{value}` is more than any radio receives", "; a minus forgotten?")
+        return power_w
+
+    return replace(power, expected=f"{power.expected} and at most {_STRONGEST_W}W", convert=convert)

@@ -48,3 +48,15 @@ def test_values_come_in_si_units_and_are_shown_in_those_of_the_field(
 def test_what_no_model_could_mean_is_refused(kind: Kind, text: str) -> None:
     with pytest.raises(BadValue):
         kind.convert(parse_value(text))
+
+
+@pytest.mark.parametrize(("kind", "text"), [(level(), "85dBm"), (level(zero=True), "2W")])
+def test_a_level_without_its_minus_is_refused(kind: Kind, text: str) -> None:
+    with pytest.raises(BadValue, match=f"`{text}` is more than any radio receives; a minus forgotten"):
+        kind.convert(parse_value(text))
+    assert kind.expected.endswith("0W and at most 1W")
+
+
+@pytest.mark.parametrize(("kind", "text"), [(level(), "1W"), (level(), "-85dBm"), (level(zero=True), "0W")])
+def test_a_level_may_make_a_radio_deaf(kind: Kind, text: str) -> None:
+    assert float(kind.convert(parse_value(text))) <= 1
