@@ -18,7 +18,7 @@ from gradysim.config.keys.interface import (
     NUM_WLAN_INTERFACES,
     at_interface,
 )
-from gradysim.config.keys.radio import BAND_NAME, CHANNEL_NUMBER, OF_802154
+from gradysim.config.keys.radio import BAND_NAME, CENTER_FREQUENCY, CHANNEL_NUMBER, OF_802154
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.setting import SettingReader
 from gradysim.config.struct_reader import read_struct
@@ -75,13 +75,18 @@ class InterfaceBuilder:
         return self._settings.scalar(chosen.entry, INTERFACE_TYPENAME.kind) in IEEE802154.names
 
     def _in_its_band(self, found: Mapping[Key, Found]) -> Mapping[Key, Found]:
-        """Read a channel's number as one of the band beside it, which then says nothing of its own."""
-        band, channel = found.get(BAND_NAME), found.get(CHANNEL_NUMBER)
-        if band is None or channel is None or band.is_default or channel.is_default:
+        """Read a channel's number as one of the band beside it.
+
+        The band says nothing of its own if a channel or its centre is given.
+        """
+        written = {key: entry for key, entry in found.items() if not entry.is_default}
+        if BAND_NAME not in written or not {CHANNEL_NUMBER, CENTER_FREQUENCY} & written.keys():
             return found
-        name = str(self._settings.scalar(band.entry, BAND))
-        of_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
-        return {**of_band, replace(CHANNEL_NUMBER, kind=CHANNELS[name]): channel}
+        name = str(self._settings.scalar(written[BAND_NAME].entry, BAND))
+        in_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
+        if CHANNEL_NUMBER in written:
+            in_band[replace(CHANNEL_NUMBER, kind=CHANNELS[name])] = written[CHANNEL_NUMBER]
+        return in_band
 
 
 def _of_802154(found: Mapping[Key, Found]) -> Mapping[Key, Found]:

@@ -198,6 +198,12 @@ def test_a_channel_is_one_of_its_band_in_any_order(folder: Any, order: int) -> N
     assert scenario.nodes[0].wlan[0].radio["carrier_hz"].value == 5.17e9
 
 
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_band_says_nothing_where_the_centre_is_given(folder: Any, order: int) -> None:
+    lines = ['**.bandName = "5 GHz"\n', "**.centerFrequency = 5180MHz\n"]
+    assert folder.load("".join(lines[::order])).nodes[0].wlan[0].radio["carrier_hz"].value == 5.18e9
+
+
 def test_the_frequency_counts_when_it_comes_before_the_channel(folder: Any) -> None:
     band = '**.bandName = "5.9 GHz"\n'
     frequency, channel = "**.centerFrequency = 5.18GHz\n", "**.channelNumber = 3\n"

@@ -89,6 +89,7 @@ def test_values_may_depend_on_the_run(folder: Any) -> None:
         ("pathLoss.alpha", "2.5", "alpha", 2.5),
         ("pathLoss.breakpointDistance", "8m", "breakpoint_distance_m", 8.0),
         ("pathLoss.l01", "40.2dB", "l01_db", 40.2),
+        ("pathLoss.l02", "46.2", "l02_db", 46.2),
         ("pathLoss.l02", "58.5dB", "l02_db", 58.5),
         ("pathLoss.alpha1", "2", "alpha1", 2.0),
         ("pathLoss.alpha2", "3.3", "alpha2", 3.3),

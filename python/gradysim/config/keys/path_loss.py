@@ -3,7 +3,7 @@
 from gradysim.config.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import choice, number, quantity
+from gradysim.config.kinds import choice, number, number_in, quantity
 
 _NOT_OF_ALPHA = ("BreakpointPathLoss", "TwoRayInterference")
 _FADING = ("LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading")
@@ -41,8 +41,8 @@ PATH_LOSS_KEYS: tuple[Key, ...] = (
         quantity("m", above=0),
         "distance at which the exponent changes",
     ),
-    _breakpoint("l01", "l01_db", quantity("dB"), "loss at 1 m"),
-    _breakpoint("l02", "l02_db", quantity("dB"), "loss at the breakpoint"),
+    _breakpoint("l01", "l01_db", number_in("dB"), "loss at 1 m"),
+    _breakpoint("l02", "l02_db", number_in("dB"), "loss at the breakpoint"),
     _breakpoint("alpha1", "alpha1", number(above=0), "exponent before the breakpoint"),
     _breakpoint("alpha2", "alpha2", number(above=0), "exponent behind the breakpoint"),
     _two_ray(

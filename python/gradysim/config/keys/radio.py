@@ -14,6 +14,9 @@ from gradysim.config.kinds import quantity
 _own = Below(f"{WLAN}.radio", "radio", RADIO_MEDIA)
 _of_all_media = Below(f"{WLAN}.radio", "radio")
 
+CENTER_FREQUENCY = _own(
+    "centerFrequency", "carrier_hz", quantity("Hz", above=0, shown="MHz"), "Centre of the channel"
+)
 BAND_NAME = _own(
     "bandName",
     "carrier_hz",
@@ -38,7 +41,7 @@ OF_802154: dict[Key, Key] = {
 RADIO_KEYS: tuple[Key, ...] = (
     BAND_NAME,
     CHANNEL_NUMBER,
-    _own("centerFrequency", "carrier_hz", quantity("Hz", above=0, shown="MHz"), "Centre of the channel"),
+    CENTER_FREQUENCY,
     _own("bandwidth", "bandwidth_hz", quantity("Hz", above=0, shown="MHz"), "Width of the channel"),
     _own("transmitter.power", "tx_power_w", quantity("W", at_least=0, shown="mW"), "Power that is sent"),
     _of_all_media(
