@@ -212,7 +212,12 @@ def number_in(unit: str) -> Kind:
         given = _quantity_of(value)
         return _not_nan(float(given.number) if given.unit is None else given.to(target), value)
 
-    return Kind(f"{target.dimension.value}, or a number of {unit}", convert, unit=unit)
+    return Kind(
+        f"{target.dimension.value}, or a number of {unit}",
+        convert,
+        unit=unit,
+        show=lambda value: f"{value:g}{unit}",
+    )
 
 
 def _in_unit(value: float, unit: str, shown: str) -> str:
