@@ -16,7 +16,7 @@ from typing import Any
 from gradysim.config.error import ConfigError
 from gradysim.config.keys.environment import OBSTACLE_FILE
 from gradysim.config.kinds import LARGEST_COORDINATE_M
-from gradysim.config.obstacle_spec import ObstacleSpec, Ring
+from gradysim.config.obstacle_spec import ObstacleSpec, Ring, encloses_nothing
 from gradysim.config.source import Source
 from gradysim.protocol.position import Position, geo_to_cartesian
 
@@ -178,7 +178,10 @@ def _ring(ring: object, place: Placing) -> Ring:
         raise _BadFileError(
             "it has a ring that is not closed: expected at least 4 positions, the last as the first"
         )
-    return tuple(_corner(position, place) for position in ring[:-1])
+    corners = tuple(_corner(position, place) for position in ring[:-1])
+    if encloses_nothing(corners):
+        raise _BadFileError("it has a ring that encloses nothing: expected corners that are not on one line")
+    return corners
 
 
 def _corner(position: object, place: Placing) -> tuple[float, float]:

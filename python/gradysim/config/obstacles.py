@@ -8,7 +8,7 @@ from gradysim.config.geojson import read_geojson
 from gradysim.config.key import Key
 from gradysim.config.keys.environment import NUM_OBSTACLES, OBSTACLE_FILE, OBSTACLE_KEYS, obstacle_path
 from gradysim.config.lookup import Lookup
-from gradysim.config.obstacle_spec import ObstacleSpec, Ring
+from gradysim.config.obstacle_spec import ObstacleSpec, Ring, encloses_nothing
 from gradysim.config.setting import Setting, SettingReader
 from gradysim.config.source import Source
 from gradysim.protocol.position import Position, rotate_position_2d
@@ -120,4 +120,7 @@ def _corners(points: Setting) -> Ring:
     if len(numbers) < 6 or len(numbers) % 2 or not all(map(math.isfinite, numbers)):
         text = 'expected x and y in metres for at least 3 corners: "0 0 10 0 10 5"'
         raise ConfigError.at(points.source, text)
-    return tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    ring = tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    if encloses_nothing(ring):
+        raise ConfigError.at(points.source, "expected corners that are not on one line")
+    return ring

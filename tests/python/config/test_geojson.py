@@ -88,6 +88,7 @@ def test_they_follow_those_of_the_ini_file(folder: Any) -> None:
         (town(feature(height=1, material=7)), "its material is 7; expected a name"),
         (town(feature(coordinates=[])), "it has a polygon without rings"),
         (town(feature(coordinates=[SQUARE[:4]])), "it has a ring that is not closed"),
+        (town(feature(coordinates=[[[0, 0], [1, 1], [2, 2], [0, 0]]])), "a ring that encloses nothing"),
         (town(feature(coordinates=[[[0, 0], ["x", 1], [1, 1], [0, 0]]])), "['x', 1] is no position"),
         (town(feature(coordinates=[[[0, 0], [2e7, 1], [1, 1], [0, 0]]])), "is too far away"),
     ],
