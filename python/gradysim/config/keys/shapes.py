@@ -51,7 +51,8 @@ def bit_rate() -> Kind:
 def level(zero: bool = False) -> Kind:
     """A power that a receiver compares with, in the air around it; `zero` is allowed or not.
 
-    At most 1 W (30 dBm): more than anybody receives, and less than the usual levels without their minus.
+    At most 1 W (30 dBm): more than anybody receives, and less than the usual levels without their minus. The
+    engine has no such bound: who builds networks in a program writes watts, and may put radios side by side.
     """
     power = quantity("W", at_least=0, shown="dBm") if zero else quantity("W", above=0, shown="dBm")
 
