@@ -276,13 +276,13 @@ void Medium::schedule_arrivals(OnAir& entry) {
     std::sort(entry.heard.begin(), entry.heard.end(), [](const Heard& a, const Heard& b) {
         return a.start != b.start ? a.start < b.start : a.radio < b.radio;
     });
-    schedule_next(entry, Edge::start);
-    schedule_next(entry, Edge::end);
+    schedule_next(entry, Edge::begins);
+    schedule_next(entry, Edge::ends);
 }
 
 Medium::Due Medium::next_due(const OnAir& entry, Edge edge) {
     const Heard& next = entry.heard[entry.told[edge]];
-    return {edge == Edge::start ? next.start : next.start + entry.transmission.duration,
+    return {edge == Edge::begins ? next.start : next.start + entry.transmission.duration,
             entry.first_place + 2 * static_cast<Place>(next.radio) + edge};
 }
 
@@ -302,7 +302,7 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
             MediumListener& listener = *attached_[heard.radio].listener;
-            edge == Edge::start ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
+            edge == Edge::begins ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
         } catch (...) {  // a protocol's: the others hear the frame all the same
             if (!is_last) {
                 schedule_next(entry, edge);

@@ -137,7 +137,7 @@ private:
         Neighbours members;
     };
     // What a radio is told of an arrival; at one time, in this order.
-    enum Edge : std::uint8_t { start = 0, end = 1 };
+    enum Edge : std::uint8_t { begins = 0, ends = 1 };
     struct Due {
         SimTime time;
         Place place = 0;
