@@ -194,7 +194,7 @@ TEST(EventQueue, AtOneTimeThePlaceTellsWhatWouldBeNext) {
 TEST(EventQueue, WhatIsBeforeAllThatWaitBehindTheOneTakenOutWouldBeNext) {
     LoggingQueue events;
     for (int name = 1; name <= 3; ++name) {
-        events.push(at(10 * name), Priority::normal, name);
+        events.push(at(std::int64_t{10} * name), Priority::normal, name);
     }
     const Place place = events.queue.reserve_places(1);
     events.queue.pop();
