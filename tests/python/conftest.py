@@ -1,6 +1,7 @@
 """What tests of several folders use: scenarios of a few lines, a wall clock, a vehicle with MAVLink."""
 
 import json
+import signal
 import stat
 import sys
 from collections.abc import Callable
@@ -39,6 +40,12 @@ sim-time-limit = 2.05s
 *.uavs[*].mobility.lineStepX = 10m
 *.uavs[*].mobility.telemetryInterval = 0.5s
 """
+
+
+@pytest.fixture(autouse=True, scope="session")
+def ctrl_c() -> None:
+    """Ctrl-C interrupts, also where the tests run in the background, which starts with it ignored."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
