@@ -52,7 +52,7 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 
 lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
 
-lint-python: build $(STAMPS)/verify $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
+lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
 	ruff check $(python_checked)
 	ruff format --check $(python_checked)
 	mypy
@@ -71,7 +71,7 @@ format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
 
 build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the engine compiled.
 
-verify: build $(STAMPS)/verify  ## Compare with INET, ns-3 and closed forms; draws docs/verification.
+verify: build $(STAMPS)/test  ## Compare with INET, ns-3 and closed forms; draws docs/verification.
 	$(BIN)/python -m pytest tests/verification --verify
 
 bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals, and a profile by layer.
@@ -131,7 +131,7 @@ $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
 
 # Which packages, and which version of each: [dependency-groups] of pyproject.toml.
-$(STAMPS)/build $(STAMPS)/test $(STAMPS)/verify $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/python
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/python
 	@mkdir -p $(STAMPS)
 	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
 	$(BIN)/pip install --quiet --group $(@F)
