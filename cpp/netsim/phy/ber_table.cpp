@@ -32,14 +32,17 @@ struct Row {
     double success = 0;
 };
 
-std::set<std::int64_t> bitrates_of_modes_bps() {
-    std::set<std::int64_t> bitrates_bps;
-    for (const std::string_view op_mode : op_mode_names) {
-        for (const Mode& mode : mode_set(op_mode).modes()) {
-            bitrates_bps.insert(mode.bitrate_bps);
+const std::set<std::int64_t>& bitrates_of_modes_bps() {
+    static const std::set<std::int64_t> all = [] {
+        std::set<std::int64_t> bitrates_bps;
+        for (const std::string_view op_mode : op_mode_names) {
+            for (const Mode& mode : mode_set(op_mode).modes()) {
+                bitrates_bps.insert(mode.bitrate_bps);
+            }
         }
-    }
-    return bitrates_bps;
+        return bitrates_bps;
+    }();
+    return all;
 }
 
 bool is_bitrate_of_a_mode(double mbps) {
