@@ -16,7 +16,8 @@ from typing import Any
 from gradysim.config.error import ConfigError
 from gradysim.config.keys.environment import OBSTACLE_FILE
 from gradysim.config.kinds import LARGEST_COORDINATE_M
-from gradysim.config.obstacle_spec import ObstacleSpec, Ring, encloses_nothing
+from gradysim.config.obstacle_spec import ObstacleSpec
+from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.source import Source
 from gradysim.protocol.position import Position, geo_to_cartesian
 
@@ -170,7 +171,14 @@ def _number(properties: Mapping[str, Any], key: str, default: float | None = Non
 def _rings(polygon: object, place: Placing) -> tuple[Ring, ...]:
     if not isinstance(polygon, list) or not polygon:
         raise _BadFileError("it has a polygon without rings")
-    return tuple(_ring(ring, place) for ring in polygon)
+    rings = tuple(_ring(ring, place) for ring in polygon)
+    if crossing := crossing_sides(rings):
+        one, other = (f"from {polygon[ring][at]} to {polygon[ring][at + 1]}" for ring, at in crossing)
+        raise _BadFileError(
+            f"the side {one} crosses the side {other}; expected the positions of each ring in their order"
+            " around it, and inner rings inside of the outer one"
+        )
+    return rings
 
 
 def _ring(ring: object, place: Placing) -> Ring:

@@ -1,21 +1,10 @@
 """One obstacle of a scenario, as the engine is given it."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from gradysim.config.outline import Ring
 from gradysim.config.source import Source
-
-Ring = tuple[tuple[float, float], ...]
-"""Corners of a closed line, (x, y) in metres; the last one is joined to the first."""
-
-
-def encloses_nothing(ring: Ring) -> bool:
-    """Whether all corners lie on one line."""
-    (x, y), *others = ring
-    sides = [(other_x - x, other_y - y) for other_x, other_y in others]
-    dx, dy = max(sides, key=lambda side: math.hypot(*side))
-    return all(dx * side_y == dy * side_x for side_x, side_y in sides)
 
 
 @dataclass(frozen=True)

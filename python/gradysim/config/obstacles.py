@@ -8,7 +8,8 @@ from gradysim.config.geojson import read_geojson
 from gradysim.config.key import Key
 from gradysim.config.keys.environment import NUM_OBSTACLES, OBSTACLE_FILE, OBSTACLE_KEYS, obstacle_path
 from gradysim.config.lookup import Lookup
-from gradysim.config.obstacle_spec import ObstacleSpec, Ring, encloses_nothing
+from gradysim.config.obstacle_spec import ObstacleSpec
+from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.setting import Setting, SettingReader
 from gradysim.config.source import Source
 from gradysim.protocol.position import Position, rotate_position_2d
@@ -123,4 +124,13 @@ def _corners(points: Setting) -> Ring:
     ring = tuple(zip(numbers[::2], numbers[1::2], strict=True))
     if encloses_nothing(ring):
         raise ConfigError.at(points.source, "expected corners that are not on one line")
+    if crossing := crossing_sides([ring]):
+        one, other = (_side(ring, corner) for _, corner in crossing)
+        text = f"the side {one} crosses the side {other}; expected corners in their order around the obstacle"
+        raise ConfigError.at(points.source, text)
     return ring
+
+
+def _side(ring: Ring, corner: int) -> str:
+    begin, end = ring[corner], ring[(corner + 1) % len(ring)]
+    return f"from ({begin[0]:g}, {begin[1]:g}) to ({end[0]:g}, {end[1]:g})"

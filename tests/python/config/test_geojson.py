@@ -89,6 +89,14 @@ def test_they_follow_those_of_the_ini_file(folder: Any) -> None:
         (town(feature(coordinates=[])), "it has a polygon without rings"),
         (town(feature(coordinates=[SQUARE[:4]])), "it has a ring that is not closed"),
         (town(feature(coordinates=[[[0, 0], [1, 1], [2, 2], [0, 0]]])), "a ring that encloses nothing"),
+        (
+            town(feature(coordinates=[[[0, 0], [10, 0], [0, 10], [10, 10], [0, 0]]])),
+            "feature 0: the side from [10, 0] to [0, 10] crosses the side from [10, 10] to [0, 0]",
+        ),
+        (
+            town(feature(coordinates=[SQUARE, [[5, 5], [5, 7], [12, 6], [5, 5]]])),
+            "the side from [10, 0] to [10, 10] crosses the side from [5, 7] to [12, 6]",
+        ),
         (town(feature(coordinates=[[[0, 0], ["x", 1], [1, 1], [0, 0]]])), "['x', 1] is no position"),
         (town(feature(coordinates=[[[0, 0], [2e7, 1], [1, 1], [0, 0]]])), "is too far away"),
     ],

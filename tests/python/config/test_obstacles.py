@@ -84,6 +84,11 @@ def test_several_share_what_a_pattern_says(folder: Any) -> None:
         (PRISM.replace("10 5.5", "10"), 8, "x and y in metres for at least 3 corners"),
         (PRISM.replace("10 5.5", "10 north"), 8, "x and y in metres for at least 3 corners"),
         (PRISM.replace("10 5.5", "20 0"), 8, "expected corners that are not on one line"),
+        (
+            PRISM.replace("10 0 10 5.5", "10 0 0 10 10 10"),
+            8,
+            "the side from (10, 0) to (0, 10) crosses the side from (10, 10) to (0, 0)",
+        ),
         (PRISM + "*.environment.obstacle[0].heading = 90deg\n", 11, "a prism has points"),
         (BOX + '*.environment.obstacle[0].material = "bricks"\n', 13, "brick"),
         (BOX + "*.environment.obstacle[0].minx = 5m\n", 13, "did you mean"),
