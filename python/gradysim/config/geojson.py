@@ -2,9 +2,10 @@
 
 Properties of a feature: `height` in metres from floor to roof; `base`, the height of the floor above z = 0,
 0 if missing; `material`, `relativePermittivity` and `conductivity` as in an .ini file; `name`, for messages.
-Others are ignored. Coordinates are longitude and latitude in degrees, as RFC 7946 has it, and are placed in
-the scene by `coordinateSystem.sceneLatitude` and `sceneLongitude`; or they are x and y of the scene in m,
-if the file says so: `"crs": {"type": "name", "properties": {"name": "local"}}`.
+Others are ignored, unless they look like one of these that is missing. Coordinates are longitude and latitude
+in degrees, as RFC 7946 has it, and are placed in the scene by `coordinateSystem.sceneLatitude` and
+`sceneLongitude`; or they are x and y of the scene in m, if the file says so:
+`"crs": {"type": "name", "properties": {"name": "local"}}`.
 """
 
 import json
@@ -16,6 +17,7 @@ from typing import Any
 from gradysim.config.error import ConfigError
 from gradysim.config.keys.environment import OBSTACLE_FILE
 from gradysim.config.kinds import LARGEST_COORDINATE_M
+from gradysim.config.nearest import misspelt
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.source import Source
@@ -25,6 +27,9 @@ LOCAL_CRS = "local"
 
 Placing = Callable[[float, float], tuple[float, float]]
 """What turns the two numbers of a position into x and y in metres."""
+
+_PROPERTIES = ("height", "base", "material", "relativePermittivity", "conductivity")
+"""Those that matter: a misspelt `name` hurts nobody, and there are many like it."""
 
 _NUMBERS = {"relativePermittivity": "relative_permittivity", "conductivity": "conductivity_spm"}
 
@@ -126,6 +131,7 @@ def _obstacles(
         polygons = coordinates
     else:
         raise _BadFileError(f"its geometry is of type {kind!r}; expected Polygon or MultiPolygon")
+    _refuse_misspelt(properties)
     height_m = _number(properties, "height")
     base_m = _number(properties, "base", 0.0)
     if height_m <= 0:
@@ -150,6 +156,14 @@ def _obstacles(
         )
         for polygon in polygons
     ]
+
+
+def _refuse_misspelt(properties: Mapping[str, Any]) -> None:
+    """A property that looks like one of ours is another one only where ours stands beside it."""
+    missing = [name for name in _PROPERTIES if properties.get(name) is None]
+    for name in properties:
+        if name not in _PROPERTIES and (meant := misspelt(name, missing)):
+            raise _BadFileError(f"nothing reads its property `{name}`; did you mean `{meant}`?")
 
 
 def _number(properties: Mapping[str, Any], key: str, default: float | None = None) -> float:

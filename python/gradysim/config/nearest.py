@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 _LEAST_PART = 4
+_SLIP = 0.82
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
@@ -24,3 +25,18 @@ def did_you_mean(name: str, candidates: Iterable[str]) -> str:
     """The end of a message, "; did you mean ...?" with the nearest candidate; "" if there is none."""
     match = nearest(name, candidates)
     return f"; did you mean `{match}`?" if match is not None else ""
+
+
+def misspelt(name: str, names: Iterable[str]) -> str | None:
+    """The one of `names` that `name` is, but for a letter exchanged, missing or too many.
+
+    For names among which any others may stand: a stricter judge than `nearest`. The case of letters and what
+    joins words do not count.
+    """
+    by_letters = {_letters(valid): valid for valid in names}
+    matches = get_close_matches(_letters(name), by_letters, n=1, cutoff=_SLIP)
+    return by_letters[matches[0]] if matches else None
+
+
+def _letters(name: str) -> str:
+    return "".join(filter(str.isalnum, name.casefold()))

@@ -72,6 +72,19 @@ def test_they_follow_those_of_the_ini_file(folder: Any) -> None:
     assert [obstacle.top_m for obstacle in folder.load(own + LINE).obstacles] == [9.0, 12.0]
 
 
+def test_properties_of_others_are_none_of_ours(folder: Any) -> None:
+    of_map = {
+        "building": "yes",
+        "building:material": "brick",
+        "min_height": "3",
+        "weight": 2,
+        "materials": "glass",
+    }
+    folder.write("town.geojson", town(feature(height=3, material="wood", old_name="A", **of_map)))
+    (obstacle,) = folder.load(LINE).obstacles
+    assert (obstacle.base_m, obstacle.material) == (0.0, "wood")
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -86,6 +99,11 @@ def test_they_follow_those_of_the_ini_file(folder: Any) -> None:
         (town(feature(height=-2)), "its height is -2; expected metres, more than 0"),
         (town(feature(height=True)), "its height is True; expected a number"),
         (town(feature(height=1, material=7)), "its material is 7; expected a name"),
+        (
+            town(feature(), feature(height=1, materail="glass")),
+            "feature 1: nothing reads its property `materail`; did you mean `material`?",
+        ),
+        (town(feature(hieght=3, height=None)), "nothing reads its property `hieght`; did you mean `height`?"),
         (town(feature(coordinates=[])), "it has a polygon without rings"),
         (town(feature(coordinates=[SQUARE[:4]])), "it has a ring that is not closed"),
         (town(feature(coordinates=[[[0, 0], [1, 1], [2, 2], [0, 0]]])), "a ring that encloses nothing"),

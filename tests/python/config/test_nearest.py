@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.config.nearest import did_you_mean, nearest
+from gradysim.config.nearest import did_you_mean, misspelt, nearest
 
 NAMES = ["sim-time-limit", "seed-set", "repeat", "heartbeat_jitter"]
 
@@ -26,3 +26,27 @@ def test_a_part_of_several_names_is_near_to_none() -> None:
 def test_ends_a_message() -> None:
     assert did_you_mean("seedset", NAMES) == "; did you mean `seed-set`?"
     assert did_you_mean("zzz", NAMES) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("materail", "material"),
+        ("Material", "material"),
+        ("matrial", "material"),
+        ("hieght", "height"),
+        ("hight", "height"),
+        ("relative_permittivity", "relativePermittivity"),
+        ("relativePermitivity", "relativePermittivity"),
+        ("bse", "base"),
+        ("case", None),
+        ("min_height", None),
+        ("building:material", None),
+        ("building:levels", None),
+        ("basement", None),
+        ("relative", None),
+        ("", None),
+    ],
+)
+def test_a_misspelt_name_is_but_a_slip_away(name: str, expected: str | None) -> None:
+    assert misspelt(name, ["height", "base", "material", "relativePermittivity"]) == expected
