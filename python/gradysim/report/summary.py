@@ -8,7 +8,7 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from gradysim.results.plain_value import plain_value
+from gradysim.protocol.plain_value import plain_value
 from gradysim.results.run_result import NodeResult, RunResult
 
 MAX_VALUE_LENGTH = 200

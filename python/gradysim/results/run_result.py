@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from gradysim.results.plain_value import plain_value
+from gradysim.protocol.plain_value import plain_value
 
 Mode = Literal["integrated", "prototype"]
 Fates = Mapping[str, Mapping[str, Mapping[str, int]]]

@@ -7,15 +7,13 @@ viewer: {"interaction": "pause/resume"}.
 """
 
 import json
-import math
 from collections.abc import Sequence
 from typing import Any
 
+from gradysim.protocol.plain_value import plain_value
 from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
-
-_DEEPEST = 32
 
 
 def greeting(configuration: VisualizationConfiguration, nodes: Sequence[Node[Any]]) -> str:
@@ -72,20 +70,5 @@ def _tracked_variables(node: Node[Any]) -> dict[str, Any]:
 def _text(message: dict[str, Any]) -> str:
     try:
         return json.dumps(message, allow_nan=False)
-    except (TypeError, ValueError, RecursionError):
-        return json.dumps(_plain(message, 0), allow_nan=False)
-
-
-def _plain(value: Any, depth: int) -> Any:
-    """Return the value with whatever JSON cannot say in it replaced by its `repr`."""
-    kind = type(value)
-    if kind in (str, int, bool, type(None)) or (kind is float and math.isfinite(value)):
-        return value
-    if depth < _DEEPEST:
-        if isinstance(value, dict):
-            return {
-                key if type(key) is str else repr(key): _plain(item, depth + 1) for key, item in value.items()
-            }
-        if isinstance(value, list | tuple):
-            return [_plain(item, depth + 1) for item in value]
-    return repr(value)
+    except (TypeError, ValueError, RecursionError):  # seldom: most tracked variables are plain
+        return json.dumps(plain_value(message, nan="nan"), allow_nan=False)

@@ -24,6 +24,18 @@ def sent(tracked_variables):
     return json.loads(snapshot([node], 0.0, 0.0), parse_constant=pytest.fail)["tracked_variables"][0]
 
 
+class Mute:
+    def __repr__(self):
+        raise RuntimeError
+
+
+def nested(depth):
+    value = 0
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
 class Odd:
     def __repr__(self):
         return "an odd one"
@@ -43,6 +55,16 @@ class Odd:
 )
 def test_what_json_cannot_say_is_sent_as_its_repr(value, shown):
     assert sent({"odd": Odd(), "value": value})["value"] == shown
+
+
+@pytest.mark.parametrize("make", [Mute, lambda: 2**20_000, lambda: nested(100_000)])
+def test_what_cannot_even_be_shown_does_not_stop_the_simulation(make):
+    assert sent({"value": make(), "other": 1})["other"] == 1
+
+
+def test_numbers_of_numpy_are_sent_as_numbers():
+    numpy = pytest.importorskip("numpy")
+    assert sent({"count": numpy.int64(3), "levels": numpy.array([1.5])}) == {"count": 3, "levels": [1.5]}
 
 
 def test_what_holds_itself_is_cut_off():

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results.plain_value import plain_value
+from gradysim.protocol.plain_value import plain_value
 
 anything = st.recursive(
     st.none()
@@ -67,6 +67,17 @@ def test_what_is_no_number_is_nothing():
     }
 
 
+def test_what_stands_for_no_number_can_be_chosen():
+    assert plain_value([math.nan, {"level": math.nan}], nan="nan") == ["nan", {"level": "nan"}]
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_an_integer_too_long_for_decimal_digits_is_given_as_hexadecimal(sign):
+    number = sign * 2**20_000
+    shown = json.loads(json.dumps(plain_value({"count": number})))
+    assert int(shown["count"], 16) == number
+
+
 def test_numpy_numbers_and_arrays_become_pythons():
     np = pytest.importorskip("numpy")
     value = {
@@ -98,6 +109,23 @@ def test_a_container_inside_itself_ends():
 def test_the_same_container_twice_is_not_a_knot():
     inner = [1]
     assert plain_value([inner, inner]) == [[1], [1]]
+
+
+@pytest.mark.parametrize("wrap", [lambda inner: [inner], lambda inner: {"next": inner}])
+def test_the_depths_of_a_deep_structure_are_left_out(wrap):
+    value = "bottom"
+    for _ in range(100_000):
+        value = wrap(value)
+    shown = json.dumps(plain_value(value))
+    assert shown.count("[") + shown.count("{") == 100
+
+
+def test_a_number_whose_conversion_fails_is_given_as_text():
+    class Broken(float):
+        def __float__(self):
+            raise RuntimeError
+
+    assert plain_value([Broken(1.5), 2]) == ["1.5", 2]
 
 
 def test_an_object_whose_repr_fails_is_named_by_its_class():
