@@ -14,10 +14,16 @@ or a rounded result."""
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number and its unit, None for a plain number."""
+    """A number and its unit, None for a plain number. BadValue if no double is as large as the number."""
 
     number: Number
     unit: Unit | None = None
+
+    def __post_init__(self) -> None:
+        try:
+            float(self.number)
+        except OverflowError:
+            raise BadValue("the result is too large for a number") from None
 
     def __str__(self) -> str:
         number = self.number if isinstance(self.number, int) else float(self.number)
