@@ -32,6 +32,7 @@ _PROPERTIES = ("height", "base", "material", "relativePermittivity", "conductivi
 """Those that matter: a misspelt `name` hurts nobody, and there are many like it."""
 
 _NUMBERS = {"relativePermittivity": "relative_permittivity", "conductivity": "conductivity_spm"}
+_MOST_DIGITS = 300
 
 
 class _BadFileError(Exception):
@@ -67,16 +68,23 @@ def read_geojson(path: str, source: Source, reference: Position | None) -> list[
 
 def _parse(file: Path) -> Mapping[str, Any]:
     try:
-        content = json.loads(file.read_text(encoding="utf-8"))
+        content = json.loads(file.read_text(encoding="utf-8-sig"), parse_int=_whole_number)
     except OSError as error:
         raise _BadFileError(f"cannot read it: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
         raise _BadFileError("it is no text in UTF-8") from error
     except json.JSONDecodeError as error:
         raise _BadFileError(f"line {error.lineno} is no JSON: {error.msg}") from error
+    except RecursionError as error:
+        raise _BadFileError("it is nested too deeply; expected a FeatureCollection") from error
     if not isinstance(content, dict):
         raise _BadFileError("it is no JSON object; expected a FeatureCollection")
     return content
+
+
+def _whole_number(digits: str) -> int | float:
+    """The number; infinity in place of what no double can hold, which is refused like one."""
+    return int(digits) if len(digits) < _MOST_DIGITS else float(digits)
 
 
 def _features(content: Mapping[str, Any]) -> list[Mapping[str, Any]]:

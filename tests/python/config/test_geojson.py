@@ -58,6 +58,11 @@ def test_longitude_and_latitude_are_placed_by_the_reference(folder: Any) -> None
     assert ys == pytest.approx((0, 0, east_m), abs=1e-3)
 
 
+def test_a_byte_order_mark_is_stripped(folder: Any) -> None:
+    folder.write("town.geojson", "\ufeff" + town(feature()))
+    assert len(folder.load(LINE).obstacles) == 1
+
+
 def test_a_material_of_its_own(folder: Any) -> None:
     folder.write("town.geojson", town(feature(height=3, relativePermittivity=4, conductivity="0.1")))
     (obstacle,) = folder.load(LINE).obstacles
@@ -96,6 +101,9 @@ def test_properties_of_others_are_none_of_ours(folder: Any) -> None:
         (town(feature("Point", [0, 0])), "feature 0: its geometry is of type 'Point'; expected Polygon"),
         (town(feature(name="Hall")), 'feature 0 ("Hall"): it has no height'),
         (town(feature(), feature(height="high")), "feature 1: its height is 'high'; expected a number"),
+        (town(feature(height=10**400)), "its height is inf; expected a number"),
+        (town(feature(coordinates=[[[0, 0], [10**400, 1], [1, 1], [0, 0]]])), "is too far away"),
+        ("[" * 100_000, "it is nested too deeply"),
         (town(feature(height=-2)), "its height is -2; expected metres, more than 0"),
         (town(feature(height=True)), "its height is True; expected a number"),
         (town(feature(height=1, material=7)), "its material is 7; expected a name"),
