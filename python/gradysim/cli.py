@@ -75,9 +75,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (that of this process by default) and return the exit code."""
     try:
         code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
+        sys.stdout.flush()  # here, where it is known what to do if nobody reads it
     except CycloptsError:  # cyclopts has said what is wrong
         return MISTAKE
-        sys.stdout.flush()
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:  # who reads the output, such as `head`, has had enough

@@ -96,8 +96,9 @@ Gradysim = Callable[..., subprocess.CompletedProcess[str]]
 
 
 def environment() -> dict[str, str]:
-    """Of a process that finds the same modules as this one."""
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"}
+    """Of a process that finds the same modules as this one, and buffers its output as most users' do."""
+    inherited = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    return {**inherited, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"}
 
 
 def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:

@@ -119,6 +119,7 @@ def test_a_result_directory_that_is_a_file_is_named_with_its_option(gradysim):
     "arguments",
     [
         ["keys"],
+        ["runs", "test.ini"],  # which ends before its buffer is full
         ["run", "test.ini", "--mode", "prototype", "--json"],
         pytest.param(["calibrate", "test.ini", "--range", "50m"], marks=compiled),
     ],
@@ -137,6 +138,7 @@ def test_a_reader_that_has_had_enough_ends_it_silently(folder, arguments):
     )
     os.close(ours)
     assert [line for line in done.stderr.splitlines() if line != "printed by a protocol"] == []
+    assert done.returncode == 0
 
 
 @compiled
