@@ -101,6 +101,12 @@ class _Reader:
         if not match or line.split() == ["[Config", "General]"]:
             raise ConfigError(f"`{line}` is no heading; expected [General] or [Config NAME]", source)
         name = match.group(1)
+        if {"/", "\\"} & set(name):
+            raise ConfigError(
+                f"`{name}` cannot be part of a file's name, as those of configurations are;"
+                " expected no `/` and no `\\`",
+                source,
+            )
         if name in headings:
             raise ConfigError(
                 f"section `{name}` is already at line {headings[name]}; expected each once in a file",

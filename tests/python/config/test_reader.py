@@ -123,6 +123,16 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
             "test.ini:1: `[Config General]` is no heading; expected [General] or [Config NAME]",
         ),
         (
+            "[Config a/b]\n",
+            "test.ini:1: `a/b` cannot be part of a file's name, as those of configurations are;"
+            " expected no `/` and no `\\`",
+        ),
+        (
+            "[..\\a]\n",
+            "test.ini:1: `..\\a` cannot be part of a file's name, as those of configurations are;"
+            " expected no `/` and no `\\`",
+        ),
+        (
             "[X]\n[Y]\n[Config X]\n",
             "test.ini:3: section `X` is already at line 1; expected each once in a file",
         ),
