@@ -64,11 +64,7 @@ class InteropProvider(IProvider):
 
     @tracked_variables.setter
     def tracked_variables(self, variables: dict[str, Any]) -> None:
-        # A protocol may replace the mapping; the changes are to be seen all the same.
-        values = dict(variables)
-        for name in [name for name in self._tracked_variables if name not in values]:
-            del self._tracked_variables[name]
-        self._tracked_variables.update(values)
+        self._tracked_variables.replace(variables)
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
         """Collect the command as it is now."""

@@ -91,11 +91,7 @@ class NetsimProvider(IProvider):
 
     @tracked_variables.setter
     def tracked_variables(self, variables: dict[str, Any]) -> None:
-        # A protocol may replace the mapping; the changes are noted all the same.
-        values = dict(variables)
-        for name in [name for name in self._tracked_variables if name not in values]:
-            del self._tracked_variables[name]
-        self._tracked_variables.update(values)
+        self._tracked_variables.replace(variables)
 
     @property
     def random(self) -> Random:

@@ -1,6 +1,6 @@
 """A dictionary that reports how it changes: a protocol's tracked variables."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Self
 
 _set_item = dict.__setitem__  # looked up once: this is the hot path
@@ -61,3 +61,14 @@ class TrackedVariables(dict[str, Any]):
         super().clear()
         for name in names:
             self._on_change(name, None)
+
+    def replace(self, variables: Mapping[str, Any]) -> None:
+        """Become equal to `variables`, for a protocol that assigns another dict; removals come first."""
+        values = dict(variables)  # a copy, as it may be this very dict
+        for name in [name for name in self if name not in values]:
+            del self[name]
+        self.update(values)
+
+    def __reduce__(self) -> tuple[type, tuple[()], None, None, Iterator[tuple[str, Any]]]:
+        """A copy, also a deep or a pickled one, is a plain dict: changes of it are none of the protocol's."""
+        return (dict, (), None, None, iter(self.items()))

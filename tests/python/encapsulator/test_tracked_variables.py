@@ -1,3 +1,6 @@
+import copy
+import pickle
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -36,6 +39,8 @@ def or_itself(variables):
         (lambda v: v.pop("a"), [("a", None)], {"b": 2}),
         (lambda v: v.pop("z", 0), [], {"a": 1, "b": 2}),
         (lambda v: v.popitem(), [("b", None)], {"a": 1}),
+        (lambda v: v.replace({"b": 3, "c": 4}), [("a", None), ("b", 3), ("c", 4)], {"b": 3, "c": 4}),
+        (lambda v: v.replace(v), [("a", 1), ("b", 2)], {"a": 1, "b": 2}),
         (lambda v: v.clear(), [("a", None), ("b", None)], {}),
     ],
 )
@@ -60,6 +65,28 @@ def test_the_answers_are_those_of_a_dict(variables):
     )
 
 
+@pytest.mark.parametrize(
+    "copied", [copy.copy, copy.deepcopy, dict.copy, lambda v: pickle.loads(pickle.dumps(v))]
+)
+def test_a_copy_is_a_plain_dict_that_reports_nothing(copied):
+    variables = TrackedVariables(lambda name, value: pytest.fail(f"{name} was reported") if armed else None)
+    armed = False
+    variables["list"] = [1]
+    armed = True
+    other = copied(variables)
+    other["more"] = 1
+    assert (type(other), other, variables) == (dict, {"list": [1], "more": 1}, {"list": [1]})
+
+
+def test_a_deep_copy_shares_nothing(variables):
+    variables["list"] = [1]
+    variables["itself"] = variables
+    other = copy.deepcopy(variables)
+    other["list"].append(2)
+    assert variables["list"] == [1]
+    assert other["itself"] is other
+
+
 names = st.sampled_from("abc")
 operations = st.one_of(
     st.tuples(st.just("__setitem__"), names, st.integers()),
@@ -72,15 +99,15 @@ operations = st.one_of(
 
 @given(st.lists(operations))
 def test_who_follows_the_reports_has_the_same_dict(steps):
-    copy = {}
+    followed = {}
 
     def follow(name, value):
         if value is None:
-            del copy[name]
+            del followed[name]
         else:
-            copy[name] = value
+            followed[name] = value
 
     variables = TrackedVariables(follow)
     for operation, *arguments in steps:
         getattr(variables, operation)(*arguments)
-    assert copy == dict(variables)
+    assert followed == dict(variables)
