@@ -1,6 +1,5 @@
 """Gives a protocol class the parameters of one node."""
 
-import dataclasses
 import types
 from collections.abc import Mapping
 from functools import lru_cache
@@ -21,20 +20,51 @@ def parametrize(cls: type[IProtocol], parameters: Mapping[str, object]) -> type[
 @lru_cache(maxsize=1024)
 def _parametrized(cls: type[IProtocol], parameters: tuple[tuple[str, type, object], ...]) -> type[IProtocol]:
     """As above. The types are part of the key since 1, 1.0 and True are equal."""
-
-    def fill(namespace: dict[str, object]) -> None:
-        namespace.update({name: value for name, _, value in parameters})
-        namespace.update(__module__=cls.__module__, __qualname__=cls.__qualname__, __doc__=cls.__doc__)
-
-    subclass: type[IProtocol] = types.new_class(cls.__name__, (cls,), exec_body=fill)
-    made_by = getattr(cls, "__dataclass_params__", None)
-    if made_by is not None and made_by.init:
-        # The constructor of a data class holds the defaults of its fields, so it has to be made again.
-        subclass.__annotations__ = {
-            field.name: field.type
-            for field in dataclasses.fields(cls)  # type: ignore[arg-type]
-            if any(field.name == name for name, _, _ in parameters)
-        }
-        options = {name: getattr(made_by, name) for name in ("eq", "order", "unsafe_hash", "frozen")}
-        subclass = dataclasses.dataclass(**options)(subclass)
+    values = {name: value for name, _, value in parameters}
+    constructors = {
+        base: constructor
+        for base in cls.__mro__
+        if (constructor := _data_class_constructor(base, values)) is not None
+    }
+    # That of a base comes before the base itself in the method resolution order: super().__init__() finds it.
+    others = [
+        _subclass(base, (base,), {"__init__": constructor})
+        for base, constructor in constructors.items()
+        if base is not cls
+    ]
+    own = {"__init__": constructors[cls]} if cls in constructors else {}
+    subclass: type[IProtocol] = _subclass(cls, (cls, *others), {**values, **own})
     return subclass
+
+
+def _subclass(cls: type, bases: tuple[type, ...], namespace: Mapping[str, object]) -> type:
+    """A class of these bases, with the name of `cls`."""
+    named = {"__module__": cls.__module__, "__qualname__": cls.__qualname__, "__doc__": cls.__doc__}
+    return types.new_class(cls.__name__, bases, exec_body=lambda body: body.update({**namespace, **named}))
+
+
+def _data_class_constructor(cls: type, values: Mapping[str, object]) -> types.FunctionType | None:
+    """The constructor that `@dataclass` made for `cls`, with `values` as the defaults of these fields.
+
+    It holds its defaults itself, so class attributes of a subclass do not change them. None if there is no
+    such constructor, or none of its fields is among the values.
+    """
+    made = vars(cls).get("__init__")
+    if "__dataclass_params__" not in vars(cls) or not isinstance(made, types.FunctionType):
+        return None
+    code = made.__code__
+    names = code.co_varnames[1 : code.co_argcount + code.co_kwonlyargcount]
+    is_written_out = not set(names) <= vars(cls)["__dataclass_fields__"].keys()
+    if is_written_out or not values.keys() & set(names):
+        return None
+    defaults = made.__defaults__ or ()
+    with_default = code.co_varnames[code.co_argcount - len(defaults) : code.co_argcount]
+    constructor = types.FunctionType(code, made.__globals__, made.__name__, closure=made.__closure__)
+    constructor.__qualname__ = made.__qualname__
+    constructor.__defaults__ = tuple(
+        values.get(name, default) for name, default in zip(with_default, defaults, strict=True)
+    )
+    constructor.__kwdefaults__ = {
+        name: values.get(name, default) for name, default in (made.__kwdefaults__ or {}).items()
+    }
+    return constructor

@@ -1,4 +1,6 @@
-from dataclasses import dataclass, field
+from dataclasses import InitVar, dataclass, field
+
+import pytest
 
 from gradysim.config.protocol_class import parametrize
 from python.quiet_protocol import Quiet
@@ -58,3 +60,55 @@ def test_parameters_hold_in_the_constructor_of_a_data_class() -> None:
     assert isinstance(protocol, FlyingDataClass)
     assert (protocol.first, protocol.second, protocol.third, protocol.interval) == (1, 5, [], 2.5)
     assert FlyingDataClass().second == 2
+
+
+class Derived(FlyingDataClass):
+    def __init__(self) -> None:
+        super().__init__()
+        self.twice = 2 * self.first
+
+
+@dataclass
+class WithItsOwnConstructor(Quiet):
+    first: int = 1
+
+    def __init__(self) -> None:
+        self.twice = 2 * self.first
+
+
+@pytest.mark.parametrize("cls", [Derived, WithItsOwnConstructor])
+def test_a_constructor_that_is_written_out_runs(cls: type[Quiet]) -> None:
+    protocol = parametrize(cls, {"first": 5})()
+    assert (protocol.first, protocol.twice) == (5, 10)  # type: ignore[attr-defined]
+
+
+@dataclass(kw_only=True)
+class AskingOnly(Quiet):
+    start: InitVar[float] = 1.0
+
+    def __post_init__(self, start: float) -> None:
+        self.begun = start
+
+
+def test_what_only_the_constructor_takes_is_a_parameter() -> None:
+    assert parametrize(AskingOnly, {"start": 5.0})().begun == 5.0  # type: ignore[attr-defined]
+    assert AskingOnly().begun == 1.0
+
+
+@dataclass
+class Told(Quiet):
+    first: int = 1
+
+    def __repr__(self) -> str:
+        return "told"
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __hash__(self) -> int:
+        return 7
+
+
+def test_what_a_data_class_has_of_its_own_stays() -> None:
+    one, other = (parametrize(Told, {"first": 5})() for _ in range(2))
+    assert (repr(one), hash(one), one == other) == ("told", 7, False)
