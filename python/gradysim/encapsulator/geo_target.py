@@ -1,8 +1,6 @@
 """Where a command to geographic coordinates sends a vehicle, in both modes."""
 
-import math
-from typing import TypeGuard
-
+from gradysim.encapsulator.command_numbers import three_numbers
 from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.position import Position, geo_to_cartesian
@@ -19,21 +17,14 @@ def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Po
     Raises:
         MasslessMobilityException: They are not three finite numbers, or the latitude is off the globe.
     """
-    latitude, longitude, altitude = command.param_1, command.param_2, command.param_3
-    if not (_is_finite(latitude) and _is_finite(longitude) and _is_finite(altitude)):
+    place = three_numbers(command)
+    if place is None:
         raise MasslessMobilityException(
-            f"node {node_id} was sent to latitude {latitude!r}, longitude {longitude!r}, altitude "
-            f"{altitude!r}: expected three finite numbers"
+            f"node {node_id} was sent to latitude {command.param_1!r}, longitude {command.param_2!r}, "
+            f"altitude {command.param_3!r}: expected three finite numbers"
         )
-    if not -90 <= latitude <= 90:
+    if not -90 <= place[0] <= 90:
         raise MasslessMobilityException(
-            f"node {node_id} was sent to latitude {latitude!r}: expected -90 to 90 degrees"
+            f"node {node_id} was sent to latitude {command.param_1!r}: expected -90 to 90 degrees"
         )
-    return geo_to_cartesian(reference_coordinates, (latitude, longitude, altitude))
-
-
-def _is_finite(value: float | None) -> TypeGuard[float]:
-    try:
-        return value is not None and math.isfinite(value)
-    except TypeError:
-        return False
+    return geo_to_cartesian(reference_coordinates, place)

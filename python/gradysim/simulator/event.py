@@ -115,7 +115,7 @@ class EventLoop:
         Returns:
             Whether it was still pending.
         """
-        events = self._events.get(timestamp)
+        events = self._events.get(float(timestamp))
         if events is not None:
             for index in range(self._taken if events is self._current else 0, len(events)):
                 if events[index] is event:
@@ -202,20 +202,21 @@ class EventLoop:
         self._held = 0
 
     def _open(self, timestamp: float) -> list[ScheduledEvent]:
-        """Make the list of events of an instant that has none yet."""
+        """Return the list of events of an instant that is not found as it is given: a new one, as a rule."""
         try:
             valid = self._current_time <= timestamp < math.inf
-        except TypeError:
-            valid = False
+            instant = float(timestamp)
+        except (TypeError, ValueError, OverflowError):
+            valid, instant = False, math.nan
         if not valid:
             raise EventLoopException(
                 f"cannot schedule an event at {timestamp!r}: expected a finite number of seconds, "
                 f"at or after the current time, {self._current_time} s"
             )
-        instant = float(timestamp)
-        events: list[ScheduledEvent] = []
-        self._events[instant] = events
-        heappush(self._instants, instant)
+        events = self._events.get(instant)  # which a Fraction becomes, and need not be equal to
+        if events is None:
+            events = self._events[instant] = []
+            heappush(self._instants, instant)
         return events
 
     def _close_current(self) -> None:

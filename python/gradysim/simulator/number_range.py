@@ -12,7 +12,10 @@ def is_in_range(value: object, low: float, high: float = math.inf, *, above: boo
     """
     if not isinstance(value, Real) or isinstance(value, bool):
         return False
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:
+        return False
     if number == math.inf or not low <= number <= high:
         return False
     return number > low if above else True

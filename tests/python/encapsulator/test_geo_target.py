@@ -15,7 +15,7 @@ def test_a_target_is_relative_to_the_origin():
     assert geo_target(command, 3, ORIGIN) == geo_to_cartesian(ORIGIN, (10.001, 20.002, 7))
 
 
-@pytest.mark.parametrize("wrong", [math.nan, math.inf, None, "5"])
+@pytest.mark.parametrize("wrong", [math.nan, math.inf, pytest.param(10**400, id="huge"), None, "5"])
 @pytest.mark.parametrize("place", range(3))
 def test_what_is_no_number_is_refused(wrong, place):
     target = [1.0, 2.0, 3.0]

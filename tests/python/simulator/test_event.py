@@ -1,4 +1,6 @@
 import math
+from decimal import Decimal
+from fractions import Fraction
 from functools import partial
 
 import pytest
@@ -56,6 +58,24 @@ def test_an_instant_that_is_used_up_can_have_more_events():
     assert (loop.pop_event().context, loop.current_time) == ("more", 1)
 
 
+@pytest.mark.parametrize("other", [Fraction(1, 3), Decimal(1) / 3])
+def test_a_time_that_becomes_the_same_float_is_the_same_instant(other):
+    loop = EventLoop()
+    ran = []
+    for number, time in enumerate((1 / 3, other, 1 / 3)):
+        loop.schedule_event(time, partial(ran.append, number))
+    run_all(loop)
+    assert ran == [0, 1, 2]
+
+
+@pytest.mark.parametrize("time", [Fraction(1, 3), Decimal(1) / 3])
+def test_an_event_is_cancelled_at_the_time_that_it_was_scheduled_for(time):
+    loop = EventLoop()
+    event = loop.schedule_event(time, nothing)
+    assert loop.cancel_event(time, event)
+    assert len(loop) == 0
+
+
 def test_popping_sets_the_clock():
     loop = EventLoop()
     loop.schedule_event(2.5, nothing)
@@ -85,7 +105,9 @@ def test_popping_from_an_empty_loop_is_an_error():
         EventLoop().pop_event()
 
 
-@pytest.mark.parametrize("timestamp", [0.9, -1, math.nan, math.inf, "2", None, [2]])
+@pytest.mark.parametrize(
+    "timestamp", [0.9, -1, math.nan, math.inf, pytest.param(10**400, id="huge"), "2", None, [2]]
+)
 def test_a_time_that_cannot_be_is_refused(timestamp):
     loop = EventLoop()
     loop.schedule_event(1, nothing)

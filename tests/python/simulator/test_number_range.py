@@ -11,7 +11,10 @@ def test_finite_numbers_from_the_limit_on_are_right(value):
     assert is_in_range(value, 0)
 
 
-@pytest.mark.parametrize("value", [-1, -1e-300, math.nan, math.inf, -math.inf, True, None, "1", [1], 1j])
+@pytest.mark.parametrize(
+    "value",
+    [-1, -1e-300, math.nan, math.inf, -math.inf, pytest.param(10**400, id="huge"), True, None, "1", [1], 1j],
+)
 def test_anything_else_is_wrong(value):
     assert not is_in_range(value, 0)
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from numbers import Real
 from typing import Any
 
@@ -15,8 +16,9 @@ def checked_number(
 
     NaN is for `accept` to refuse, which every comparison does. `expected` completes "... must be".
     """
-    if isinstance(value, Real) and not isinstance(value, bool) and accept(float(value)):
-        return float(value)
+    with suppress(OverflowError):  # of an integer that no double can hold
+        if isinstance(value, Real) and not isinstance(value, bool) and accept(float(value)):
+            return float(value)
     raise error(f"{name} must be {expected}, got {value!r}")
 
 

@@ -18,7 +18,7 @@ def test_a_number_that_is_accepted_is_returned(value):
     assert positive(value) == value
 
 
-@pytest.mark.parametrize("value", [0, -1, math.nan, "5", None, True, 1j])
+@pytest.mark.parametrize("value", [0, -1, math.nan, pytest.param(10**400, id="huge"), "5", None, True, 1j])
 def test_another_one_is_refused_by_name_and_value(value):
     with pytest.raises(WrongError) as caught:
         positive(value)

@@ -1,9 +1,8 @@
 """Turns one node's mobility commands into orders to its vehicle."""
 
 import asyncio
-import math
-from typing import TypeGuard
 
+from gradysim.encapsulator.command_numbers import finite_number, three_numbers
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.simulator.handler.ardupilot_mobility.exception import ArdupilotMobilityException
@@ -88,12 +87,13 @@ class Pilot:
             self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
         self.vehicle.go_to(latitude, longitude, target[2])
 
-    def _set_speed(self, speed: float | None) -> None:
-        if not _is_finite(speed) or speed < 0:
+    def _set_speed(self, given: float | None) -> None:
+        speed = finite_number(given)
+        if speed is None or speed < 0:
             raise ArdupilotMobilityException(
-                f"given the speed {speed!r}: expected a finite number of m/s, >= 0"
+                f"given the speed {given!r}: expected a finite number of m/s, >= 0"
             )
-        before, self._speed_mps = self._speed_mps, float(speed)
+        before, self._speed_mps = self._speed_mps, speed
         if speed == 0:  # Which ArduCopter refuses.
             self._velocity = (0.0, 0.0, 0.0)
             self.vehicle.set_velocity(0, 0, 0)
@@ -104,14 +104,10 @@ class Pilot:
 
 
 def _numbers(command: MobilityCommand) -> Position:
-    x, y, z = command.param_1, command.param_2, command.param_3
-    if _is_finite(x) and _is_finite(y) and _is_finite(z):
-        return (float(x), float(y), float(z))
-    raise ArdupilotMobilityException(f"given ({x!r}, {y!r}, {z!r}): expected three finite numbers")
-
-
-def _is_finite(value: float | None) -> TypeGuard[float]:
-    try:
-        return value is not None and math.isfinite(value)
-    except TypeError:
-        return False
+    numbers = three_numbers(command)
+    if numbers is None:
+        raise ArdupilotMobilityException(
+            f"given ({command.param_1!r}, {command.param_2!r}, {command.param_3!r}): "
+            "expected three finite numbers"
+        )
+    return numbers

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, TypeGuard
+from typing import Any
 
+from gradysim.encapsulator.command_numbers import finite_number, three_numbers
 from gradysim.encapsulator.geo_target import geo_target
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
@@ -228,12 +229,13 @@ def _in_updates(interval_s: float, update_rate_s: float) -> float:
 
 
 def _point(command: MobilityCommand, node: Node[Any]) -> Position:
-    x, y, z = command.param_1, command.param_2, command.param_3
-    if _is_finite(x) and _is_finite(y) and _is_finite(z):
-        return (float(x), float(y), float(z))
-    raise MasslessMobilityException(
-        f"node {node.id} was sent to ({x!r}, {y!r}, {z!r}): expected three finite numbers"
-    )
+    point = three_numbers(command)
+    if point is None:
+        raise MasslessMobilityException(
+            f"node {node.id} was sent to ({command.param_1!r}, {command.param_2!r}, {command.param_3!r}): "
+            "expected three finite numbers"
+        )
+    return point
 
 
 def _speed(command: MobilityCommand, node: Node[Any]) -> float:
@@ -242,16 +244,9 @@ def _speed(command: MobilityCommand, node: Node[Any]) -> float:
             f"node {node.id} was given a velocity, ({command.param_1!r}, {command.param_2!r}, "
             f"{command.param_3!r}): a massless vehicle takes a speed and a target"
         )
-    speed = command.param_1
-    if _is_finite(speed) and speed >= 0:
-        return float(speed)
-    raise MasslessMobilityException(
-        f"node {node.id} was given the speed {speed!r}: expected a finite number of m/s, >= 0"
-    )
-
-
-def _is_finite(value: float | None) -> TypeGuard[float]:
-    try:
-        return value is not None and math.isfinite(value)
-    except TypeError:
-        return False
+    speed = finite_number(command.param_1)
+    if speed is None or speed < 0:
+        raise MasslessMobilityException(
+            f"node {node.id} was given the speed {command.param_1!r}: expected a finite number of m/s, >= 0"
+        )
+    return speed

@@ -1,9 +1,9 @@
 """Vehicles that are told a velocity and reach it as fast as they can."""
 
-import math
 from collections.abc import Callable
 from typing import Any
 
+from gradysim.encapsulator.command_numbers import three_numbers
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
@@ -143,14 +143,11 @@ class DynamicVelocityMobilityHandler(INodeHandler):
 
 
 def _velocity(command: MobilityCommand, node: Node[Any]) -> Velocity:
-    given = (command.param_1, command.param_2, command.param_3)
-    try:
-        if None not in given and all(map(math.isfinite, given)):  # type: ignore[arg-type]  # None is out
-            x, y, z = map(float, given)  # type: ignore[arg-type]
-            return (x, y, z)
-    except (TypeError, ValueError):
-        pass
-    raise DynamicVelocityMobilityException(
-        f"node {node.id} was given the velocity {given!r}: expected three finite numbers of m/s, as of "
-        "SetVelocityMobilityCommand(vx, vy, vz)"
-    )
+    velocity = three_numbers(command)
+    if velocity is None:
+        given = (command.param_1, command.param_2, command.param_3)
+        raise DynamicVelocityMobilityException(
+            f"node {node.id} was given the velocity {given!r}: expected three finite numbers of m/s, as of "
+            "SetVelocityMobilityCommand(vx, vy, vz)"
+        )
+    return velocity
