@@ -1,12 +1,12 @@
 """Which autopilots fly the nodes, and how they are started."""
 
-import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gradysim.protocol.position import Position
 from gradysim.simulator.number_range import is_in_range
+from gradysim.simulator.reference_coordinates import check_reference
 from gradysim.sitl.connection import parse_address
 
 
@@ -66,20 +66,6 @@ class ArdupilotMobilityConfiguration:
             value = getattr(self, name)
             if not is_in_range(value, 0, above=True):
                 raise ValueError(f"{name} must be finite and > 0 {unit}".rstrip() + f", got {value!r}")
-        if not _is_geographic(self.reference_coordinates):
-            raise ValueError(
-                "reference_coordinates must be (latitude -90 to 90 degrees, longitude degrees, altitude m), "
-                f"got {self.reference_coordinates!r}"
-            )
+        check_reference(self.reference_coordinates)
         for address in (self.vehicle_addresses or {}).values():
             parse_address(address)
-
-
-def _is_geographic(place: Iterable[object]) -> bool:
-    try:
-        latitude, longitude, altitude = place
-    except (TypeError, ValueError):
-        return False
-    return is_in_range(latitude, -90, 90) and all(
-        is_in_range(value, -math.inf, above=True) for value in (longitude, altitude)
-    )

@@ -1,7 +1,6 @@
 """Vehicles without mass: they fly straight to their target at their speed, and stand still there."""
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +16,7 @@ from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
 from gradysim.simulator.handler.mobility.update_times import UpdateTimes
 from gradysim.simulator.node import Node
 from gradysim.simulator.number_range import is_in_range
+from gradysim.simulator.reference_coordinates import check_reference
 
 
 @dataclass
@@ -38,11 +38,7 @@ class MasslessMobilityConfiguration:
             raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
         if not is_in_range(self.default_speed, 0):
             raise ValueError(f"default_speed must be finite and >= 0 m/s, got {self.default_speed!r}")
-        if not _is_geographic(self.reference_coordinates):
-            raise ValueError(
-                "reference_coordinates must be (latitude -90 to 90 degrees, longitude degrees, altitude m), "
-                f"got {self.reference_coordinates!r}"
-            )
+        check_reference(self.reference_coordinates)
 
 
 @dataclass
@@ -208,17 +204,6 @@ class MasslessMobilityHandler(INodeHandler):
                 node.position = target
             else:
                 node.position = (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
-
-
-def _is_geographic(place: Iterable[object]) -> bool:
-    """Whether something is (latitude deg, longitude deg, altitude m)."""
-    try:
-        latitude, longitude, altitude = place
-    except (TypeError, ValueError):
-        return False
-    return is_in_range(latitude, -90, 90) and all(
-        is_in_range(value, -math.inf, above=True) for value in (longitude, altitude)
-    )
 
 
 def _in_updates(interval_s: float, update_rate_s: float) -> float:
