@@ -19,7 +19,7 @@ from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
-from gradysim.simulator.handler.given import step_hooks
+from gradysim.simulator.handler.given import label_of, step_hooks
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
@@ -352,9 +352,7 @@ class SimulationBuilder:
 
     def add_handler(self, handler: INodeHandler) -> "SimulationBuilder":
         """Add a handler, instead of the one with the same label if there is one; returns the builder."""
-        if isinstance(handler, type) or not callable(getattr(handler, "get_label", None)):
-            raise TypeError(f"expected a handler, an instance of a class like INodeHandler, got {handler!r}")
-        self._handlers[handler.get_label()] = handler
+        self._handlers[label_of(handler)] = handler
         return self
 
     def add_node(self, protocol: type[IProtocol], position: Position) -> int:

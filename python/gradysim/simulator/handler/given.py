@@ -10,6 +10,13 @@ WORLD = ("communication", "timer", "mobility")
 """Labels of the handlers that make up the world; in the run of a scenario these are not anybody's to give."""
 
 
+def label_of(handler: INodeHandler) -> str:
+    """Return a handler's label. TypeError if it is something else than a handler."""
+    if isinstance(handler, type) or not callable(getattr(handler, "get_label", None)):
+        raise TypeError(f"expected a handler, an instance of a class like INodeHandler, got {handler!r}")
+    return handler.get_label()
+
+
 def given_handlers(
     handlers: Iterable[INodeHandler], mode: str, world: str, *, asynchronous: bool
 ) -> dict[str, INodeHandler]:
@@ -27,9 +34,7 @@ def given_handlers(
     """
     by_label: dict[str, INodeHandler] = {}
     for handler in handlers:
-        if isinstance(handler, type) or not callable(getattr(handler, "get_label", None)):
-            raise TypeError(f"expected a handler, an instance of a class like INodeHandler, got {handler!r}")
-        label, name = handler.get_label(), type(handler).__name__
+        label, name = label_of(handler), type(handler).__name__
         if label in WORLD:
             raise ValueError(f"{name} cannot be given to a run in {mode}: {world.format(label=label)}")
         if isinstance(handler, IAsyncNodeHandler) and not asynchronous:
