@@ -2,7 +2,7 @@
 
 
 def add_protocol_note(
-    exception: BaseException, *, node_id: int, label: str, time_s: float, callback: str
+    exception: BaseException, *, node_id: int, protocol: type, time_s: float, callback: str
 ) -> None:
     """Note node, simulated time and callback on the exception of a protocol; its traceback stays as it is.
 
@@ -11,9 +11,10 @@ def add_protocol_note(
     Args:
         exception: What the protocol raised.
         node_id: Id of the protocol's node.
-        label: The node's name for people: "ProtocolClass id".
+        protocol: Its class.
         time_s: Simulated time in seconds.
         callback: Name of the protocol's method that was running.
     """
     if isinstance(exception, Exception | SystemExit):
+        label = f"{protocol.__name__} {node_id}"
         exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

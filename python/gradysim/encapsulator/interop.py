@@ -158,7 +158,7 @@ class InteropEncapsulator(IEncapsulator[IProtocol]):
             add_protocol_note(
                 exception,
                 node_id=provider.id,
-                label=f"{type(self.protocol).__name__} {provider.id}",
+                protocol=type(self.protocol),
                 time_s=provider.timestamp,
                 callback=name,
             )

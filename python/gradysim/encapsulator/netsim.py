@@ -159,7 +159,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
 
     def encapsulate(self, protocol: type[T]) -> None:
         """Make the protocol and hand it to the node."""
-        self._label = f"{protocol.__name__} {self._node.id}"
+        self._class = protocol
         try:
             self.protocol = protocol.instantiate(self.provider)
         except BaseException as failure:
@@ -191,7 +191,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
         add_protocol_note(
             failure,
             node_id=self._node.id,
-            label=self._label,
+            protocol=self._class,
             time_s=self._node.current_time(),
             callback=callback,
         )

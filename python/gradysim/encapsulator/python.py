@@ -183,7 +183,7 @@ class PythonEncapsulator(IEncapsulator[IProtocol]):
         add_protocol_note(
             exception,
             node_id=self.node.id,
-            label=f"{protocol.__name__} {self.node.id}",
+            protocol=protocol,
             time_s=timer.get_current_time() if timer is not None else 0.0,
             callback=callback,
         )

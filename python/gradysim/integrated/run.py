@@ -138,12 +138,11 @@ class IntegratedRun:
 
     def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
         """Return what a native protocol got wrong, told as the exception of one in Python."""
-        protocol = self._scenario.nodes[failure.node_id].protocol
         told = NativeProtocolError(str(failure))
         add_protocol_note(
             told,
             node_id=failure.node_id,
-            label=f"{protocol.__name__} {failure.node_id}",
+            protocol=self._scenario.nodes[failure.node_id].protocol,
             time_s=failure.time_s,
             callback=failure.callback,
         )

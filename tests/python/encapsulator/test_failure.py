@@ -3,8 +3,12 @@ import pytest
 from gradysim.encapsulator.failure import add_protocol_note
 
 
+class ZigZagMobile:
+    pass
+
+
 def notes_on(exception, time_s=12.5):
-    add_protocol_note(exception, node_id=3, label="ZigZagMobile 3", time_s=time_s, callback="handle_timer")
+    add_protocol_note(exception, node_id=3, protocol=ZigZagMobile, time_s=time_s, callback="handle_timer")
     return getattr(exception, "__notes__", [])
 
 
