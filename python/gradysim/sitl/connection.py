@@ -24,14 +24,19 @@ class StreamConnection(asyncio.Protocol):
         self._link = link
         self.explain = explain
         self.made = asyncio.Event()
+        self._is_taken = False
         self._transport: asyncio.Transport | None = None
 
+    def accept(self) -> asyncio.Protocol:
+        """Return what a server gives the next one who connects: this, once. Who comes later is refused."""
+        if self._is_taken:
+            return _Refusal()
+        self._is_taken = True
+        return self
+
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Take the connection; a second one is refused."""
+        """Take the connection."""
         assert isinstance(transport, asyncio.Transport)
-        if self._transport is not None:
-            transport.abort()
-            return
         self._transport = transport
         self._link.send_bytes = transport.write
         self.made.set()
@@ -51,6 +56,15 @@ class StreamConnection(asyncio.Protocol):
         self._link.lose(_CLOSED)
         if self._transport is not None:
             self._transport.abort()
+
+
+class _Refusal(asyncio.Protocol):
+    """Of a connection that nobody waits for."""
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Close it."""
+        assert isinstance(transport, asyncio.Transport)
+        transport.abort()
 
 
 class DatagramConnection(asyncio.DatagramProtocol):

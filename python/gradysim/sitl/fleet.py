@@ -94,7 +94,7 @@ class Fleet:
         self._instances.add(instance)
         connection = StreamConnection(link)
         # The autopilot comes to us: nobody else can get in between, and no port has to be guessed.
-        server = await asyncio.get_running_loop().create_server(lambda: connection, "127.0.0.1", 0)
+        server = await asyncio.get_running_loop().create_server(connection.accept, "127.0.0.1", 0)
         try:
             arguments = options(
                 home=home,

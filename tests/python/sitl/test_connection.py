@@ -3,7 +3,7 @@ import socket
 
 import pytest
 
-from gradysim.sitl.connection import connect, parse_address
+from gradysim.sitl.connection import StreamConnection, connect, parse_address
 from gradysim.sitl.dialect import load_dialect
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
@@ -96,3 +96,24 @@ def test_where_nobody_listens_it_gives_up_in_time():
         SitlError, match=rf"^node 0: cannot connect to tcp:127.0.0.1:{port}: no answer in 0.01 s"
     ):
         asyncio.run(connect(MavlinkLink("node 0"), f"tcp:127.0.0.1:{port}", 0.01))
+
+
+def test_who_comes_second_is_refused_and_does_not_end_the_first():
+    async def visit():
+        link = MavlinkLink("node 0")
+        connection = StreamConnection(link)
+        loop = asyncio.get_running_loop()
+        server = await loop.create_server(connection.accept, "127.0.0.1", 0)
+        address = server.sockets[0].getsockname()
+        first, second = await asyncio.open_connection(*address), await asyncio.open_connection(*address)
+        refused = await second[0].read()
+        first[1].write(packed())
+        message = await link.wait_for(any_message, 5)
+        lost = link.lost
+        for _, writer in (first, second):
+            writer.close()
+        connection.close()
+        server.close()
+        return refused, message.get_type(), lost
+
+    assert asyncio.run(visit()) == (b"", "HEARTBEAT", None)
