@@ -40,12 +40,13 @@ class ModuleLoader:
     @contextmanager
     def _siblings_importable(self, folder: Path) -> Iterator[None]:
         siblings = self._siblings.setdefault(folder, {})
+        # Lists, since to look at a module may import others, and so may other threads.
         hidden = {
             name: module
-            for name, module in sys.modules.items()
+            for name, module in list(sys.modules.items())
             if _is_shadowed(name.partition(".")[0], folder) and not _is_of(name, module, folder)
         }
-        before = {name for name in sys.modules if name not in hidden}
+        before = set(sys.modules) - hidden.keys()
         for name in hidden:
             del sys.modules[name]
         sys.modules.update(siblings)
@@ -57,7 +58,7 @@ class ModuleLoader:
                 sys.path.remove(str(folder))
             loaded = {
                 name: module
-                for name, module in sys.modules.items()
+                for name, module in list(sys.modules.items())
                 if name not in before and _is_of(name, module, folder)
             }
             for name in loaded:

@@ -1,5 +1,6 @@
 import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -52,6 +53,19 @@ def test_a_module_of_somebody_else_with_a_siblings_name_comes_back(
     write(tmp_path, mobile="from sibling_x import VALUE", sibling_x="VALUE = 1")
     assert ModuleLoader().load(tmp_path / "mobile.py").VALUE == 1
     assert sys.modules["sibling_x"] is others
+
+
+def test_a_module_that_imports_others_when_it_is_looked_at_does_no_harm(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Lazy(ModuleType):
+        def __getattr__(self, name: str) -> str:
+            monkeypatch.setitem(sys.modules, "imported_by_sibling_x", ModuleType("imported_by_sibling_x"))
+            raise AttributeError(name)
+
+    monkeypatch.setitem(sys.modules, "sibling_x", Lazy("sibling_x"))
+    folder = write(tmp_path, mobile="from sibling_x import VALUE", sibling_x="VALUE = 1")
+    assert ModuleLoader().load(folder / "mobile.py").VALUE == 1
 
 
 def test_the_library_is_not_shadowed(tmp_path: Path) -> None:
