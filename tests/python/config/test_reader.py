@@ -47,6 +47,19 @@ def test_an_indented_line_continues_with_a_newline(write_ini: Write) -> None:
     assert entries(read_ini(write_ini(text))) == [("a", "1h\n5min", 1), ("b", "2", 6)]
 
 
+def test_a_tab_indents_too(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = 1h\n\t5min\n"))) == [("a", "1h\n5min", 1)]
+
+
+def test_errors_show_a_continued_value_in_one_line(write_ini: Write) -> None:
+    (entry,) = read_ini(write_ini("a = 1h\n  5min\n")).sections["General"].entries
+    assert entry.source.value == "1h 5min"
+
+
+def test_a_backslash_outside_of_quotes_hides_no_comment(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = x \\# comment\n"))) == [("a", "x \\", 1)]
+
+
 def test_a_hash_between_quotes_is_no_comment(write_ini: Write) -> None:
     assert entries(read_ini(write_ini('a = "x # \\" # y" # comment'))) == [("a", '"x # \\" # y"', 1)]
 
@@ -85,6 +98,12 @@ def test_sections_of_several_files_merge_and_the_current_one_stays(
     ini = read_ini(write_ini("[X]\na = 1\ninclude inc.ini\nd = 4\n"))
     assert [key for key, _, _ in entries(ini, "X")] == ["a", "c", "d"]
     assert [key for key, _, _ in entries(ini, "Y")] == ["b"]
+
+
+def test_a_section_of_several_files_is_where_it_is_first(write_ini: Write) -> None:
+    write_ini("\n\n[X]\nc = 3\n", "inc.ini")
+    source = read_ini(write_ini("[X]\na = 1\ninclude inc.ini\n")).sections["X"].source
+    assert (source.file.name, source.line) == ("test.ini", 1)
 
 
 def test_a_file_may_be_included_twice(write_ini: Write) -> None:
@@ -155,6 +174,13 @@ def test_a_circle_of_includes_is_an_error(write_ini: Write) -> None:
     assert (
         error_of(write_ini("include inc.ini\n"))
         == "inc.ini:3: test.ini includes itself; expected another file"
+    )
+
+
+def test_a_file_that_includes_itself_by_another_name_is_found_out(write_ini: Write, tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    assert error_of(write_ini("include sub/../test.ini\n")).endswith(
+        "sub/../test.ini includes itself; expected another file"
     )
 
 
