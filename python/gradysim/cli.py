@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TextIO
 from cyclopts import App, CycloptsError, Parameter
 
 if TYPE_CHECKING:
+    from gradysim.config.kinds import Kind, Scalar
     from gradysim.config.scenario import Scenario
     from gradysim.report.supervised_run import Outcome, Run
     from gradysim.results.run_result import RunResult
@@ -221,6 +222,7 @@ def calibrate_power(
 ) -> int:
     """Find the transmitter power for a wanted range under the models of a configuration."""
     from gradysim.config.error import ConfigError
+    from gradysim.config.kinds import quantity, whole_bytes
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report import calibration
@@ -231,9 +233,9 @@ def calibrate_power(
             calibration.check_picture(picture)
         found = calibrate(
             scenario,
-            range_m=quantity_option("--range", range_text, "m"),
+            range_m=float(option_value("--range", range_text, quantity("m", at_least=0))),
             ratio=ratio,
-            message_bytes=round(quantity_option("--message", message, "B")),
+            message_bytes=int(option_value("--message", message, whole_bytes())),
             sender=sender,
             receiver=receiver,
         )
@@ -246,15 +248,13 @@ def calibrate_power(
     return OK
 
 
-def quantity_option(option: str, text: str, unit: str) -> float:
-    """Return the quantity that an option says, in `unit`. Raises ConfigError, which names the option."""
+def option_value(option: str, text: str, kind: "Kind") -> "Scalar":
+    """Return the value that an option says. Raises ConfigError, which names the option."""
     from gradysim.config.error import BadValue, ConfigError
     from gradysim.config.expression import parse_value
-    from gradysim.config.kinds import quantity
 
-    kind = quantity(unit, at_least=0)
     try:
-        return float(kind.convert(parse_value(text)))
+        return kind.convert(parse_value(text))
     except BadValue as error:
         raise ConfigError(
             f"{option} {text}: {error.problem}; expected {kind.expected}{error.suggestion}"

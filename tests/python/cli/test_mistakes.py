@@ -66,6 +66,10 @@ def test_wrong_arguments(gradysim, arguments):
             "--message -5B: it is out of range; expected a size such as 100B, at least 0B",
         ),
         (
+            ["--range", "50m", "--message", "50.4B"],
+            "--message 50.4B: `50.4B` is no whole number of bytes; expected a size such as 100B, at least 0B",
+        ),
+        (
             ["--range", "5s"],
             "--range 5s: `s` is the unit of a time; expected a length such as 50m, at least 0m",
         ),
