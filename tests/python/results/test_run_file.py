@@ -1,5 +1,6 @@
 import dataclasses
 import json
+import pathlib
 
 import pytest
 
@@ -26,6 +27,22 @@ def test_an_earlier_file_of_the_run_is_replaced(tmp_path):
     write_run_file(RESULT, tmp_path)
     path = write_run_file(dataclasses.replace(RESULT, events=11), tmp_path)
     assert json.loads(path.read_text(encoding="utf-8"))["events"] == 11
+
+
+def test_a_disk_that_is_full_does_not_cost_the_earlier_file(tmp_path, monkeypatch):
+    earlier = write_run_file(RESULT, tmp_path).read_text(encoding="utf-8")
+
+    def write_half(path, text, **_):
+        with path.open("w", encoding="utf-8") as file:
+            file.write(text[: len(text) // 2])
+        raise OSError("no space left")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(pathlib.Path, "write_text", write_half)
+        with pytest.raises(OSError, match="no space left"):
+            write_run_file(dataclasses.replace(RESULT, events=11), tmp_path)
+    (path,) = tmp_path.iterdir()
+    assert path.read_text(encoding="utf-8") == earlier
 
 
 def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):
