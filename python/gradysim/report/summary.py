@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from numbers import Real
 
 from rich import box
-from rich.console import Console, Group, RenderableType
+from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
+from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
@@ -39,7 +40,7 @@ def summary(result: RunResult) -> RenderableType:
             parts.append(Text(f"… and {len(result.nodes) - len(shown):,} more nodes; --json has all"))
     for what, kinds in result.fates.items():
         if has_counts(kinds):
-            parts += [title(FATE_TITLES.get(what, what)), fate_table(kinds)]
+            parts += [title(FATE_TITLES.get(what, what)), FateTables(kinds)]
     return Group(*parts)
 
 
@@ -112,12 +113,35 @@ def has_counts(kinds: Mapping[str, Mapping[str, int]]) -> bool:
     return any(any(fates.values()) for fates in kinds.values())
 
 
+class FateTables:
+    """The fates of {kind: {fate: count}}: one table, or several if the console has no room for it.
+
+    A table that is squeezed into a narrow console loses digits.
+    """
+
+    def __init__(self, kinds: Mapping[str, Mapping[str, int]]) -> None:
+        self._kinds = kinds
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        """Yield tables of as many kinds as fit beside each other, at least one."""
+        unlimited = options.update(max_width=10_000)
+        shown: dict[str, Mapping[str, int]] = {}
+        for kind, counts in self._kinds.items():
+            wider = {**shown, kind: counts}
+            if shown and Measurement.get(console, unlimited, fate_table(wider)).maximum > options.max_width:
+                yield fate_table(shown)
+                yield Text()
+                wider = {kind: counts}
+            shown = wider
+        yield fate_table(shown)
+
+
 def fate_table(kinds: Mapping[str, Mapping[str, int]]) -> Table:
     """Return a row per fate and a column per kind, of {kind: {fate: count}}."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("fate", no_wrap=True)
     for kind in kinds:
-        table.add_column(Text(kind), justify="right")
+        table.add_column(Text(kind.replace(" ", "\n")), justify="right", no_wrap=True)
     fates = list(dict.fromkeys(fate for counts in kinds.values() for fate in counts))
     for fate in fates:
         table.add_row(

@@ -8,7 +8,7 @@ from gradysim.report.summary import MAX_VALUE_LENGTH, print_summary, short
 from gradysim.results.run_result import NodeResult, RunResult
 
 
-def printed(**changes):
+def printed(width=100, **changes):
     node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.25, -3.0), {"data": 5, "colour": "[red]"})
     fields = {
         "config": "ZigZag5",
@@ -27,7 +27,7 @@ def printed(**changes):
         "nodes": (node,),
     }
     text = StringIO()
-    print_summary(RunResult(**{**fields, **changes}), Console(file=text, width=100))
+    print_summary(RunResult(**{**fields, **changes}), Console(file=text, width=width))
     return text.getvalue()
 
 
@@ -59,6 +59,26 @@ def test_fates_are_a_table_with_a_column_per_kind():
     assert ["delivered", "1,500", "3"] in lines
     assert ["below", "sensitivity", "2", "0"] in lines
     assert ["sum", "1,502", "3"] in lines
+
+
+KINDS = {
+    kind: {"below_sensitivity": 1_234_567, "receiver_transmitting": number}
+    for number, kind in enumerate(
+        ["broadcast", "unicast", "unicast overheard", "ack", "ack overheard", "rts"]
+    )
+}
+
+
+@pytest.mark.parametrize("width", [50, 80, 200])
+def test_no_digit_of_a_fate_is_lost_in_a_narrow_console(width):
+    text = printed(width=width, fates={"frames": KINDS})
+    assert text.count("1,234,567") == len(KINDS) + 1  # the sum of the first kind is the same
+    assert "…" not in text
+
+
+def test_fates_stay_one_table_where_there_is_room():
+    lines = [line.split() for line in printed(width=200, fates={"frames": KINDS}).splitlines()]
+    assert ["receiver", "transmitting", "0", "1", "2", "3", "4", "5"] in lines
 
 
 def test_a_table_of_nothing_is_left_out():
