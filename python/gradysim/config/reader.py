@@ -20,6 +20,9 @@ GENERAL = "General"
 COMMAND_LINE = "command line"
 """The section name of entries given with `--set`."""
 
+_LIKE_AN_ENTRY = re.compile(r"""[^\s"'=]*[.-][^\s"'=]*\s*=(?!=)""")
+"""What an indented line begins with that was meant as an entry of its own: a key with a dot or a hyphen."""
+
 _HEADING = re.compile(r"\[\s*(?:Config\s+)?([^\s\[\]]+)\s*\]")
 
 
@@ -151,6 +154,12 @@ def _logical_lines(file: Path, text: str) -> Iterator[tuple[int, str]]:
         elif current is None or current[1].startswith("["):
             raise ConfigError(
                 "an indented line continues the entry above it, and there is none; expected column 1",
+                source,
+            )
+        elif _LIKE_AN_ENTRY.match(line.strip()):
+            raise ConfigError(
+                f"an indented line continues the entry above it, that of line {current[0]}; expected"
+                " a new entry in column 1",
                 source,
             )
         else:

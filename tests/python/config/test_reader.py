@@ -51,6 +51,11 @@ def test_a_tab_indents_too(write_ini: Write) -> None:
     assert entries(read_ini(write_ini("a = 1h\n\t5min\n"))) == [("a", "1h\n5min", 1)]
 
 
+def test_a_continuation_may_have_quotes_comparisons_and_words_with_an_equals_sign(write_ini: Write) -> None:
+    text = 'a = 1\n  "*.b.c = 2"\n  d.e == 3\n  where x.y is = 4\n'
+    assert entries(read_ini(write_ini(text))) == [("a", '1\n"*.b.c = 2"\nd.e == 3\nwhere x.y is = 4', 1)]
+
+
 def test_errors_show_a_continued_value_in_one_line(write_ini: Write) -> None:
     (entry,) = read_ini(write_ini("a = 1h\n  5min\n")).sections["General"].entries
     assert entry.source.value == "1h 5min"
@@ -131,6 +136,16 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
         (
             "[X]\n  a = 1\n",
             "test.ini:2: an indented line continues the entry above it, and there is none; expected column 1",
+        ),
+        (
+            "[X]\na = 1\n\n  *.uavs[*].mobility.speed = 3mps\n",
+            "test.ini:4: an indented line continues the entry above it, that of line 2;"
+            " expected a new entry in column 1",
+        ),
+        (
+            "a = 1\n\tseed-set = 3\n",
+            "test.ini:2: an indented line continues the entry above it, that of line 1;"
+            " expected a new entry in column 1",
         ),
         ("[X\n", "test.ini:1: `[X` is no heading; expected [General] or [Config NAME]"),
         (
