@@ -45,6 +45,8 @@ def matches(pattern: str, path: str) -> bool:
         ("n{3..5}", "n4", True),
         ("n{3..5}*", "n42", False),
         ("n{3..5}*", "n4x", True),
+        ("n{3..5}", "n04", True),
+        ("n{3..}", "n007", True),
         ("n[3]", "n[3]", True),
         ("n[3]", "n[30]", False),
         (r"a\*", "a*", True),

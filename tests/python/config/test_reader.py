@@ -42,6 +42,10 @@ def test_a_backslash_joins_without_a_newline(write_ini: Write) -> None:
     ]
 
 
+def test_a_backslash_at_the_end_of_the_file_joins_nothing(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = 1\nb = 2\\"))) == [("a", "1", 1), ("b", "2", 2)]
+
+
 def test_an_indented_line_continues_with_a_newline(write_ini: Write) -> None:
     text = "a = 1h # one\n\n# comment\n  # another\n  5min # two\nb = 2\n"
     assert entries(read_ini(write_ini(text))) == [("a", "1h\n5min", 1), ("b", "2", 6)]

@@ -19,12 +19,34 @@ from gradysim.config.units import UNITS, Dimension, unit_named
         ("kmph", Dimension.SPEED, Fraction(1000, 3600)),
         ("mW", Dimension.POWER, Fraction(1, 1000)),
         ("MW", Dimension.POWER, 1000000),
+        ("h", Dimension.TIME, 3600),
+        ("Bps", Dimension.BITRATE, 8),
+        ("Wh", Dimension.ENERGY, 3600),
         ("x", Dimension.RATIO, 1),
     ],
 )
 def test_means_what_omnetpp_means(name: str, dimension: Dimension, factor: Fraction) -> None:
     unit = unit_named(name)
     assert (unit.dimension, unit.factor, unit.logarithmic) == (dimension, factor, False)
+
+
+DECIMAL = {"a": -18, "f": -15, "p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
+BINARY = {"Ki": 10, "Mi": 20, "Gi": 30}
+PREFIXES = {
+    **{prefix: Fraction(10) ** exponent for prefix, exponent in DECIMAL.items()},
+    **{prefix: Fraction(2) ** exponent for prefix, exponent in BINARY.items()},
+}
+
+
+def test_prefixes_mean_the_same_in_front_of_every_unit() -> None:
+    compared = 0
+    for name, unit in UNITS.items():
+        for prefix, factor in PREFIXES.items():
+            base = UNITS.get(name.removeprefix(prefix))
+            if base is not None and base is not unit and base.dimension is unit.dimension:
+                assert unit.factor == factor * base.factor, name
+                compared += 1
+    assert compared > 50
 
 
 def test_decibels_alone_are_a_dimension_of_their_own() -> None:
