@@ -11,8 +11,6 @@ from dataclasses import replace
 from gradysim.config.error import ConfigError
 from gradysim.config.reader import Entry
 
-PREDEFINED = ("runnumber", "repetition", "configname")
-
 _VARIABLE = re.compile(r"\$\{([^{}]*)\}")
 
 

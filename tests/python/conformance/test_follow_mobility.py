@@ -31,7 +31,6 @@ from python.quiet_protocol import Quiet
 
 SPEED_MPS = 9.1
 TOLERANCE_M = 2 * SPEED_MPS * UPDATE_S
-LEADERS = {0, 1}
 FOLLOWERS = {2, 3, 4}
 
 

@@ -61,10 +61,16 @@ def test_progress_is_called_ten_times_a_second(clock):
     assert len(times) == pytest.approx(10 * clock.time_s, rel=0.4)
 
 
-def test_progress_ends_at_the_end(clock):
-    work, times = Work(clock, 1000), []
+def test_progress_ends_at_the_end_of_the_shortest_run(clock):
+    work, times = Work(clock, 1), []
     run_in_slices(work.advance, work.now, progress=times.append)
-    assert times[-1] == 1000.0
+    assert times == [1.0]
+
+
+def test_progress_ends_where_the_run_was_stopped(clock):
+    work, times = Work(clock, 10_000, event_s=1e-6), []
+    run_in_slices(work.advance, work.now, progress=times.append, should_stop=lambda: work.done > 500)
+    assert times == [float(work.done)]
 
 
 def test_should_stop_ends_the_run_before_its_end(clock):
@@ -76,6 +82,11 @@ def test_should_stop_ends_the_run_before_its_end(clock):
 def test_a_run_that_is_complete_was_not_stopped(clock):
     work = Work(clock, 10)
     assert run_in_slices(work.advance, work.now, should_stop=lambda: True)
+
+
+def test_a_slice_is_four_times_the_one_before_at_most():
+    assert next_slice(64, SLICE_S / 1000) == 4 * 64
+    assert next_slice(64, SLICE_S * 1000) == 64 / 4
 
 
 @given(max_events=st.integers(1, 10**9), took_s=st.floats(0, 1e6))

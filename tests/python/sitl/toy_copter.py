@@ -34,7 +34,6 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 
 GUIDED, LAND = 4, 9
 EARTH_RADIUS_M = 6_371_000.0
-CLIMB_MPS = 2.5
 FIX_S = 2.0
 
 
