@@ -55,13 +55,14 @@ def test_an_interrupt_that_comes_through_keeps_the_result():
     assert outcome.result.events == 3
 
 
-def test_a_protocol_that_cannot_be_made_is_a_failure_without_a_result():
+@pytest.mark.parametrize("failure", [ZeroDivisionError(), SystemExit(3)])
+def test_a_protocol_that_cannot_be_made_is_a_failure_without_a_result(failure):
     def build(_):
-        raise ZeroDivisionError
+        raise failure
 
     outcome = carry_out(build, SCENARIO, never)
     assert outcome.result is None
-    assert isinstance(outcome.failure, ZeroDivisionError)
+    assert outcome.failure is failure
 
 
 @pytest.mark.parametrize("mistake", [ConfigError("wrong"), CompiledPartMissingError("missing")])

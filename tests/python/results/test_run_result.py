@@ -21,20 +21,21 @@ def result_with(tracked_variables):
     )
 
 
-def test_the_keys_that_scripts_rely_on():
-    assert list(result_with({}).to_json_object()) == [
-        "config",
-        "run",
-        "seed",
-        "mode",
-        "sim_time_s",
-        "wall_s",
-        "cpu_s",
-        "events",
-        "interrupted",
-        "fingerprint",
-        "fates",
-        "nodes",
+def test_keys_and_values_that_scripts_rely_on():
+    result = result_with({}).to_json_object()
+    del result["nodes"]
+    assert list(result.items()) == [
+        ("config", "General"),
+        ("run", 2),
+        ("seed", 7),
+        ("mode", "prototype"),
+        ("sim_time_s", 10.0),
+        ("wall_s", 0.5),
+        ("cpu_s", 0.4),
+        ("events", 1000),
+        ("interrupted", False),
+        ("fingerprint", None),
+        ("fates", {"messages": {"broadcast": {"delivered": 3}}}),
     ]
 
 
@@ -47,6 +48,11 @@ def test_keys_of_a_node():
         "position": [1.0, 2.0, 3.0],
         "tracked_variables": {"packets": 5},
     }
+
+
+def test_frames_by_bitrate_are_there_if_there_were_any():
+    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, {24_000_000: 3, 6_000_000: 1})
+    assert node.to_json_object()["frames_by_bitrate"] == {"24000000": 3, "6000000": 1}
 
 
 def test_a_tracked_variable_without_a_json_form_is_given_as_repr():
