@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.keys.interface import IEEE802154
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
@@ -20,7 +21,7 @@ def radio_warnings(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
     if medium.typename == "UnitDiskRadioMedium":  # which has no radios
         return
     yield from _stations_without_a_common_mode(scenario)
-    yield from _nodes_that_nobody_hears(scenario)
+    yield from _radios_that_nobody_hears(scenario)
     yield from _acks_that_come_too_late(scenario)
 
 
@@ -42,8 +43,8 @@ def _stations_without_a_common_mode(scenario: Scenario) -> Iterator[str]:
             )
 
 
-def _nodes_that_nobody_hears(scenario: Scenario) -> Iterator[str]:
-    """Nodes that share no channel with any other."""
+def _radios_that_nobody_hears(scenario: Scenario) -> Iterator[str]:
+    """Nodes that share no channel with any other, and interfaces of which no other node has the channel."""
     if len(scenario.nodes) < 2:
         return
     kinds = [
@@ -57,17 +58,26 @@ def _nodes_that_nobody_hears(scenario: Scenario) -> Iterator[str]:
             if other != index or count > 1
             for listener in listeners
         ]
-        if not any(_fits_in(radio, listener) for radio in radios for listener in others):
-            line = next(_sources_of_channels([spec, *scenario.nodes]))
-            channels = " and ".join(f"{radio.carrier_hz / 1e6:g} MHz" for radio in radios)
+        unheard = [
+            number
+            for number, radio in enumerate(radios)
+            if not any(_fits_in(radio, listener) for listener in others)
+        ]
+        whole_node = len(unheard) == len(radios)
+        for numbers in [unheard] if whole_node else [[number] for number in unheard]:
+            who = spec.name if whole_node else f"wlan[{numbers[0]}] of {spec.name}"
+            channels = " and ".join(f"{radios[number].carrier_hz / 1e6:g} MHz" for number in numbers)
+            nearest_first = [spec.wlan[number] for number in numbers]
+            nearest_first += [wlan for node in (spec, *scenario.nodes) for wlan in node.wlan]
             yield (
-                f"{line}: warning: nobody hears {spec.name}: no other node listens at {channels} with at"
-                " least as much bandwidth; expected one channel for those that are to talk"
+                f"{next(_sources_of_channels(nearest_first))}: warning: nobody hears {who}: no other node"
+                f" listens at {channels} with at least as much bandwidth; expected one channel for those"
+                " that are to talk"
             )
 
 
-def _sources_of_channels(specs: Iterable[NodeSpec]) -> Iterator[Source]:
-    for wlan in (wlan for spec in specs for wlan in spec.wlan):
+def _sources_of_channels(wlans: Iterable[InterfaceSpec]) -> Iterator[Source]:
+    for wlan in wlans:
         for settings, field in (
             (wlan.radio, "carrier_hz"),
             (wlan.radio, "bandwidth_hz"),

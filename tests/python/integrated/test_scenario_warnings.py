@@ -212,11 +212,21 @@ def test_another_technology_is_another_channel(warnings: Callable[..., list[str]
     ]
 
 
+def test_an_interface_that_shares_its_channel_with_no_other_node_is_told(
+    warnings: Callable[..., list[str]],
+) -> None:
+    channel = "*.uavs[0].wlan[1].radio.channelNumber=5"
+    (text,) = warnings("*.uavs[0].numWlanInterfaces=2", channel)
+    assert text.startswith(
+        f"--set {channel}: warning: nobody hears wlan[1] of uavs[0]: no other node listens at 2437 MHz"
+    )
+
+
 @pytest.mark.parametrize(
     "settings",
     [
         ("*.uavs[*].wlan[*].radio.channelNumber=5",),
-        ("*.uavs[0].numWlanInterfaces=2", "*.uavs[0].wlan[1].radio.channelNumber=0", CHANNEL_5),
+        ("*.uavs[*].numWlanInterfaces=2", "*.uavs[*].wlan[1].radio.channelNumber=5"),
         (CHANNEL_5, '*.radioMedium.typename="UnitDiskRadioMedium"'),
         ("*.numUavs=1", CHANNEL_5),
     ],
