@@ -1,4 +1,5 @@
 import math
+import threading
 from io import StringIO
 
 import pytest
@@ -40,6 +41,13 @@ def test_a_run_without_a_limit(limit_s):
 def test_it_fits_into_one_line_of_a_narrow_terminal():
     text = shown(28_800.0, 1.0, 27_000.0, 28_000.0, width=80)
     assert text.count("\n") == 1
+
+
+def test_there_is_no_thread_beside_the_simulation():
+    console = Console(file=StringIO(), force_terminal=True)
+    before = threading.active_count()
+    with RunProgress(console, "General run 0", 10.0):
+        assert threading.active_count() == before
 
 
 def test_the_bar_is_gone_at_the_end():
