@@ -298,7 +298,7 @@ def make_result_dir(directory: Path) -> None:
 def say_mistake(mistake: Exception) -> int:
     """Say what the user got wrong, without a traceback, and return the exit code."""
     if isinstance(mistake, BrokenPipeError):
-        raise mistake  # nobody's mistake: `main` knows
+        raise mistake  # nobody's mistake: `main` deals with it
     print(mistake, file=sys.stderr)
     return MISTAKE
 

@@ -1,6 +1,6 @@
 """The frequency bands of 802.11 radios under INET's names, and the centres of their channels, counted from 0.
 
-Those of 802.15.4 radios have one band and the numbers of the standard, from 11 on.
+802.15.4 radios have one band, whose channels have the numbers of the standard, from 11 on.
 
 The channels of the 2.4 GHz band are those of the standard. The other bands are cut into channels of equal
 width, as INET cuts them: centre = start + (number + 1/2) * width. In the 5.9 GHz band these are channels 172,

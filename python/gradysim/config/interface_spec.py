@@ -16,7 +16,8 @@ class InterfaceSpec:
         antenna: Fields of AntennaConfig.
         mac: Fields of MacConfig.
         csma: Fields of CsmaConfig.
-        band: Of no struct of the engine: the name of a band where nothing reads it.
+        band: The name of a band at an 802.15.4 interface. No struct of the engine has it, since nothing reads
+            it; it is kept so that the line can be reported.
         range_sets_power: Whether transmitter.communicationRange comes before transmitter.power: on a medium
             where power decides, the power is to be that for the range.
     """

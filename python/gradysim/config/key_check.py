@@ -138,7 +138,7 @@ class _ParameterCheck:
         return self._known[kind, rest.text]
 
     def _paths_like(self, found: Found) -> Iterator[str]:
-        """All paths but those that the end of the key excludes."""
+        """All paths, without those that end in another way than the key does."""
         yield from (f"{self._network}.{path}" for path in self._network_paths)
         for group in self._groups:
             yield f"{self._network}.{group.size_key}"

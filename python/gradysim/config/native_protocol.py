@@ -16,7 +16,8 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
 
 _TABLE = "gradysim.integrated.native_protocols"
-"""The module with the table. It is above this one: only asked for when a file names a native protocol."""
+"""The module with the table. Its layer is above this one, so it is imported only when a file names a native
+protocol."""
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 
 _LEAST_PART = 4
+"""Letters that are enough to look for names that hold them."""
 _SLIP = 0.82
 
 

@@ -15,9 +15,9 @@ from gradysim.config.keys.radio import OF_802154
 from gradysim.config.source import Source
 
 Chosen = Callable[[str], str | None]
-"""What is in force, written or by default, for the key with a target that chooses a model.
+"""Given the target of a key that chooses a model, returns the model, written or by default.
 
-None: no model, and on purpose, as `typename = ""` is written. Then nothing is missing.
+None if the file says on purpose that there is none, by `typename = ""`: its parameters are not reported.
 """
 
 KEYS = {key.target: key for key in (*NODE_KEYS, *NETWORK_KEYS, *OF_802154.values())}

@@ -1,7 +1,7 @@
 """Replaces `${...}` in values, run by run.
 
 This is a stage of its own between the sections and the meaning of keys: entries go in, entries come out. It
-knows the predefined variables only; iteration variables belong here too, with the list of runs they make.
+knows the predefined variables only; iteration variables (`${1s, 2s}`) are refused.
 """
 
 import re

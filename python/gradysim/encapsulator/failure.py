@@ -6,7 +6,7 @@ def add_protocol_note(
 ) -> None:
     """Note node, simulated time and callback on the exception of a protocol; its traceback stays as it is.
 
-    Ctrl-C (KeyboardInterrupt) is nobody's failure and is left alone; SystemExit is what a protocol asks for.
+    Ctrl-C (KeyboardInterrupt) is nobody's failure and gets no note. SystemExit gets one.
 
     Args:
         exception: What the protocol raised.

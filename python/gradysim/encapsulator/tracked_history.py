@@ -21,7 +21,6 @@ class TrackedHistory:
     A plain number, text or truth value that is assigned again is no change, so that a protocol which repeats
     itself a hundred times a second does not fill the memory. Lists and other objects are noted as they are,
     not copied: what is changed inside of one later shows in its earlier entries too.
-
     """
 
     def __init__(self, current_time: Callable[[], float]) -> None:

@@ -33,7 +33,10 @@ _COMPARED_WITH = {
     ),
     "radio.error_model": ("interface.typename",),
 }
-"""What may make the default of a field wrong, the nearest cause first; beside the choice of its model."""
+"""Fields that can make the default of another field wrong, the likeliest first.
+
+The key that chooses the field's model can, too; it is not listed here.
+"""
 
 _LITERAL = re.compile(r'[-+]?[\d.]+(?:[eE][-+]?\d+)? *[A-Za-z]*|"[^"$]*"')
 
@@ -43,8 +46,8 @@ def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
     """Turn an error of the engine's check into a ConfigError in the terms of the .ini file.
 
     `settings` are those that the engine was given, by the targets of their keys: "radio.tx_power_w". The
-    place is that of the field which the text names; if it has its default, that of what the default does not
-    go with.
+    place is the line of the field that the text names; if that field has its default, the line of the setting
+    that the default does not go with.
     """
     try:
         yield

@@ -12,8 +12,7 @@ if TYPE_CHECKING:
 class EngineEventLoop:
     """Stands for `gradysim.simulator.event.EventLoop` in what `INodeHandler.inject` gives to a handler.
 
-    Events of handlers are events of the engine. To take events is the engine's business: there is nothing to
-    pop or to cancel.
+    Events of handlers are events of the engine, which runs them: here they cannot be popped or cancelled.
     """
 
     def __init__(self, network: "Network") -> None:

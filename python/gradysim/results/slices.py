@@ -16,9 +16,9 @@ REPORT_INTERVAL_S = 0.1
 FIRST_SLICE = 64
 """Events of the first slice: few, as nothing is known yet of what one costs."""
 
-
 MOST_EVENTS = 1 << 20
-"""Events of a slice at most: one of a run that waits for the wall clock never has enough of them."""
+"""Events of a slice at most. The slices of a run that waits for the wall clock are short, however many events
+they may have: their number would grow for ever."""
 
 
 def run_in_slices(

@@ -13,14 +13,14 @@ _installed: "list[SimulationFormatter]" = []
 
 
 class _RootLevel:
-    """Level of the root logger: low enough for all simulations that log, as it was when none does."""
+    """Keeps the root logger's level low enough for all simulations that log; puts it back when none does."""
 
     def __init__(self) -> None:
         self._before = logging.NOTSET
         self._set: int | None = None
 
     def follow(self, levels: Sequence[int]) -> None:
-        """Adapt to the levels of the simulations that log now; hands off if somebody else changed it."""
+        """Adapt to the levels of the simulations that log now; a level that somebody else has set stays."""
         root = logging.getLogger()
         if self._set is None:
             self._before = self._set = root.level

@@ -298,7 +298,8 @@ class Simulator:
         iterations: Iterable[int] = range(first, last)
         if self._pacing is not None:
             iterations = self._pacing.before_each(iterations)
-        # The number comes before its event: when the numbers end no event is taken, and pacing comes first.
+        # zip asks for the number before it asks for the event. So pacing waits before an event is taken, and
+        # when the numbers end no event is taken that would not run.
         for iteration, event in zip(iterations, loop.take_events(self._until_s), strict=False):
             formatter.iteration = iteration
             formatter.context = event[1]

@@ -1,8 +1,8 @@
 """Every key and option that an .ini file may hold: where its value goes, and what it has to be.
 
-The names are INET's and OMNeT++'s. Ranges of radio and MAC values are the engine's business, only what no
-unit and no model could mean is refused here. To add a key, add a line to the table of its subject; lists of
-keys show them in this order.
+The names are INET's and OMNeT++'s. The engine checks the ranges of radio and MAC values; what is refused here
+makes no sense in any model. To add a key, add a line to the table of its subject; lists of keys show them in
+this order.
 """
 
 from gradysim.config.key import Key

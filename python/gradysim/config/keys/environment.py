@@ -17,7 +17,7 @@ MATERIALS = (
     "plywood",
     "metal",
 )
-"""The engine's."""
+"""The names in the engine's table of materials."""
 
 _LOSSES = ("IdealObstacleLoss", "DielectricObstacleLoss")
 

@@ -15,7 +15,7 @@ DEFAULT_INTERFACE = "Ieee80211Interface"
 
 IEEE80211 = ReadBy("interface.typename", (DEFAULT_INTERFACE,), shown="")
 IEEE802154 = ReadBy("interface.typename", ("Ieee802154NarrowbandInterface",), shown="802.15.4")
-"""Of which interface a key is."""
+"""The kinds of interface, for the keys that only one of them reads."""
 
 _INDEXED = re.compile(r"\bwlan\[(?:0|[1-9]\d*|\d*\.\.\d*)\]", re.ASCII)
 

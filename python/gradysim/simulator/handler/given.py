@@ -7,7 +7,7 @@ from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 StepHook = Callable[[int, float], None]
 
 WORLD = ("communication", "timer", "mobility")
-"""Labels of the handlers that make up the world; in the run of a scenario these are not anybody's to give."""
+"""Labels of the handlers that make up the world. The run of a scenario has its own, and takes no others."""
 
 
 def label_of(handler: INodeHandler) -> str:

@@ -8,8 +8,8 @@ thousands of events have run at that instant already, so that it costs nothing e
 import math
 
 MOST_AT_ONE_INSTANT = 1_000_000
-"""Deeds of one kind of one node; the engine has the same bound. If each of a thousand nodes floods a message,
-each node sends a thousandth of that."""
+"""Timers, or messages, of one node; the engine has the same bound. Floods stay far below: where each of a
+thousand nodes floods a message, each node sends a thousand."""
 
 
 class InstantCount:
