@@ -15,6 +15,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, TextIO
 
@@ -74,6 +75,8 @@ app = App(
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (that of this process by default) and return the exit code."""
+    if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
+        sys.stdout.reconfigure(errors="backslashreplace")  # rather than lose a result over a letter in it
     try:
         code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
         sys.stdout.flush()  # here, where it is known what to do if nobody reads it
@@ -239,7 +242,7 @@ def calibrate_power(
             sender=sender,
             receiver=receiver,
         )
-        print(calibration.text(found))
+        print(calibration.text(found, sys.stdout.encoding))
         if picture is not None:
             calibration.draw(found, picture)
             print(f"drawn in {picture}")

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 BAR_WIDTH = 40
 
 
-def text(calibration: Calibration) -> str:
-    """Return all of it as text."""
+def text(calibration: Calibration, encoding: str = "utf-8") -> str:
+    """Return all of it as text, for an output of that encoding."""
     c = calibration
     power_dbm = 10 * math.log10(c.tx_power_w * 1000)
     snr_db = 10 * math.log10(c.snr_at_range)
@@ -29,8 +29,9 @@ def text(calibration: Calibration) -> str:
         "",
         "distance   received",
     ]
+    block = "█" if "█".encode(encoding, errors="ignore") else "#"
     for distance_m, ratio in c.curve:
-        bar = "█" * round(ratio * BAR_WIDTH)
+        bar = block * round(ratio * BAR_WIDTH)
         lines.append(f"{distance_m:6.5g} m  {100 * ratio:7.2f} %  {bar}".rstrip())
     return "\n".join(lines)
 

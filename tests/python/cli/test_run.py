@@ -9,7 +9,7 @@ from dataclasses import fields
 import pytest
 
 from gradysim.results.run_result import RunResult
-from python.cli.command import both_modes, compiled, environment, objects
+from python.cli.command import PROTOCOL, both_modes, compiled, environment, objects
 
 
 @both_modes
@@ -157,3 +157,33 @@ def test_runs_lists_the_runs(gradysim):
         "Run 1: $repetition=1",
         "Run 2: $repetition=2",
     ]
+
+
+def in_ascii(folder, *arguments):
+    """What the command says where the output takes ASCII only."""
+    return subprocess.run(
+        [sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env={**environment(), "PYTHONIOENCODING": "ascii"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_an_output_that_takes_ascii_only_loses_no_result(folder):
+    accents = PROTOCOL.replace(
+        'tracked_variables["said"] = 0', 'tracked_variables.update(said=0, olá="maçã")'
+    )
+    (folder / "protocol.py").write_text(accents, encoding="utf-8")
+    done = in_ascii(folder, "run", "test.ini", "--mode", "prototype", "-r", "0", "--result-dir", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "ol\\xe1 = ma\\xe7\\xe3" in done.stdout
+    assert [path.name for path in (folder / "out").iterdir()] == ["General-#0.prototype.json"]
+
+
+@compiled
+def test_reception_over_distance_is_drawn_in_ascii_if_that_is_all_there_is(folder):
+    done = in_ascii(folder, "calibrate", "test.ini", "--range", "50m")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "100.00 %  " + 40 * "#" in done.stdout
