@@ -131,6 +131,7 @@ def run(
             scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
             warn_of_equal_seeds(scenarios)
+            warn_of_shadowed_lines(file, config)
             for scenario in scenarios:
                 check(scenario)
             if mode == "integrated":
@@ -274,6 +275,14 @@ def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
             " identical if nothing else depends on ${runnumber}; `seed-set = ${runnumber}` is the default",
             file=sys.stderr,
         )
+
+
+def warn_of_shadowed_lines(file: Path, config: str) -> None:
+    """Say on the error output which lines of the file have no effect, because of others above them."""
+    from gradysim.config.shadowed_lines import shadowed_lines
+
+    for text in shadowed_lines(file, config):
+        print(text, file=sys.stderr)
 
 
 def warn_of_what_is_seldom_meant(scenarios: "Sequence[Scenario]") -> None:

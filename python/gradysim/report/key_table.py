@@ -16,9 +16,11 @@ INTRODUCTION = """# Keys of .ini files
 All that an `.ini` file may say; `gradysim keys` prints this page, `gradysim keys PATTERN` a part of it.
 `nodes` stands for the name of a group, `*` for any index. Values in other units of the same dimension are
 understood too: a power in `mW` or `dBm`, a time in `ms` or `h`.
-Of two lines that fit, the first one is in force. A section may also say `extends = NAME` and
-`abstract = true`. What only OMNeT++ needs is ignored: `network`, `result-dir`, `experiment-label`,
-`cmdenv-*`, `qtenv-*`, `*.visualizer.**`.
+Of two lines that fit, the first one is in force: write `*.uavs[0].mobility.speed` above
+`*.uavs[*].mobility.speed`. `gradysim run` warns of a line that another one above it in the same section of
+the same file deprives of any effect. A section may also say `extends = NAME` and `abstract = true`. What only
+OMNeT++ needs is ignored: `network`, `result-dir`, `experiment-label`, `cmdenv-*`, `qtenv-*`,
+`*.visualizer.**`.
 
 A key that matches no parameter is an error. A line for a model that is not chosen (`pathLoss.sigma` with
 `FreeSpacePathLoss`) is none, but `gradysim run` says on the error output that nothing reads it, and what

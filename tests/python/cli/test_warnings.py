@@ -33,3 +33,15 @@ def test_prototype_mode_says_nothing_of_models_that_it_does_not_have(
 ) -> None:
     assert main(["run", ini, "--quiet", "--mode", "prototype", "--set", SIGMA]) == 0
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("mode", ["integrated", "prototype"])
+def test_a_line_below_one_that_fits_as_well_is_told_in_both_modes(
+    ini: str, capsys: pytest.CaptureFixture[str], mode: str
+) -> None:
+    if mode == "integrated":
+        pytest.importorskip("gradysim._netsim")
+    with Path(ini).open("a", encoding="utf-8") as file:
+        file.write("**.mobility.speed = 3mps\n*.uavs[0].mobility.speed = 5mps\n")
+    assert main(["run", ini, "--quiet", "--mode", mode, "--set", "repeat=2"]) == 0
+    assert capsys.readouterr().err.count("warning: `*.uavs[0].mobility.speed` has no effect: line ") == 1

@@ -1,0 +1,69 @@
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gradysim.config.shadowed_lines import shadowed_lines
+
+Write = Callable[..., Path]
+
+
+def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
+    file = write_ini("*.uavs[*].mobility.speed = 3mps\n*.uavs[1].mobility.speed = 5mps\n")
+    assert shadowed_lines(file, "General") == [
+        f"{file}:2: warning: `*.uavs[1].mobility.speed` has no effect: line 1, `*.uavs[*].mobility.speed`,"
+        " fits as well and comes first; expected the special line above the general one"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("above", "below"),
+    [
+        ("*.numUavs", "*.numUavs"),
+        ("repeat", "repeat"),
+        ("**.speed", "*.uavs[0].mobility.speed"),
+        ("**.speed", "*.uavs[*].**.speed"),
+        ("**.mobility.*", "**.mobility.speed"),
+        ("*.*.mobility.speed", "*.uavs[0..3].mobility.speed"),
+        ("*.uavs[*].mobility.speed", "*.uavs[0..3].mobility.speed"),
+        ("*.uavs[0..3].mobility.speed", "*.uavs[2].mobility.speed"),
+        ("**.wlan[*].bitrate", "*.uavs[*].wlan[0].bitrate"),
+    ],
+)
+def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
+    (text,) = shadowed_lines(write_ini(f"{above} = 1\n{below} = 2\n"), "General")
+    assert f"`{below}` has no effect: line 1, `{above}`" in text
+
+
+@pytest.mark.parametrize(
+    ("above", "below"),
+    [
+        ("*.uavs[1].mobility.speed", "*.uavs[*].mobility.speed"),
+        ("*.uavs[*].mobility.speed", "**.speed"),
+        ("*.uavs[*].mobility.speed", "*.*.mobility.speed"),
+        ("*.uavs[0..3].mobility.speed", "*.uavs[2..5].mobility.speed"),
+        ("*.uavs[0..3].mobility.speed", "*.uavs[4].mobility.speed"),
+        ("*.*.speed", "**.speed"),
+        ("*.uavs[0].mobility.speed", "*.uavs[1].mobility.speed"),
+        ("cmdenv-status-frequency", "cmdenv-status-frequency"),
+    ],
+)
+def test_what_has_one(write_ini: Write, above: str, below: str) -> None:
+    assert shadowed_lines(write_ini(f"{above} = 1\n{below} = 2\n"), "General") == []
+
+
+def test_a_line_that_says_the_same_does_no_harm(write_ini: Write) -> None:
+    file = write_ini("*.uavs[*].mobility.speed = 3mps\n*.uavs[1].mobility.speed = 3mps\n")
+    assert shadowed_lines(file, "General") == []
+
+
+def test_another_section_and_an_included_file_are_there_to_be_overridden(write_ini: Write) -> None:
+    write_ini("**.speed = 1mps\n", "base.ini")
+    file = write_ini("**.speed = 2mps\ninclude base.ini\n[Config A]\n**.speed = 3mps\n")
+    assert shadowed_lines(file, "A") == []
+
+
+def test_only_sections_of_the_configuration_are_looked_at(write_ini: Write) -> None:
+    file = write_ini("[Config A]\nrepeat = 2\n[Config B]\nrepeat = 2\nrepeat = 3\n")
+    assert shadowed_lines(file, "A") == []
+    assert len(shadowed_lines(file, "B")) == 1
