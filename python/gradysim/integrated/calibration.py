@@ -1,5 +1,6 @@
 """From a wanted range to the transmitter power, under the models of a scenario."""
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -37,6 +38,7 @@ class Calibration:
         bitrate_bps: Of broadcast frames.
         frame_bytes: The message with all headers.
         snr_at_range: Mean received power over noise at the range, a linear ratio.
+        deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise, or None.
         curve: Distances in m with the share received there, from 0 to 1.
     """
 
@@ -50,6 +52,7 @@ class Calibration:
     bitrate_bps: float
     frame_bytes: int
     snr_at_range: float
+    deciding_sensitivity_w: float | None
     curve: tuple[tuple[float, float], ...]
 
 
@@ -100,8 +103,29 @@ def calibrate(
         bitrate_bps=budget.bitrate_bps,
         frame_bytes=budget.psdu_bytes,
         snr_at_range=power_w * budget.mean_gain(range_m) / budget.noise_w,
+        deciding_sensitivity_w=_deciding_sensitivity_w(
+            scenario, from_node, to_node, message_bytes, range_m, ratio, power_w
+        ),
         curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
     )
+
+
+def _deciding_sensitivity_w(
+    scenario: Scenario,
+    sender: NodeSpec,
+    receiver: NodeSpec,
+    message_bytes: int,
+    range_m: float,
+    ratio: float,
+    power_w: float,
+) -> float | None:
+    """The receiver's sensitivity if less power than `power_w` would do without it."""
+    unlimited = node_config(receiver)
+    radio = unlimited.wlan[0].radio
+    sensitivity_w = radio.sensitivity_w
+    radio.sensitivity_w = sys.float_info.min
+    budget = load_netsim().LinkBudget(medium_config(scenario), node_config(sender), unlimited, message_bytes)
+    return sensitivity_w if power_w > 1.01 * budget.tx_power_w_for(range_m, ratio) else None
 
 
 def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, message_bytes: int) -> "LinkBudget":
@@ -119,5 +143,6 @@ def _node_named(nodes: Sequence[NodeSpec], name: str | None) -> NodeSpec:
     for node in nodes:
         if node.name == name:
             return node
-    names = [node.name for node in nodes]
-    raise ConfigError(f"there is no node `{name}`; expected one of the scenario's{did_you_mean(name, names)}")
+    of_group = next((node.name for node in nodes if node.group == name), None)
+    hint = f"; did you mean `{of_group}`?" if of_group else did_you_mean(name, [node.name for node in nodes])
+    raise ConfigError(f"there is no node `{name}`; expected one such as {nodes[0].name}{hint}")

@@ -27,6 +27,7 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
         "",
         f"    *.{c.sender}.{wlan}.radio.transmitter.power = {c.tx_power_w * 1000:.6g}mW",
         "",
+        *_what_decides(c.deciding_sensitivity_w),
         "distance   received",
     ]
     block = "█" if "█".encode(encoding, errors="ignore") else "#"
@@ -34,6 +35,17 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
         bar = block * round(ratio * BAR_WIDTH)
         lines.append(f"{distance_m:6.5g} m  {100 * ratio:7.2f} %  {bar}".rstrip())
     return "\n".join(lines)
+
+
+def _what_decides(sensitivity_w: float | None) -> list[str]:
+    if sensitivity_w is None:
+        return []
+    return [
+        f"The receiver's sensitivity of {10 * math.log10(sensitivity_w * 1000):g} dBm decides, not the noise:"
+        " no slower bitrate would",
+        "do with less power.",
+        "",
+    ]
 
 
 def check_picture(path: Path) -> None:

@@ -2,6 +2,7 @@
 
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,8 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli import main
-from gradysim.config.scenario import load_scenarios
+from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.integrated.calibration import calibrate
 
 
 @pytest.fixture
@@ -47,3 +49,16 @@ def test_its_line_is_understood(root: Path, guide: str) -> None:
     (line,) = re.findall(r"^```ini\n(.*)\n```", guide, re.MULTILINE)
     scenario = load_scenarios(root / "configs/zigzag.ini", "ZigZag5", overrides=[line])[0]
     assert all(node.wlan[0].range_sets_power for node in scenario.nodes)
+
+
+def test_bitrates_matter_with_the_lines_that_let_the_noise_decide_and_not_without(
+    guide: str, make_scenario: Callable[..., Scenario]
+) -> None:
+    (lines,) = re.findall(r"^```ini\n(.*\n.*)\n```", guide, re.MULTILINE)
+
+    def power_w(mbps: int, *settings: str) -> float:
+        bitrate = f"**.wlan[*].bitrate = {mbps}Mbps"
+        return calibrate(make_scenario("class Tested(Talker): pass", bitrate, *settings), 100).tx_power_w
+
+    assert power_w(6) == pytest.approx(power_w(54))
+    assert power_w(6, *lines.splitlines()) < power_w(54, *lines.splitlines()) / 10

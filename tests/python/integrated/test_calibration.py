@@ -36,6 +36,24 @@ def test_half_of_the_frames_arrive_at_the_range() -> None:
     assert received_at_150_m(power) == pytest.approx(0.5, abs=0.06)  # five standard errors of 2000 frames
 
 
+def test_a_sensitivity_that_asks_for_more_power_than_the_noise_is_named() -> None:
+    deaf = "**.radio.receiver.sensitivity = -85dBm"
+    by_noise, by_sensitivity = calibrate(link(), 150), calibrate(link(deaf), 150)
+    assert by_noise.deciding_sensitivity_w is None
+    assert by_sensitivity.deciding_sensitivity_w == pytest.approx(10**-11.5)
+    slow = "**.wlan[*].bitrate = 6Mbps"
+    assert calibrate(link(deaf, slow), 150).tx_power_w == pytest.approx(by_sensitivity.tx_power_w)
+    assert calibrate(link(slow), 150).tx_power_w < by_noise.tx_power_w / 5
+
+
+def test_a_group_is_no_node_and_its_first_one_is_suggested() -> None:
+    with pytest.raises(ConfigError) as caught:
+        calibrate(link(), 150, receiver="receivers")
+    assert str(caught.value) == (
+        "there is no node `receivers`; expected one such as sender; did you mean `receivers[0]`?"
+    )
+
+
 def test_the_curve_goes_on_to_twice_the_range_and_falls() -> None:
     curve = calibrate(link(), 150).curve
     assert curve[-1][0] == pytest.approx(300)

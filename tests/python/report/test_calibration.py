@@ -10,9 +10,8 @@ from gradysim.integrated.calibration import Calibration
 from gradysim.report.calibration import check_picture, text
 
 
-@pytest.mark.parametrize(("interfaces", "wlan"), [(1, "wlan[*]"), (2, "wlan[0]")])
-def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: int, wlan: str) -> None:
-    calibration = Calibration(
+def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None) -> Calibration:
+    return Calibration(
         sender="relay",
         sender_interfaces=interfaces,
         receiver="relay",
@@ -23,9 +22,20 @@ def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: i
         bitrate_bps=24e6,
         frame_bytes=114,
         snr_at_range=10,
+        deciding_sensitivity_w=deciding_sensitivity_w,
         curve=(),
     )
-    assert f"    *.relay.{wlan}.radio.transmitter.power = 1mW" in text(calibration).splitlines()
+
+
+@pytest.mark.parametrize(("interfaces", "wlan"), [(1, "wlan[*]"), (2, "wlan[0]")])
+def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: int, wlan: str) -> None:
+    lines = text(calibration(interfaces)).splitlines()
+    assert f"    *.relay.{wlan}.radio.transmitter.power = 1mW" in lines
+
+
+def test_a_sensitivity_that_decides_is_told() -> None:
+    assert "sensitivity of -90 dBm decides" in text(calibration(deciding_sensitivity_w=1e-12))
+    assert "sensitivity" not in text(calibration())
 
 
 @pytest.mark.parametrize(
