@@ -7,6 +7,7 @@ resident memory at the end of a run of 100 million events within 1 MB of what it
 import gc
 import os
 import sys
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from gradysim.config.scenario import load_scenarios
@@ -50,28 +51,23 @@ def long_run() -> tuple[int, float]:
     return result.events, growth_kb
 
 
+def taken_kb(nodes: int) -> float:
+    """Return by how much a network of so many nodes makes this process grow."""
+    (scenario,) = load_scenarios(CONFIG, overrides=["sim-time-limit = 5s", f"*.numNodes = {nodes}"])
+    gc.collect()
+    before = resident_kb()
+    built = IntegratedRun(scenario)
+    built.execute()
+    return resident_kb() - before
+
+
 def per_node() -> float:
     """Return how many bytes a node takes, with its share of what the run needs: between 100 and 500 nodes."""
-
-    def peak_kb(nodes: int) -> float:
-        (scenario,) = load_scenarios(CONFIG, overrides=["sim-time-limit = 5s", f"*.numNodes = {nodes}"])
-        gc.collect()
-        before = resident_kb()
-        built = IntegratedRun(scenario)
-        built.execute()
-        return resident_kb() - before
-
-    # Each in a process of its own: what one run has given back would else serve the next.
     sizes = {}
     for nodes in (100, NODES):
-        child = os.fork()
-        if child == 0:
-            Path(f"/tmp/gradysim-memory-{os.getppid()}-{nodes}").write_text(str(peak_kb(nodes)))
-            os._exit(0)
-        os.waitpid(child, 0)
-        file = Path(f"/tmp/gradysim-memory-{os.getpid()}-{nodes}")
-        sizes[nodes] = float(file.read_text())
-        file.unlink()
+        # Each in a process of its own: what one run has given back would else serve the next.
+        with ProcessPoolExecutor(1) as process:
+            sizes[nodes] = process.submit(taken_kb, nodes).result()
     return (sizes[NODES] - sizes[100]) * 1024 / (NODES - 100)
 
 
