@@ -59,6 +59,14 @@ std::string bitrates_of_modes_mbps() {
     return text;
 }
 
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+    throw ConfigError("radio.ber_table_file = \"" + path + "\": " + what);
+}
+
+[[noreturn]] void refuse(const std::string& path, int line, const std::string& what) {
+    refuse(path, "line " + std::to_string(line) + ": " + what);
+}
+
 // A file of another kind, or of another encoding, could not even be shown.
 void check_ascii(const std::string& path, int number, std::string_view text) {
     for (const char character : text) {
@@ -66,9 +74,10 @@ void check_ascii(const std::string& path, int number, std::string_view text) {
         if (byte > 126 || (byte < 32 && byte != '\t')) {
             std::array<char, 8> code{};
             std::snprintf(code.data(), code.size(), "0x%02X", byte);
-            throw ConfigError(path + ":" + std::to_string(number) + ": the byte " + code.data() +
-                              " is no character of a number: expected a CSV file, a text with the line " +
-                              std::string(first_line));
+            refuse(path, number,
+                   std::string("the byte ") + code.data() +
+                       " is no character of a number: expected a CSV file, a text with the line " +
+                       std::string(first_line));
         }
     }
 }
@@ -79,9 +88,7 @@ public:
     Line(const std::string& path, int number, std::string_view text)
         : path_(path), number_(number), text_(text) {}
 
-    [[noreturn]] void refuse(const std::string& what) const {
-        throw ConfigError(path_ + ":" + std::to_string(number_) + ": " + what);
-    }
+    [[noreturn]] void refuse(const std::string& what) const { netsim::refuse(path_, number_, what); }
 
     Row row() const {
         std::array<double, 4> values{};
@@ -126,8 +133,7 @@ BerTableErrorModel::BerTableErrorModel(const std::string& path) {
     const bool is_folder = std::filesystem::is_directory(path, ignored);
     std::ifstream file(path);
     if (!file || is_folder) {
-        throw ConfigError("radio.ber_table_file = \"" + path + "\": expected a file that can be read" +
-                          (is_folder ? ", not a folder" : ""));
+        refuse(path, std::string("expected a file that can be read") + (is_folder ? ", not a folder" : ""));
     }
     bool is_first = true;
     int number = 0;
@@ -159,11 +165,11 @@ BerTableErrorModel::BerTableErrorModel(const std::string& path) {
         curve.push_back({row.snir_db, row.success});
     }
     if (number == 0) {
-        throw ConfigError(path + ": the file is empty; expected the line " + std::string(first_line) +
-                          ", and at least one line below");
+        refuse(path, "the file is empty; expected the line " + std::string(first_line) +
+                         ", and at least one line below");
     }
     if (rates_.empty()) {
-        Line(path, number, {}).refuse("expected at least one line below " + std::string(first_line));
+        refuse(path, number, "expected at least one line below " + std::string(first_line));
     }
 }
 

@@ -80,40 +80,41 @@ std::string refusal_of(const std::string& text) {
     const test::TemporaryFile file;
     std::ofstream(file.path()) << text;
     const std::string error = error_text([&] { BerTableErrorModel{file.path()}; });
-    EXPECT_EQ(error.substr(0, file.path().size()), file.path());
-    return error.substr(file.path().size());
+    const std::string place = "radio.ber_table_file = \"" + file.path() + "\": ";
+    EXPECT_EQ(error.substr(0, place.size()), place);
+    return error.substr(place.size());
 }
 
 TEST(BerTable, WhatIsMalformedIsRefusedAtItsLine) {
     const std::string start = header;
     EXPECT_EQ(refusal_of("6,100,3,0.5\n"),
-              ":1: \"6,100,3,0.5\": expected the line " + start.substr(0, start.size() - 1));
+              "line 1: \"6,100,3,0.5\": expected the line " + start.substr(0, start.size() - 1));
     EXPECT_EQ(refusal_of(start + "6,100,3\n"),
-              ":2: \"6,100,3\": expected four numbers, bitrate_mbps,psdu_bytes,snir_db,success");
-    EXPECT_EQ(refusal_of(start + "\n6,100,3dB,1\n"), ":3: \"3dB\": expected a number");
-    EXPECT_EQ(
-        refusal_of(start + "7,100,3,1\n"),
-        ":2: bitrate_mbps = 7: expected the bitrate of a mode, one of 1, 2, 5.5, 6, 9, 11, 12, 18, 24, 36, "
-        "48, 54");
+              "line 2: \"6,100,3\": expected four numbers, bitrate_mbps,psdu_bytes,snir_db,success");
+    EXPECT_EQ(refusal_of(start + "\n6,100,3dB,1\n"), "line 3: \"3dB\": expected a number");
+    EXPECT_EQ(refusal_of(start + "7,100,3,1\n"),
+              "line 2: bitrate_mbps = 7: expected the bitrate of a mode, one of 1, 2, 5.5, 6, 9, 11, 12, 18, "
+              "24, 36, "
+              "48, 54");
     EXPECT_EQ(refusal_of(start + "6,0.5,3,1\n"),
-              ":2: psdu_bytes = 0.5: expected a whole number of bytes from 1 on");
-    EXPECT_EQ(refusal_of(start + "6,100,3,1.5\n"), ":2: success = 1.5: expected from 0 to 1");
+              "line 2: psdu_bytes = 0.5: expected a whole number of bytes from 1 on");
+    EXPECT_EQ(refusal_of(start + "6,100,3,1.5\n"), "line 2: success = 1.5: expected from 0 to 1");
     EXPECT_EQ(refusal_of(start + "6,100,3,0.5\n6,100,2,0.6\n"),
-              ":3: snir_db = 2: expected more than the 3 before it, of the same bitrate and length");
+              "line 3: snir_db = 2: expected more than the 3 before it, of the same bitrate and length");
     EXPECT_EQ(refusal_of(start),
-              ":1: expected at least one line below bitrate_mbps,psdu_bytes,snir_db,success");
+              "line 1: expected at least one line below bitrate_mbps,psdu_bytes,snir_db,success");
 }
 
 TEST(BerTable, AnotherEncodingIsRefusedWithTheByte) {
     const std::string expected = " is no character of a number: expected a CSV file, a text with the line " +
                                  std::string(header).substr(0, std::string(header).size() - 1);
     EXPECT_EQ(refusal_of(std::string(header) + "24,100,10,0.5\n24,100,12\xB4,1\n"),
-              ":3: the byte 0xB4" + expected);
+              "line 3: the byte 0xB4" + expected);
     EXPECT_EQ(refusal_of(std::string("\x7F"
                                      "ELF",
                                      4)),
-              ":1: the byte 0x7F" + expected);
-    EXPECT_EQ(refusal_of(std::string("a\0b", 3)), ":1: the byte 0x00" + expected);
+              "line 1: the byte 0x7F" + expected);
+    EXPECT_EQ(refusal_of(std::string("a\0b", 3)), "line 1: the byte 0x00" + expected);
 }
 
 TEST(BerTable, AByteOrderMarkIsNoMatter) {
@@ -131,7 +132,7 @@ TEST(BerTable, CommentsMayBeInAnyEncoding) {
 
 TEST(BerTable, AnEmptyFileIsCalledOne) {
     EXPECT_EQ(refusal_of(""),
-              ": the file is empty; expected the line "
+              "the file is empty; expected the line "
               "bitrate_mbps,psdu_bytes,snir_db,success, and at least one line below");
 }
 

@@ -64,7 +64,7 @@ def test_noise_of_a_receiver_that_would_keep_its_channel_busy_is_an_error_there(
     assert error.value.key == "*.uavs[1].wlan[*].radio.receiver.energyDetection"
 
 
-def test_a_malformed_table_of_error_rates_is_refused_at_its_line(make_scenario, tmp_path):
+def test_a_malformed_table_of_error_rates_is_refused_where_it_is_named(make_scenario, tmp_path):
     table = tmp_path / "table.csv"
     table.write_text("bitrate_mbps,psdu_bytes,snir_db,success\n24,100,ten,0.5\n")
     scenario = make_scenario(
@@ -72,8 +72,9 @@ def test_a_malformed_table_of_error_rates_is_refused_at_its_line(make_scenario, 
         '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
         f'**.errorModel.berTableFile = "{table}"',
     )
-    with pytest.raises(ConfigError, match=r'table.csv:2: "ten": expected a number'):
+    with pytest.raises(ConfigError, match=r'table.csv": line 2: "ten": expected a number') as error:
         check_scenario(scenario)
+    assert error.value.key == "**.errorModel.berTableFile"
 
 
 @pytest.mark.parametrize(
