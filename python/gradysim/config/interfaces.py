@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from gradysim.config.bands import BAND, CHANNELS
+from gradysim.config.error import ConfigError
 from gradysim.config.groups import Group
 from gradysim.config.interface_spec import STRUCTS, InterfaceSpec
 from gradysim.config.key import Key
@@ -63,10 +64,22 @@ class InterfaceBuilder:
         known = tuple((key.path, entry) for key, entry in found.items())
         spec = self._known.get(known)
         if spec is None:
-            in_band = _of_802154(found) if self._is_802154(found) else self._in_its_band(found)
-            structs = {struct: read_struct(struct, in_band, self._settings) for struct in STRUCTS}
+            is_802154 = self._is_802154(found)
+            in_band = _of_802154(found) if is_802154 else self._in_its_band(found)
+            try:
+                structs = {struct: read_struct(struct, in_band, self._settings) for struct in STRUCTS}
+            except ConfigError as error:
+                channel = found.get(CHANNEL_NUMBER)
+                if channel is None or channel.entry.source != error.source or not self._has_typenames():
+                    raise
+                hint = _of_one_kind_only(node, index, is_802154)
+                raise ConfigError(error.message + hint, error.source) from error
             spec = self._known[known] = InterfaceSpec(**structs, range_sets_power=_range_comes_first(found))
         return spec
+
+    def _has_typenames(self) -> bool:
+        """Whether there may be interfaces of both kinds."""
+        return bool(self._lookup.candidates(INTERFACE_TYPENAME.path))
 
     def _is_802154(self, found: Mapping[Key, Found]) -> bool:
         chosen = found.get(INTERFACE_TYPENAME)
@@ -92,6 +105,17 @@ class InterfaceBuilder:
 def _of_802154(found: Mapping[Key, Found]) -> Mapping[Key, Found]:
     """Read a channel's number as 802.15.4 counts, in its only band."""
     return {OF_802154.get(key, key): entry for key, entry in found.items()}
+
+
+def _of_one_kind_only(node: str, index: int, is_802154: bool) -> str:
+    """The end of an error in a channel's number: the two standards count apart, and `**` meets both."""
+    kind, other = ("802.15.4", "802.11") if is_802154 else ("802.11", "802.15.4")
+    group, bracket, _ = node.partition("[")
+    line = f"*.{group}{bracket and '[*]'}.{at_interface(CHANNEL_NUMBER.path, index)} = default"
+    return (
+        f", since wlan[{index}] of {node} is of {kind}; a line before it, `{line}`, leaves it to those of"
+        f" {other}"
+    )
 
 
 def _range_comes_first(found: Mapping[Key, Found]) -> bool:

@@ -81,6 +81,37 @@ def test_a_channel_that_802154_has_not_is_refused(folder: Any, number: int) -> N
     )
 
 
+@pytest.mark.parametrize(
+    ("number", "told", "before", "expected"),
+    [
+        (
+            5,
+            "11 to 26 (2.405 GHz to 2.48 GHz), since wlan[0] of uavs[0] is of 802.15.4",
+            "*.uavs[*].wlan[0].radio.channelNumber = default\n",
+            [[2.437e9], [None], [None]],
+        ),
+        (
+            20,
+            "0 (2.412 GHz) to 13, since wlan[0] of groundStation is of 802.11",
+            "*.groundStation.wlan[0].radio.channelNumber = default\n",
+            [[None], [2.45e9], [2.45e9]],
+        ),
+    ],
+)
+def test_a_number_that_only_one_standard_has_can_be_kept_from_the_other(
+    folder: Any, number: int, told: str, before: str, expected: list[list[float | None]]
+) -> None:
+    line = f"**.channelNumber = {number}\n"
+    error = folder.error(SENSORS + line)
+    assert told in error
+    assert f"a line before it, `{before.strip()}`, leaves it to" in error
+    assert [carriers(node) for node in folder.load(SENSORS + before + line).nodes] == expected
+
+
+def test_a_wrong_channel_where_all_interfaces_are_alike_says_nothing_of_others(folder: Any) -> None:
+    assert folder.error("**.channelNumber = 20\n").endswith("0 (2.412 GHz) to 13")
+
+
 def test_an_802154_interface_reads_no_name_of_a_band(folder: Any) -> None:
     """A line with wildcards is meant for the others."""
     scenario = folder.load(SENSORS + '**.bandName = "5.9 GHz"\n')
