@@ -34,7 +34,8 @@ ANTENNA_KEYS: tuple[Key, ...] = (
         "beamWidth",
         "beam_width_rad",
         quantity("rad", above=0, shown="deg"),
-        "angle between the directions at half the power; has to be given",
+        "angle between the directions at half the power",
+        default="none: it has to be given",
     ),
     _dipole("wireAxis", "wire_axis", choice("x", "y", "z"), "the axis along which it lies"),
     _dipole(

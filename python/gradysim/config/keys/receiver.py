@@ -33,6 +33,7 @@ RECEIVER_KEYS: tuple[Key, ...] = (
         file_name(),
         "CSV of packet success over SNIR, seen from the .ini file; its format is this project's"
         " (docs/guides/receivers.md)",
+        default="none: it has to be given",
     ),
     _own(
         "errorModel.snirMode",
