@@ -5,16 +5,34 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-from gradysim.protocol.errors import NativeProtocolError
+from gradysim.protocol.errors import (
+    CommunicationException,
+    MasslessMobilityException,
+    NativeProtocolError,
+    TimerException,
+)
 
 PACKAGE = Path(__file__).resolve().parent.parent
+
+REFUSED_COMMANDS = (CommunicationException, MasslessMobilityException, TimerException)
+"""Their texts tell all. Where they are raised nobody needs, and integrated mode has no frames to show."""
 
 
 def print_failure(failure: BaseException, file: TextIO) -> None:
     """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out."""
     is_native = isinstance(failure, NativeProtocolError)
     frames = None if is_native else from_users_code(failure.__traceback__)
-    traceback.print_exception(type(failure), failure, frames, file=file)
+    told = traceback.TracebackException(type(failure), failure, frames)
+    if isinstance(failure, REFUSED_COMMANDS):
+        cut_behind_users_code(told.stack)
+    told.print(file=file)
+
+
+def cut_behind_users_code(stack: traceback.StackSummary) -> None:
+    """Take the frames of gradysim that the user's code called from the end of `stack`, if there is any."""
+    last = max((index for index, frame in enumerate(stack) if not is_ours(frame.filename)), default=None)
+    if last is not None:
+        del stack[last + 1 :]
 
 
 def from_users_code(frames: TracebackType | None) -> TracebackType | None:

@@ -1,6 +1,8 @@
 from io import StringIO
 
-from gradysim.protocol.errors import NativeProtocolError
+import pytest
+
+from gradysim.protocol.errors import CommunicationException, NativeProtocolError, TimerException
 from gradysim.report.failure import PACKAGE, from_users_code, print_failure
 
 USER = "/home/user/protocol.py"
@@ -59,6 +61,23 @@ def test_notes_are_printed():
     assert text.getvalue().splitlines()[0] == "Traceback (most recent call last):"
     assert text.getvalue().splitlines()[-2:] == ["RuntimeError: spoilt", "in handle_timer of node 3"]
     assert OURS not in text.getvalue()
+
+
+@pytest.mark.parametrize("kind", [CommunicationException, TimerException])
+def test_a_refused_command_ends_at_the_users_line(kind):
+    failure = failure_through(OURS, USER, OURS)
+    text = StringIO()
+    print_failure(kind("to nobody").with_traceback(failure.__traceback__), text)
+    assert USER in text.getvalue()
+    assert OURS not in text.getvalue()
+    assert text.getvalue().endswith("to nobody\n")
+
+
+def test_a_refused_command_of_our_own_is_shown_whole():
+    failure = failure_through(OURS, OURS)
+    text = StringIO()
+    print_failure(TimerException("in the past").with_traceback(failure.__traceback__), text)
+    assert text.getvalue().count(OURS) == 2
 
 
 def test_a_native_protocol_has_no_frames_to_show():
