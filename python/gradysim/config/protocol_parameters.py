@@ -1,20 +1,12 @@
 """The parameters of a protocol: its public class attributes that are plain values."""
 
-import inspect
 import re
 from dataclasses import replace
 from functools import cache, lru_cache
 
 from gradysim.config.kinds import Kind, boolean, integer, number_in, si_number, text
-from gradysim.config.parameter_unit import unit_of
+from gradysim.config.parameter_unit import annotations_of, unit_of
 from gradysim.protocol.interface import IProtocol
-
-
-def _annotations(cls: type) -> dict[str, object]:
-    try:
-        return dict(inspect.get_annotations(cls))
-    except NameError:  # names that exist for type checkers only; Python 3.14 looks them up here
-        return {}
 
 
 @cache
@@ -30,7 +22,7 @@ def _integer_of(unit: str | None) -> Kind:
 
 _BOOLEAN = boolean()
 _TEXT = text()
-_CONTRACT = {*dir(IProtocol), *_annotations(IProtocol)}
+_CONTRACT = {*dir(IProtocol), *annotations_of(IProtocol)}
 """Names that mean something to every environment."""
 
 
@@ -45,7 +37,7 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     for base in reversed(cls.__mro__):
         if base in IProtocol.__mro__:
             continue
-        annotations = _annotations(base)
+        annotations = annotations_of(base)
         for name, default in vars(base).items():
             if name.startswith("_") or name in _CONTRACT:
                 continue

@@ -1,4 +1,4 @@
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 import pytest
 
@@ -40,6 +40,42 @@ def test_the_end_of_a_name_says_it(name: str, unit: str) -> None:
 )
 def test_other_names_say_nothing(name: str) -> None:
     assert unit_of(Quiet, name) is None
+
+
+class Annotating(Quiet):
+    interval: Annotated[float, "s"] = 5.0
+    as_text: "Annotated[float, 'ms']" = 5.0
+    constant: ClassVar[Annotated[float, "m"]] = 1.0
+    size: Annotated[int, "B", "on the air"] = 10
+    delay_ms: Annotated[float, "us"] = 1.0
+    speed: Annotated[float, "fast"] = 1.0
+    plain: float = 1.0
+
+
+class Heir(Annotating):
+    interval = 2.0
+    size: int = 3
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("interval", "s"),
+        ("as_text", "ms"),
+        ("constant", "m"),
+        ("size", "B"),
+        ("delay_ms", "us"),
+        ("speed", None),
+        ("plain", None),
+    ],
+)
+def test_an_annotation_says_it(name: str, unit: str | None) -> None:
+    assert unit_of(Annotating, name) == unit
+
+
+@pytest.mark.parametrize(("name", "unit"), [("interval", "s"), ("size", None)])
+def test_the_last_annotation_counts(name: str, unit: str | None) -> None:
+    assert unit_of(Heir, name) == unit
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-from typing import ClassVar, Final
+from typing import Annotated, ClassVar, Final
 
 import pytest
 from hypothesis import given
@@ -21,6 +21,7 @@ class Mobile(Base):
     real_by_annotation: float = 0
     real_by_text: "float | None" = 0
     real_constant: ClassVar[float] = 0
+    interval: Annotated[float, "min"] = 5
     timeout_ms = 20.0
     power_w = 0.1
     power_mw = 100.0
@@ -58,6 +59,7 @@ def test_are_public_plain_class_attributes() -> None:
         "real_by_annotation",
         "real_by_text",
         "real_constant",
+        "interval",
         "timeout_ms",
         "power_w",
         "power_mw",
@@ -81,6 +83,11 @@ def test_floats_take_quantities_and_whole_numbers(name: str) -> None:
 @pytest.mark.parametrize("written", ["2s", "2000ms", "2000"])
 def test_what_says_its_unit_is_in_that(written: str) -> None:
     assert converted("timeout_ms", written) == 2000.0
+
+
+@pytest.mark.parametrize("written", ["90s", "1.5min", "1.5"])
+def test_what_is_annotated_with_its_unit_is_in_that(written: str) -> None:
+    assert converted("interval", written) == 1.5
 
 
 @pytest.mark.parametrize("written", ["20dBm", "0.1W", "100mW", "-10dBW"])
@@ -121,6 +128,7 @@ def test_other_types_are_kept() -> None:
         ("real", "true"),
         ("real", "nan"),
         ("timeout_ms", "5m"),
+        ("interval", "5m"),
         ("power_w", "3V"),
         ("power_mw", "3s"),
         ("power_mw", "3dB"),

@@ -30,7 +30,7 @@ PROTOCOL_PARAMETER = _protocol(
     "attribute",
     si_number(),
     "A public class attribute of the protocol, int, float, str or bool; quantities become SI units,"
-    " or what the name ends in: `_ms`, `_km`, `_deg`, `_dbm`",
+    ' or what its annotation says, `Annotated[float, "ms"]`, or its name ends in: `_ms`, `_km`, `_dbm`',
     default="the class's",
 )
 """Stands for all of them in lists of keys; `parameters_of` knows a class's."""
