@@ -50,9 +50,18 @@ const Mode& broadcast_mode(const InterfaceConfig& interface) {
 }
 
 int psdu_bytes_of(const InterfaceConfig& interface, int payload_bytes) {
-    const int mtu_bytes = is_narrowband(interface) ? narrowband_mtu_bytes : interface.mac.mtu_bytes;
-    check_between("payload_bytes", payload_bytes, 0, mtu_bytes - datagram_bytes(0), "B");
-    return is_narrowband(interface) ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
+    check_at_least("payload_bytes", payload_bytes, 0, "B");
+    const bool narrowband = is_narrowband(interface);
+    const int mtu_bytes = narrowband ? narrowband_mtu_bytes : interface.mac.mtu_bytes;
+    const int most_bytes = mtu_bytes - datagram_bytes(0);
+    if (payload_bytes > most_bytes) {
+        throw ConfigError(
+            "a message of " + text_of(payload_bytes) + " B is too long: expected at most " +
+            text_of(most_bytes) + " B, which " +
+            (narrowband ? "a frame of 802.15.4" : "mac.mtu_bytes = " + text_of(mtu_bytes) + " B") +
+            " leaves beside the headers of IPv4 and UDP");
+    }
+    return narrowband ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
 }
 
 double most_antenna_gain(const RadioConfig& radio) {

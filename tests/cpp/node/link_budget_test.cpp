@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "config/error_text.hpp"
 #include "netsim/error.hpp"
 #include "netsim/units.hpp"
 #include "support/recorder.hpp"
@@ -110,6 +111,19 @@ TEST(LinkBudget, AntennasHelpWithTheirLargestGain) {
     EXPECT_NEAR(budget_of(config).tx_power_w_for(100, 0.5), power_w / 4, power_w * 1e-6);
 }
 
+TEST(LinkBudget, AMessageHasToFitIntoAFrame) {
+    const MediumConfig medium;
+    EXPECT_EQ(error_text([&] { LinkBudget(medium, node(), node(), 2277); }),
+              "a message of 2277 B is too long: expected at most 2276 B, which mac.mtu_bytes = 2304 B leaves "
+              "beside the headers of IPv4 and UDP");
+    const NodeConfig narrowband = node(ieee802154_interface);
+    EXPECT_EQ(error_text([&] { LinkBudget(medium, narrowband, narrowband, 91); }),
+              "a message of 91 B is too long: expected at most 90 B, which a frame of 802.15.4 leaves beside "
+              "the headers of IPv4 and UDP");
+    EXPECT_EQ(error_text([&] { LinkBudget(medium, node(), node(), -1); }),
+              "payload_bytes = -1 B: expected at least 0 B");
+}
+
 TEST(LinkBudget, RefusesWhatHasNoAnswer) {
     EXPECT_THROW(budget_of(node(), MediumConfig(std::string(unit_disk_medium))), ConfigError);
     NodeConfig elsewhere = node();
@@ -118,7 +132,6 @@ TEST(LinkBudget, RefusesWhatHasNoAnswer) {
     NodeConfig of_another_mode = node();
     of_another_mode.wlan[0].mac.op_mode = "a";
     EXPECT_THROW(LinkBudget(MediumConfig(), node(), of_another_mode, payload_bytes), ConfigError);
-    EXPECT_THROW(LinkBudget(MediumConfig(), node(), node(), 3000), ConfigError);
     const LinkBudget budget = budget_of(node());
     EXPECT_THROW(budget.tx_power_w_for(-1, 0.5), ConfigError);
     EXPECT_THROW(budget.tx_power_w_for(50, 1), ConfigError);

@@ -111,12 +111,21 @@ def test_two_rays_that_cancel_are_why_no_power_reaches_a_range() -> None:
         ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` would be sender"),
         ({"range_m": 0.0}, "range_m = 0 m: expected more than 0 m"),
         ({"ratio": 1.0}, "ratio = 1: expected more than 0 and less than 1"),
-        ({"message_bytes": 3000}, "payload_bytes = 3000 B: expected from 0 B to 2276 B"),
+        (
+            {"message_bytes": 3000},
+            r"a message of 3000B is too long: .* 2276B, which wlan\[\*\]\.mac\.mtu = 2304B",
+        ),
     ],
 )
 def test_a_mistake_is_named(options: dict[str, object], text: str) -> None:
     with pytest.raises(ConfigError, match=text):
         calibrate(link(), **{"range_m": 50.0, **options})  # type: ignore[arg-type]
+
+
+def test_a_message_longer_than_the_mtu_is_an_error_at_its_line() -> None:
+    with pytest.raises(ConfigError, match="a message of 50B is too long: expected at most 12B") as error:
+        calibrate(link("**.mac.mtu = 40B"), 50)
+    assert error.value.key == "**.mac.mtu"
 
 
 def test_a_medium_without_powers_is_refused() -> None:
