@@ -26,49 +26,15 @@ py::dict named_counts(const Counts& counts, const Names& names) {
     return result;
 }
 
-// RTS and CTS take no room in the results of those who do not use them.
-bool is_shown(const Network& network, FrameKind kind) {
-    return (kind != FrameKind::rts && kind != FrameKind::cts) || network.frame_fates().frames(kind) > 0;
-}
-
-// Likewise fates of options of the receiver, in runs in which no copy met them.
-bool is_shown(const Network& network, FrameFate fate) {
-    if (!is_of_an_option(fate)) {
-        return true;
-    }
-    for (std::size_t kind = 0; kind < frame_kind_count; ++kind) {
-        for (const bool overheard : {false, true}) {
-            if (network.frame_fates().counts(static_cast<FrameKind>(kind),
-                                             overheard)[static_cast<std::size_t>(fate)] > 0) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
-
-py::dict shown_counts(const Network& network, const FrameFates::Counts& counts) {
-    py::dict result;
-    for (std::size_t index = 0; index < frame_fate_count; ++index) {
-        if (is_shown(network, static_cast<FrameFate>(index))) {
-            result[frame_fate_names[index]] = counts[index];
-        }
-    }
-    return result;
-}
-
 py::dict frame_fates(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
         const auto kind = static_cast<FrameKind>(index);
-        if (!is_shown(network, kind)) {
-            continue;
-        }
         const std::string name = frame_kind_names[index];
-        result[py::str(name)] = shown_counts(network, network.frame_fates().counts(kind, false));
+        result[py::str(name)] = named_counts(network.frame_fates().counts(kind, false), frame_fate_names);
         if (kind != FrameKind::broadcast) {
             result[py::str(name + " overheard")] =
-                shown_counts(network, network.frame_fates().counts(kind, true));
+                named_counts(network.frame_fates().counts(kind, true), frame_fate_names);
         }
     }
     return result;
@@ -78,10 +44,8 @@ py::dict frame_fates_at(const Network& network, NodeId receiver) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
         const auto kind = static_cast<FrameKind>(index);
-        if (is_shown(network, kind)) {
-            result[frame_kind_names[index]] =
-                shown_counts(network, network.frame_fates().counts_at(network.node(receiver).id(), kind));
-        }
+        result[frame_kind_names[index]] = named_counts(
+            network.frame_fates().counts_at(network.node(receiver).id(), kind), frame_fate_names);
     }
     return result;
 }
@@ -109,26 +73,11 @@ py::dict frames_by_bitrate(const Network& network, NodeId node) {
     return result;
 }
 
-// The same holds for channel access failures.
-bool is_shown(const Network& network, MessageFate fate) {
-    const auto count = [&](MessageKind kind) {
-        return network.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
-    };
-    return fate != MessageFate::access_failure ||
-           count(MessageKind::broadcast) + count(MessageKind::unicast) > 0;
-}
-
 py::dict message_fates(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < message_kind_count; ++index) {
-        const auto counts = network.message_fates().counts(static_cast<MessageKind>(index));
-        py::dict fates;
-        for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
-            if (is_shown(network, static_cast<MessageFate>(fate))) {
-                fates[message_fate_names[fate]] = counts[fate];
-            }
-        }
-        result[message_kind_names[index]] = fates;
+        result[message_kind_names[index]] =
+            named_counts(network.message_fates().counts(static_cast<MessageKind>(index)), message_fate_names);
     }
     return result;
 }

@@ -345,8 +345,8 @@ class Network:
     def frame_fates(self) -> dict[str, dict[str, int]]:
         """Copies of frames, {kind: {fate: count}}.
 
-        Kinds: "broadcast", "unicast", "unicast overheard", "ack", "ack overheard", and if any was
-        sent "rts", "rts overheard", "cts", "cts overheard".
+        Kinds: "broadcast", "unicast", "unicast overheard", "ack", "ack overheard", "rts",
+        "rts overheard", "cts", "cts overheard".
         """
     def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
         """The same for the copies at one node that were strong enough to be received."""
@@ -355,7 +355,4 @@ class Network:
     def frames_by_bitrate(self, node: int) -> dict[int, int]:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
     def message_fates(self) -> dict[str, dict[str, int]]:
-        """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}.
-
-        "channel_access_failure" is among the fates if there was any.
-        """
+        """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""

@@ -61,7 +61,7 @@ def ours(config: str, acks: bool, stations: int) -> tuple[Measured, ...]:
     def measure(seed: int) -> Measured:
         result = run_reference("narrowband_contention", config, seed=seed, overrides=overrides)
         fates = result.fates["messages"]["unicast"]
-        no_access, no_ack = fates.get("channel_access_failure", 0), fates["retry_limit"]
+        no_access, no_ack = fates["channel_access_failure"], fates["retry_limit"]
         done = fates["sent"] + fates["acknowledged"] + no_access + no_ack
         return {
             THROUGHPUT: tracked(result, "received", "sink")[0] * MESSAGE_KBIT / MEASURED_S,

@@ -38,11 +38,6 @@ constexpr std::size_t frame_fate_count = 10;
 constexpr std::array<const char*, frame_fate_count> frame_fate_names{
     "delivered",       "below_sensitivity",   "noise",        "interference", "receiver_transmitting",
     "receiver_locked", "preamble_undetected", "header_error", "captured",     "in_air"};
-// Of options that are off by default: results of runs without such copies need not speak of them.
-constexpr bool is_of_an_option(FrameFate fate) {
-    return fate == FrameFate::preamble_undetected || fate == FrameFate::header_error ||
-           fate == FrameFate::captured;
-}
 
 // What the ledger wants to know of a frame. Travels with its transmission.
 struct FrameLabel {

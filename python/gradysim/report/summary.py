@@ -24,6 +24,12 @@ FATE_TITLES = {
     "messages": "Messages",
 }
 
+OF_OPTIONS = {
+    *("preamble_undetected", "header_error", "captured", "channel_access_failure"),
+    *("rts", "rts overheard", "cts", "cts overheard"),
+}
+"""Fates and kinds of frames that take no room in the summaries of those who do not use them."""
+
 
 def print_summary(result: RunResult, console: Console) -> None:
     """Print the summary of `result`."""
@@ -40,7 +46,7 @@ def summary(result: RunResult) -> RenderableType:
             parts.append(Text(f"… and {len(result.nodes) - len(shown):,} more nodes; --json has all"))
     for what, kinds in result.fates.items():
         if has_counts(kinds):
-            parts += [title(FATE_TITLES.get(what, what)), FateTables(kinds)]
+            parts += [title(FATE_TITLES.get(what, what)), FateTables(counted(kinds))]
     return Group(*parts)
 
 
@@ -106,6 +112,16 @@ def short(value: object) -> str:
     is_nan = isinstance(value, Real) and value != value
     text = "nan" if is_nan else str(plain_value(value))
     return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 1] + "…"
+
+
+def counted(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, dict[str, int]]:
+    """Return {kind: {fate: count}} without what belongs to an option, and of which there was nothing."""
+    met = {fate for counts in kinds.values() for fate, count in counts.items() if count}
+    return {
+        kind: {fate: count for fate, count in counts.items() if fate in met or fate not in OF_OPTIONS}
+        for kind, counts in kinds.items()
+        if any(counts.values()) or kind not in OF_OPTIONS
+    }
 
 
 def has_counts(kinds: Mapping[str, Mapping[str, int]]) -> bool:

@@ -1,4 +1,4 @@
-"""RTS and CTS are in the results of runs that use them, and only there."""
+"""RTS and CTS are counted in the results of runs that use them."""
 
 from pathlib import Path
 
@@ -10,11 +10,8 @@ from gradysim.integrated.run import run
 HIDDEN = Path(__file__).parents[3] / "configs" / "reference" / "hidden.ini"
 
 
-@pytest.mark.parametrize(("config", "kinds"), [("General", set()), ("RtsCts", {"rts", "cts"})])
-def test_rts_and_cts_are_counted_if_any_was_sent(config: str, kinds: set[str]) -> None:
+@pytest.mark.parametrize(("config", "any_sent"), [("General", False), ("RtsCts", True)])
+def test_rts_and_cts_are_counted(config: str, any_sent: bool) -> None:
     (scenario,) = load_scenarios(HIDDEN, config, overrides=["sim-time-limit = 50ms"])
     frames = run(scenario).fates["frames"]
-    assert set(frames) == {"broadcast"} | {
-        kind + suffix for kind in {"unicast", "ack", *kinds} for suffix in ("", " overheard")
-    }
-    assert all(frames[kind]["delivered"] > 0 for kind in kinds)
+    assert all((frames[kind]["delivered"] > 0) is any_sent for kind in ("rts", "cts"))

@@ -18,6 +18,19 @@ def test_fates_count_what_was_sent(make_scenario):
     assert fates["frames"]["broadcast"]["delivered"] == 40
 
 
+def test_fates_of_options_are_in_all_results(make_scenario):
+    """So that who reads results need not ask which there are."""
+    fates = run(make_scenario()).fates
+    sent_to_one = ("unicast", "ack", "rts", "cts")
+    kinds = {"broadcast", *sent_to_one, *(f"{kind} overheard" for kind in sent_to_one)}
+    assert fates["frames"].keys() == kinds
+    assert all(
+        counts.keys() >= {"delivered", "preamble_undetected", "header_error", "captured"}
+        for counts in fates["frames"].values()
+    )
+    assert fates["messages"]["unicast"]["channel_access_failure"] == 0
+
+
 def test_position_at_the_end(make_scenario):
     scenario = make_scenario(
         "class Tested(Quiet):\n"

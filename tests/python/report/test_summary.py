@@ -85,6 +85,20 @@ def test_a_table_of_nothing_is_left_out():
     assert "Fates" not in printed(fates={"frames": {"broadcast": {"delivered": 0}}})
 
 
+def test_what_belongs_to_options_is_shown_where_there_was_any():
+    kinds = {
+        "unicast": {"delivered": 1, "noise": 0, "captured": 2, "header_error": 0},
+        "ack": {"delivered": 0, "noise": 0, "captured": 0, "header_error": 0},
+        "rts": {"delivered": 0, "noise": 0, "captured": 0, "header_error": 0},
+        "cts": {"delivered": 3, "noise": 0, "captured": 0, "header_error": 0},
+    }
+    lines = [line.split() for line in printed(fates={"frames": kinds}).splitlines()]
+    assert ["fate", "unicast", "ack", "cts"] in lines
+    assert ["noise", "0", "0", "0"] in lines
+    assert ["captured", "2", "0", "0"] in lines
+    assert not any("header" in line for line in lines)
+
+
 def test_prototype_mode_has_no_fingerprint():
     assert "fingerprint" not in printed(fingerprint=None)
 
