@@ -36,7 +36,7 @@ class TelemetryGroup:
         """
         if update < self._due:
             return False
-        self._count = max(self._count, math.floor(update / self._interval)) + 1
+        self._count += 1
         self._due = math.ceil(self._count * self._interval)
         return True
 
