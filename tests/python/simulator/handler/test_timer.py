@@ -40,6 +40,13 @@ def test_several_timers_of_one_name_all_fire(world, handler, node):
     assert node.protocol_encapsulator.calls == [(1, "a"), (1, "a"), (2, "a")]
 
 
+def test_nothing_is_kept_of_a_timer_that_fired(world, handler, node):
+    for time in (1, 2):
+        handler.set_timer(f"a name of its own {time}", time, node)
+    world.run()
+    assert handler._pending == {node.id: {}}
+
+
 def test_a_timer_for_now_fires(world, handler, node):
     handler.set_timer("a", 0, node)
     world.run()

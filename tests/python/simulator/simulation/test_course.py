@@ -53,6 +53,13 @@ def test_at_the_end_it_is_as_late_as_the_duration_says():
     assert times == [5]
 
 
+def test_ended_before_an_event_at_the_very_end_it_has_not_got_there():
+    simulator = build(timers(1, 5), duration=5)
+    simulator.run_events(1)
+    simulator.finalize()
+    assert simulator.current_time == 1
+
+
 def test_it_ends_after_so_many_events():
     tested = timers(1, 2, 3)
     build(tested, max_iterations=2).start_simulation()

@@ -12,6 +12,11 @@ def test_real_time(wall_clock, real_time, wall_s):
     assert wall_clock.now - 100 == wall_s
 
 
+def test_an_event_at_the_very_end_is_waited_for(wall_clock):
+    build(timers(10), real_time=True, duration=10).start_simulation()
+    assert wall_clock.now - 100 == 10
+
+
 def test_real_time_can_be_turned_off(wall_clock):
     with simulation._ForceFastExecution():
         build(timers(10), real_time=True).start_simulation()

@@ -12,7 +12,7 @@ from gradysim.protocol.messages.mobility import (
     SetSpeedMobilityCommand,
     SetVelocityMobilityCommand,
 )
-from gradysim.protocol.position import geo_to_cartesian
+from gradysim.protocol.position import geo_to_cartesian, squared_distance
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler import mobility
 from gradysim.simulator.handler.mobility import (
@@ -78,6 +78,15 @@ def test_the_target_is_reached_exactly(world, handler):
     handler.handle_command(GotoCoordsMobilityCommand(1.7, -2.9, 3.1), node)
     world.run(5.0)
     assert node.position == (1.7, -2.9, 3.1)
+
+
+def test_a_target_at_exactly_one_step_is_reached_exactly(world, handler):
+    target = (5.9, 7.1, 0.8)  # x / distance * distance is not x, by rounding
+    node = world.node(0, handler=handler)
+    handler.handle_command(GotoCoordsMobilityCommand(*target), node)
+    handler.handle_command(SetSpeedMobilityCommand(2 * math.sqrt(squared_distance((0, 0, 0), target))), node)
+    world.run(0.5)
+    assert node.position == target
 
 
 def test_the_speed_can_be_set(world, handler):
