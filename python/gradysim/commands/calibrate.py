@@ -1,0 +1,76 @@
+"""`gradysim calibrate`: the transmitter power for a range."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
+from gradysim.commands.exit_code import OK, say_mistake
+from gradysim.commands.scenarios import load
+
+if TYPE_CHECKING:
+    from gradysim.config.kinds import Kind, Scalar
+
+
+def calibrate_power(
+    file: FileArgument,
+    /,
+    *,
+    config: ConfigOption = "General",
+    range_text: Annotated[
+        str, Parameter(name="--range", allow_leading_hyphen=True, help="The wanted range, such as 50m.")
+    ],
+    ratio: Annotated[float, Parameter(help="Share of the frames that is to be received there.")] = 0.5,
+    message: Annotated[
+        str, Parameter(allow_leading_hyphen=True, help="Length of the message in a frame.")
+    ] = "50B",
+    sender: Annotated[str | None, Parameter(help="Node that sends; by default the first one.")] = None,
+    receiver: Annotated[
+        str | None, Parameter(help="Node that receives; by default another one like the sender.")
+    ] = None,
+    picture: Annotated[
+        Path | None, Parameter(help="Draw reception over distance into this file (.png, .svg, .pdf).")
+    ] = None,
+    settings: SetOption = (),
+) -> int:
+    """Find the transmitter power for a wanted range under the models of a configuration."""
+    from gradysim.config.error import ConfigError
+    from gradysim.config.kinds import quantity, whole_bytes
+    from gradysim.integrated.calibration import calibrate
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.report import calibration
+
+    try:
+        scenario = load(file, config, "0", settings)[0]
+        if picture is not None:
+            calibration.check_picture(picture)
+        found = calibrate(
+            scenario,
+            range_m=float(option_value("--range", range_text, quantity("m", at_least=0))),
+            ratio=ratio,
+            message_bytes=int(option_value("--message", message, whole_bytes())),
+            sender=sender,
+            receiver=receiver,
+        )
+        print(calibration.text(found, sys.stdout.encoding))
+        if picture is not None:
+            calibration.draw(found, picture)
+            print(f"drawn in {picture}")
+    except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as mistake:
+        return say_mistake(mistake)
+    return OK
+
+
+def option_value(option: str, text: str, kind: "Kind") -> "Scalar":
+    """Return the value that an option says. Raises ConfigError, which names the option."""
+    from gradysim.config.error import BadValue, ConfigError
+    from gradysim.config.expression import parse_value
+
+    try:
+        return kind.convert(parse_value(text))
+    except BadValue as error:
+        raise ConfigError(
+            f"{option} {text}: {error.problem}; expected {kind.expected}{error.suggestion}"
+        ) from error

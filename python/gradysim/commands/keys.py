@@ -1,0 +1,41 @@
+"""`gradysim keys`: the keys of .ini files."""
+
+import sys
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from gradysim.commands.exit_code import MISTAKE, OK
+
+
+def list_keys(
+    pattern: Annotated[str, Parameter(name="PATTERN", help="Part of a key, or a pattern with *.")] = "",
+    /,
+    *,
+    markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
+) -> int:
+    """List the keys of .ini files: unit, default, meaning."""
+    from gradysim.config.key_list import key_sections, matching
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.integrated.engine_defaults import engine_defaults
+    from gradysim.integrated.native_protocols import native_protocols
+    from gradysim.report import key_table
+
+    try:
+        structs, natives = engine_defaults(), list(native_protocols().values())
+    except CompiledPartMissingError:
+        structs, natives = {}, []
+        print("defaults shown as ? are the compiled part's, which is not installed", file=sys.stderr)
+    sections = matching(key_sections(structs, natives), pattern)
+    if not sections:
+        print(f"no key contains {pattern!r}; `gradysim keys` lists all", file=sys.stderr)
+        return MISTAKE
+    if markdown:
+        print(key_table.markdown(sections), end="")
+    elif sys.stdout.isatty():
+        from rich.console import Console
+
+        Console().print(key_table.rich_tables(sections))
+    else:
+        print(key_table.plain_text(sections), end="")
+    return OK

@@ -1,0 +1,162 @@
+"""`gradysim run`: carries out runs one after the other, and says what came out."""
+
+import contextlib
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TextIO
+
+from cyclopts import Parameter
+
+from gradysim.commands.arguments import ConfigOption, FileArgument, Mode, SetOption
+from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK, say_mistake
+from gradysim.commands.scenarios import load
+from gradysim.commands.simulators import captures, capturing_simulator, files_written, simulator
+from gradysim.commands.warnings import (
+    warn_of_equal_seeds,
+    warn_of_shadowed_lines,
+    warn_of_what_is_seldom_meant,
+)
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+    from gradysim.report.supervised_run import Outcome, Run
+    from gradysim.results.run_result import RunResult
+
+PcapOption = Annotated[
+    tuple[str, ...],
+    Parameter(
+        negative="",
+        consume_multiple=(1, None),
+        show_default=False,
+        help="NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap"
+        " (that of its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a"
+        " group (uavs), or all.",
+    ),
+]
+
+
+def run(
+    file: FileArgument,
+    /,
+    *,
+    config: ConfigOption = "General",
+    runs: Annotated[
+        str | None,
+        Parameter(alias="-r", help="Run numbers such as 0..3,5; all runs of the configuration by default."),
+    ] = None,
+    mode: Annotated[
+        Mode, Parameter(help="The 802.11 network of the compiled engine, or the plain simulator in Python.")
+    ] = "integrated",
+    settings: SetOption = (),
+    seed: Annotated[
+        int | None, Parameter(help="Seed of run 0, to which run N adds N; by default the file's seed-set.")
+    ] = None,
+    result_dir: Annotated[
+        Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.MODE.json.")
+    ] = None,
+    pcap: PcapOption = (),
+    as_json: Annotated[
+        bool,
+        Parameter(name="--json", negative="", help="Print one JSON object per run, one per line, no more."),
+    ] = False,
+    quiet: Annotated[bool, Parameter(negative="", help="No progress bar.")] = False,
+) -> int:
+    """Run the runs of a configuration and say what came out."""
+    from gradysim.config.error import ConfigError
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.report.interrupt import StopOnInterrupt
+
+    output = sys.stdout
+    # What protocols print, also when they are imported, must not get between the JSON objects.
+    with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
+        try:
+            if result_dir is not None:
+                make_result_dir(result_dir)
+            scenarios = load(file, config, runs, settings, seed)
+            check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
+            warn_of_equal_seeds(scenarios)
+            warn_of_shadowed_lines(file, config)
+            for scenario in scenarios:
+                check(scenario)
+            if mode == "integrated":
+                warn_of_what_is_seldom_meant(scenarios)
+            with StopOnInterrupt() as interrupt:
+                for done, scenario in enumerate(scenarios):
+                    if interrupt.should_stop():  # pressed between two runs
+                        say_unfinished(scenarios, done)
+                        return INTERRUPTED
+                    bar = not quiet and not as_json
+                    outcome = run_one(build, scenario, interrupt.should_stop, bar=bar)
+                    code = report(outcome, output, result_dir, as_json=as_json)
+                    if pcap and outcome.result is not None:
+                        for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
+                            print(f"captured in {capture}")
+                    if code != OK:
+                        say_unfinished(scenarios, done, "failed" if code == FAILED else "was interrupted")
+                        return code
+        except (ConfigError, CompiledPartMissingError, OSError) as mistake:
+            return say_mistake(mistake)
+    return OK
+
+
+def make_result_dir(directory: Path) -> None:
+    """Make the folder of --result-dir. Raises ConfigError, which names the option."""
+    from gradysim.config.error import ConfigError
+
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = "it is a file" if directory.is_file() else error.strerror or str(error)
+        raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
+
+
+def run_one(
+    build: "Callable[[Scenario], Run]", scenario: "Scenario", should_stop: Callable[[], bool], *, bar: bool
+) -> "Outcome":
+    """Carry out one run, with a progress bar if `bar` and the error output is a terminal."""
+    from rich.console import Console
+
+    from gradysim.report.supervised_run import carry_out
+
+    console = Console(stderr=True) if bar and sys.stderr.isatty() else None
+    return carry_out(build, scenario, should_stop, console)
+
+
+def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool) -> int:
+    """Show and write what came out of a run, and return the exit code."""
+    from gradysim.report.failure import print_failure
+    from gradysim.results.run_file import write_run_file
+
+    if outcome.failure is not None:
+        print_failure(outcome.failure, sys.stderr)
+    if outcome.result is not None:
+        show(outcome.result, output, as_json=as_json)
+        if result_dir is not None:
+            print(f"written to {write_run_file(outcome.result, result_dir)}")
+    if outcome.failure is not None:
+        return FAILED
+    return INTERRUPTED if outcome.interrupted else OK
+
+
+def say_unfinished(scenarios: "Sequence[Scenario]", done: int, how: str = "") -> None:
+    """Say on the error output which of several runs are not there."""
+    from gradysim.report.unfinished_runs import text_of_unfinished
+
+    if len(scenarios) > 1:
+        numbers = [scenario.run_number for scenario in scenarios]
+        print(text_of_unfinished(scenarios[0].config, numbers, done, how), file=sys.stderr)
+
+
+def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
+    """Print a result: a line of JSON, or the summary for people."""
+    if as_json:
+        print(json.dumps(result.to_json_object()), file=output, flush=True)
+        return
+    from rich.console import Console
+
+    from gradysim.report.summary import print_summary
+
+    print_summary(result, Console(file=output))
+    print(file=output)

@@ -1,0 +1,17 @@
+"""`gradysim runs`: the runs of a configuration."""
+
+from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
+from gradysim.commands.exit_code import OK, say_mistake
+from gradysim.commands.scenarios import load
+
+
+def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
+    """List the runs of a configuration."""
+    from gradysim.config.error import ConfigError
+
+    try:
+        for scenario in load(file, config, None, settings):
+            print(f"Run {scenario.run_number}: $repetition={scenario.run_number}")
+    except ConfigError as mistake:
+        return say_mistake(mistake)
+    return OK

@@ -1,0 +1,40 @@
+"""What is told before runs that go on all the same."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+
+
+def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output that runs share a seed."""
+    seeds = {scenario.seed for scenario in scenarios}
+    if len(seeds) < len(scenarios):
+        same = f"seed {seeds.pop()}" if len(seeds) == 1 else "only a few different seeds"
+        print(
+            f"warning: the {len(scenarios)} runs of {scenarios[0].config} have {same}: runs with one seed are"
+            " identical if nothing else depends on ${runnumber}; `seed-set = ${runnumber}` is the default",
+            file=sys.stderr,
+        )
+
+
+def warn_of_shadowed_lines(file: Path, config: str) -> None:
+    """Say on the error output which lines of the file have no effect, because of others above them."""
+    from gradysim.config.shadowed_lines import shadowed_lines
+
+    for text in shadowed_lines(file, config):
+        print(text, file=sys.stderr)
+
+
+def warn_of_what_is_seldom_meant(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which lines nothing reads, and the like."""
+    from gradysim.integrated.scenario_warnings import scenario_warnings
+
+    different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}
+    for text in dict.fromkeys(
+        text for scenario in different.values() for text in scenario_warnings(scenario)
+    ):
+        print(text, file=sys.stderr)
