@@ -2,6 +2,7 @@
 
 import csv
 import importlib
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -76,6 +77,17 @@ def test_statistics_are_written(run: Run) -> None:
     assert list(values[0]) == ["", "simulation_time", "heard"]
     assert len(values) == len(times) + heard
     assert values[-1]["heard"] == str(heard)
+
+
+def test_runs_with_the_label_that_it_shows_leave_files_of_their_own(guide: Path, root: Path) -> None:
+    from gradysim.prototype.run import run
+
+    (label,) = re.findall(r"`(\*\S+ = .*runnumber.*)`", (root / "docs/guides/plugins.md").read_text())
+    for scenario in load_scenarios(guide / "guide.ini", "Count", overrides=[label, "repeat = 2"]):
+        run(scenario)
+    assert {file.name for file in guide.glob("tracked_variables_*_0.csv")} == {
+        f"tracked_variables_run{number}_Counter_0.csv" for number in (0, 1)
+    }
 
 
 def test_pings_are_answered_and_not_seen(run: Run) -> None:

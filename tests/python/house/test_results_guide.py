@@ -1,10 +1,7 @@
 """What docs/guides/results.md shows runs with the README's first protocol, and its table names all fields."""
 
 import json
-import os
 import re
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,60 +10,40 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config.scenario import Scenario
+from gradysim.config import Scenario
 from gradysim.prototype.run import run
 
+GUIDE = "docs/guides/results.md"
 
-def blocks(document: Path, language: str) -> list[str]:
-    """The snippets of a document in one language."""
-    return re.findall(rf"^```{language}\n(.*?)^```", document.read_text(encoding="utf-8"), re.M | re.S)
-
-
-@pytest.fixture
-def guide(root: Path) -> Path:
-    return root / "docs/guides/results.md"
+CodeBlocks = Callable[[str, str], list[str]]
 
 
 @pytest.fixture
-def shown(guide: Path) -> dict[str, Any]:
+def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
     """The functions that it defines."""
     names: dict[str, Any] = {}
-    for program in blocks(guide, "python"):
-        exec(program, names)
+    exec("\n".join(code_blocks(GUIDE, "python")), names)
     return names
 
 
 @pytest.fixture
-def folder(root: Path, tmp_path: Path) -> Path:
+def folder(code_blocks: CodeBlocks, tmp_path: Path) -> Path:
     """A folder with the first protocol."""
     for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
-        (tmp_path / name).write_text(blocks(root / "README.md", language)[0], encoding="utf-8")
+        (tmp_path / name).write_text(code_blocks("README.md", language)[0], encoding="utf-8")
     return tmp_path
 
 
-@pytest.fixture
-def runs(guide: Path, folder: Path) -> Path:
-    """The file that its commands write."""
-    (commands,) = blocks(guide, "sh")
-    for line in commands.splitlines():
-        command, target = re.split(r" >>? ", line)
-        done = subprocess.run(
-            [sys.executable, "-m", *command.split()],
-            cwd=folder,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-            capture_output=True,
-            check=True,
-        )
-        with (folder / target).open("ab") as file:
-            file.write(done.stdout)
-    return folder / "runs.jsonl"
-
-
-def test_rows_of_both_modes_come_out_of_the_file(runs: Path, shown: dict[str, Any]) -> None:
-    rows = list(shown["rows"](str(runs)))
+def test_rows_of_both_modes_come_out_of_the_file(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], folder: Path, shown: dict[str, Any]
+) -> None:
+    (commands,) = code_blocks(GUIDE, "sh")
+    shell(commands, folder)
+    file = str(folder / "runs.jsonl")
+    rows = list(shown["rows"](file))
     assert len(rows) == 2 * 5 * 4
     assert rows[0].keys() == {"mode", "run", "node", "heard"}
-    assert shown["heard"](str(runs), "prototype") == (177, 0)
+    assert shown["heard"](file, "prototype") == (177, 0)
 
 
 def test_an_interrupted_run_is_left_out(folder: Path, shown: dict[str, Any]) -> None:
@@ -82,6 +59,7 @@ def test_its_study_compares_both_modes(folder: Path, shown: dict[str, Any]) -> N
     assert totals[-2:] == [("100ms", "prototype", 2, 708), ("100ms", "integrated", 2, 708)]
 
 
-def test_its_table_has_all_fields(guide: Path, make_scenario: Callable[..., Scenario]) -> None:
-    names = set(re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`.*?) \|", guide.read_text(), re.M))))
+def test_its_table_has_all_fields(root: Path, make_scenario: Callable[..., Scenario]) -> None:
+    rows = re.findall(r"^\| (`.*?) \|", (root / GUIDE).read_text(), re.MULTILINE)
+    names = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
     assert names == set(run(make_scenario()).to_json_object())

@@ -13,7 +13,7 @@ MOBILITY_KEYS: tuple[Key, ...] = (
         "typename",
         "typename",
         choice("MasslessMobility", "StationaryMobility"),
-        "How it moves: as its protocol says, or not at all",
+        "How it moves: as its protocol says (missions, random waypoints: docs/guides/plugins.md), or not",
     ),
     _start(
         "initialX",

@@ -117,7 +117,7 @@ class MissionMobilityPlugin:
             text = Path(mission_file_path).read_text(encoding="utf-8-sig")
         except (OSError, UnicodeDecodeError) as error:
             raise MissionMobilityPluginException(
-                f"cannot read the mission file {mission_file_path}: {error}"
+                f"cannot read the mission file {Path(mission_file_path).absolute()}: {error}"
             ) from error
         mission: list[Position] = []
         for number, line in enumerate(text.splitlines(), start=1):

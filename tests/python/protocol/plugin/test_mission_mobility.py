@@ -1,4 +1,5 @@
 import math
+import re
 
 import pytest
 from hypothesis import given
@@ -245,9 +246,10 @@ def test_a_malformed_file_is_refused_with_its_line(protocol, tmp_path, line):
         MissionMobilityPlugin(protocol).start_mission_with_waypoint_file(str(path))
 
 
-def test_a_missing_file_is_refused(protocol, tmp_path):
-    with pytest.raises(MissionMobilityPluginException, match=r"nowhere\.txt"):
-        MissionMobilityPlugin(protocol).start_mission_with_waypoint_file(str(tmp_path / "nowhere.txt"))
+def test_a_missing_file_is_refused_with_the_place_where_it_was_looked_for(protocol, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(MissionMobilityPluginException, match=re.escape(f" {tmp_path}/nowhere.txt: ")):
+        MissionMobilityPlugin(protocol).start_mission_with_waypoint_file("nowhere.txt")
 
 
 def test_an_empty_file_is_refused(protocol, tmp_path):
