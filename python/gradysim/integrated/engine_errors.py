@@ -79,7 +79,7 @@ def _told(text: str, settings: Mapping[str, Setting]) -> ConfigError:
     target = named[0]
     place = settings.get(_nearest(named, settings))
     value = re.match(rf'{re.escape(field[0])} = ("[^"]*"|\S+(?: [A-Za-z/]+)?): ', text)
-    if value is None or field.start() > 0:
+    if value is None:
         told = in_ini_terms(text, target)
     else:
         shown, rest = (in_ini_terms(part, target) for part in (value[1], text[value.end() :]))

@@ -33,6 +33,13 @@ def test_an_error_that_names_no_setting_is_one_without_a_place():
     assert error_of("nothing works", {"radio.tx_power_w": setting(0)}) == "nothing works"
 
 
+def test_an_error_that_knows_its_place_is_left_alone():
+    known = ConfigError("mac.cw_min = 7: wrong", Source(Path("a.ini"), 3))
+    with pytest.raises(ConfigError) as error, errors_at({"mac.cw_min": setting(7, "cwMin")}):
+        raise known
+    assert error.value is known
+
+
 def test_the_field_that_is_named_first_is_the_wrong_one():
     settings = {"mac.cw_max": setting(3, "cwMax"), "mac.cw_min": setting(7, "cwMin")}
     told = error_of("mac.cw_min = 7: expected at most mac.cw_max", settings)

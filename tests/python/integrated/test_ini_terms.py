@@ -34,6 +34,7 @@ def test_fields_have_the_names_of_their_keys(text, name):
         ("3 interfaces, from wlan[0] on", "", "3 interfaces, from wlan[0] on"),
         ("rates 6, 9 and 12 Mbps", "mac.bitrate_bps", "rates 6, 9 and 12 Mbps"),
         ("-20 dB", "medium.sigma_db", "-20dB"),
+        ("300 dB: expected at most 100 dB", "medium.k_db", "300dB: expected at most 100dB"),
         ("5 m/s", "mobility.speed_mps", "5mps"),
     ],
 )

@@ -14,6 +14,7 @@ from gradysim.simulator.handler.visualization import (
     VisualizationException,
     VisualizationHandler,
 )
+from gradysim.simulator.handler.visualization import handler as handler_module
 from gradysim.simulator.handler.visualization.handler import VIEWER_URL
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 
@@ -167,6 +168,23 @@ def test_a_simulation_in_real_time_does_not_catch_up_on_a_pause(shown, monkeypat
     start = time.monotonic()
     simulation.start_simulation()
     assert time.monotonic() - start >= show.handler.held_up_s + 0.04
+
+
+def test_pauses_add_up(shown, monkeypatch, wall_clock):
+    monkeypatch.setattr(handler_module, "time", wall_clock)
+    show = shown()
+    simulation = show.start()
+    server = show.handler._server
+
+    def resume():
+        wall_clock.sleep(3)
+        server._running.set()
+
+    monkeypatch.setattr(server, "wait_while_paused", resume)
+    for held_up_s in (3, 6):
+        server._running.clear()
+        simulation.run_events(5)
+        assert show.handler.held_up_s == held_up_s
 
 
 def test_nonsense_of_a_viewer_is_ignored_with_a_warning(shown, caplog):
