@@ -32,10 +32,23 @@ def test_settings_reach_their_structs(make_scenario):
         "*.uavs[*].wlan[*].radio.transmitter.power = 2mW",
         '*.uavs[*].wlan[*].opMode = "b"',
         "*.uavs[*].mobility.speed = 3mps",
+        '*.uavs[*].wlan[*].radio.antenna.typename = "ConstantGainAntenna"',
+        "*.uavs[*].wlan[*].radio.antenna.gain = 10dB",
     )
     config = node_config(scenario.nodes[1])
     radio, mac = config.wlan[0].radio, config.wlan[0].mac
     assert (radio.tx_power_w, mac.op_mode, config.mobility.speed_mps) == (0.002, "b", 3.0)
+    assert (radio.antenna.typename, radio.antenna.gain) == ("ConstantGainAntenna", 10.0)
+
+
+def test_settings_of_802154_reach_its_mac(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '*.uavs[*].wlan[*].typename = "Ieee802154NarrowbandInterface"',
+        "*.uavs[*].wlan[*].mac.macMaxFrameRetries = 5",
+    )
+    interface = node_config(scenario.nodes[0]).wlan[0]
+    assert (interface.typename, interface.csma.max_frame_retries) == ("Ieee802154NarrowbandInterface", 5)
 
 
 def test_settings_of_the_medium(make_scenario):
