@@ -36,8 +36,7 @@ def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
     values = cast("Mapping[str, bool | int | float]", spec.protocol_parameters)
     settings = {
         f"protocol.{name}": Setting(values.get(name, ""), source)
-        for name, source in spec.protocol_sources.items()
-        if not name or name in values
+        for name, source in spec.protocol_sources.items()  # under "" what chose the protocol
     }
     with errors_at({**settings_by_target("mobility", spec.mobility), **settings}):
         node.set_native_protocol(spec.protocol.__name__, values)
