@@ -1,15 +1,19 @@
 import math
 from dataclasses import replace
+from inspect import signature
 from pathlib import Path
 
 import pytest
 
 pytest.importorskip("gradysim._netsim")
 
+from gradysim.cli import calibrate_power
 from gradysim.config.error import ConfigError
+from gradysim.config.keys.radio import RADIO_KEYS
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.integrated.calibration import calibrate
-from gradysim.integrated.network import node_config
+from gradysim.integrated.network import medium_config, node_config
+from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
 from gradysim.integrated.run import run
 
 ROOT = Path(__file__).parents[3]
@@ -71,6 +75,26 @@ def test_of_range_and_power_the_first_line_is_in_force(settings: tuple[str, ...]
     expected_w = calibrate(scenario, 150).tx_power_w if is_for_range else 1e-3
     power = f"**.wlan[*].radio.transmitter.power = {expected_w * 1000!r}mW"
     assert run(scenario).fingerprint == run(link(power)).fingerprint
+
+
+def test_the_power_for_a_range_is_that_at_the_nodes_height() -> None:
+    heights = "*.receivers[*].mobility.lineStartZ = 5m", "*.receivers[*].mobility.lineStepZ = 5m"
+    scenario = link(RANGE, TWO_RAYS, *heights)
+    powers = PowersForRanges(medium_config(scenario))
+    powers_w = []
+    for spec in scenario.nodes[1:3]:
+        config = node_config(spec)
+        powers.set_powers(config, spec)
+        powers_w.append(config.wlan[0].radio.tx_power_w)
+    assert powers_w[0] != pytest.approx(powers_w[1], rel=0.1)
+
+
+def test_what_a_range_means_is_the_same_wherever_it_is_said() -> None:
+    defaults = signature(calibrate_power).parameters
+    assert (defaults["ratio"].default, defaults["message"].default) == (RATIO, f"{MESSAGE_BYTES}B")
+    (meaning,) = (key.meaning for key in RADIO_KEYS if key.field == "communication_range_m")
+    assert f"half of the broadcast messages of {MESSAGE_BYTES} B" in meaning
+    assert RATIO == 0.5
 
 
 def test_a_range_alone_sets_no_power_where_the_range_itself_counts() -> None:
