@@ -47,6 +47,8 @@ app.command(calibrate_power, name="calibrate")
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (that of this process by default) and return the exit code."""
+    if sys.stdout is None:  # closed by whoever started the command
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
     if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")  # rather than lose a result over a letter in it
     try:

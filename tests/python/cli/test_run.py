@@ -159,6 +159,22 @@ def test_runs_lists_the_runs(gradysim):
     ]
 
 
+@pytest.mark.parametrize("arguments", [["runs", "test.ini"], ["keys"], ["run", "test.ini", "--json"]])
+def test_a_closed_output_is_one_that_nobody_reads(folder, arguments):
+    if arguments[0] == "run":
+        arguments = [*arguments, "--mode", "prototype"]
+    command = 'exec "$@" >&-'
+    done = subprocess.run(
+        ["sh", "-c", command, "sh", sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env=environment(),
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, set(done.stderr.splitlines()) - {"printed by a protocol"}) == (0, set())
+
+
 def in_ascii(folder, *arguments):
     """What the command says where the output takes ASCII only."""
     return subprocess.run(
