@@ -5,30 +5,10 @@ import pytest
 
 from gradysim.encapsulator.python import PythonEncapsulator, PythonProvider
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-
-
-class Recorder(IProtocol):
-    def __init__(self):
-        self.calls = []
-
-    def initialize(self):
-        self.calls.append(("initialize",))
-
-    def handle_timer(self, timer):
-        self.calls.append(("handle_timer", timer))
-
-    def handle_packet(self, message):
-        self.calls.append(("handle_packet", message))
-
-    def handle_telemetry(self, telemetry):
-        self.calls.append(("handle_telemetry", telemetry))
-
-    def finish(self):
-        self.calls.append(("finish",))
+from python.recording_protocol import RecordingProtocol
 
 
 class Handler:
@@ -129,7 +109,7 @@ def test_tracked_variables_start_empty(node):
 @pytest.mark.parametrize(("callback", "arguments"), CALLBACKS)
 def test_callbacks_reach_the_protocol(node, callback, arguments):
     encapsulator = PythonEncapsulator(node)
-    encapsulator.encapsulate(Recorder)
+    encapsulator.encapsulate(RecordingProtocol)
     getattr(encapsulator, callback)(*arguments)
     assert encapsulator.protocol.calls == [(callback, *arguments)]
 
@@ -140,14 +120,14 @@ def test_an_exception_passes_with_one_note(node, callback, arguments):
         raise LookupError("broken")
 
     encapsulator = PythonEncapsulator(node, timer=Handler())
-    encapsulator.encapsulate(type("Failing", (Recorder,), {callback: fail}))
+    encapsulator.encapsulate(type("Failing", (RecordingProtocol,), {callback: fail}))
     with pytest.raises(LookupError, match="broken") as raised:
         getattr(encapsulator, callback)(*arguments)
     assert raised.value.__notes__ == [f"in {callback} of node 3 (Failing 3) at 12.5 s of simulated time"]
 
 
 def test_a_failing_constructor_is_noted(node):
-    class Failing(Recorder):
+    class Failing(RecordingProtocol):
         def __init__(self):
             raise LookupError("broken")
 
@@ -158,7 +138,7 @@ def test_a_failing_constructor_is_noted(node):
 
 def test_a_callback_replaced_later_is_the_one_called(node):
     encapsulator = PythonEncapsulator(node)
-    encapsulator.encapsulate(Recorder)
+    encapsulator.encapsulate(RecordingProtocol)
     seen = []
     encapsulator.protocol.handle_timer = seen.append
     encapsulator.handle_timer("tick")

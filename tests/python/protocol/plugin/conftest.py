@@ -6,13 +6,14 @@ import pytest
 
 from gradysim.config.scenario import load_scenarios
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.interface import IProvider
 from gradysim.protocol.messages.mobility import MobilityCommandType
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MobilityConfiguration, MobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 from python.quiet_protocol import QUIET
+from python.recording_protocol import RecordingProtocol
 
 
 class RecordingProvider(IProvider):
@@ -75,28 +76,6 @@ class RecordingProvider(IProvider):
             for command in self.commands
             if command.command_type == MobilityCommandType.SET_SPEED
         ]
-
-
-class RecordingProtocol(IProtocol):
-    """Keeps the callbacks that reach it, as (name, *arguments)."""
-
-    def __init__(self):
-        self.calls = []
-
-    def initialize(self):
-        self.calls.append(("initialize",))
-
-    def handle_timer(self, timer):
-        self.calls.append(("handle_timer", timer))
-
-    def handle_packet(self, message):
-        self.calls.append(("handle_packet", message))
-
-    def handle_telemetry(self, telemetry):
-        self.calls.append(("handle_telemetry", telemetry))
-
-    def finish(self):
-        self.calls.append(("finish",))
 
 
 @pytest.fixture(scope="session")
