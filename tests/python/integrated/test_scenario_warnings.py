@@ -244,6 +244,7 @@ def test_obstacles_far_from_all_nodes_are_told(warnings: Callable[..., list[str]
     (text,) = warnings(*BOX, IDEAL, "*.uavs[*].mobility.initialX=4000km")
     assert "warning: all obstacles are 4000 km and more from where any node starts" in text
     assert warnings(*BOX, IDEAL, "*.uavs[0].mobility.initialX=4000km") == []
+    assert warnings(*BOX, IDEAL, "*.uavs[*].mobility.initialX=90km") == []
 
 
 NARROWBAND = f'{UAVS}.wlan[*].typename="Ieee802154NarrowbandInterface"'
