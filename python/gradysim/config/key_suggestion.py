@@ -66,14 +66,40 @@ def _is_of_first_interface(end: str) -> bool:
 
 def _hint(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:
     key = found.entry.key
-    if (
-        found.parts
-        and len(found.parts) == 3
-        and any(found.parts[1].matches(name) for name in _node_names(groups))
-    ):
-        prefix = f"{found.parts[0].text}.{found.parts[1].text}."
-        return did_you_mean(key, [prefix + rest for rest in _written_rests(classes)])
-    return did_you_mean(key, _written_keys(key, groups, classes))
+    rests = _written_rests(classes)
+    prefix = _prefix_of_nodes(found, groups)
+    if prefix:
+        complete = [prefix + rest for rest in rests]
+        similar = complete
+    else:
+        complete = [f"*.{network_key.written}" for network_key in NETWORK_KEYS]
+        if key.startswith("**."):
+            complete = [f"*{written}" for written in complete] + [f"**.{rest}" for rest in rests]
+        similar = _written_keys(key, groups, classes)
+    with_more_parts = [candidate for candidate in complete if _lacks_only_parts(key, candidate)]
+    if len(with_more_parts) == 1:
+        return f"; did you mean `{with_more_parts[0]}`?"
+    return did_you_mean(key, similar)
+
+
+def _prefix_of_nodes(found: Found, groups: Sequence[Group]) -> str:
+    """What keys of the nodes that a key names begin with, `*.uavs[*].`, or "" if it names none."""
+    if not found.parts or len(found.parts) != 3:
+        return ""
+    network, name, _ = found.parts
+    for group in groups:
+        if name.literal == group.name:  # with nodes that have an index, it was forgotten
+            return f"{network.text}.{group.written}."
+    names_node = any(name.matches(node) for group in groups for node in group.node_names())
+    return f"{network.text}.{name.text}." if names_node else ""
+
+
+def _lacks_only_parts(key: str, candidate: str) -> bool:
+    """Whether all parts of the key are in the candidate, in that order, and the last one is its last one."""
+    interface = interface_in(key)
+    wanted = (key.replace(interface[0], "wlan[*]") if interface else key).split(".")
+    remaining = iter(candidate.split("."))
+    return wanted[-1] == candidate.rpartition(".")[2] and all(part in remaining for part in wanted)
 
 
 def _unknown_protocol_parameter_text(key: str, rest: Pattern, classes: Sequence[type[IProtocol]]) -> str:
@@ -91,10 +117,6 @@ def _unknown_protocol_parameter_text(key: str, rest: Pattern, classes: Sequence[
         else f", it is of type {type(attribute).__name__} and not a plain public value"
     )
     return f"`{name}` is no parameter of {whose}{why}; expected one of {', '.join(parameters)}{hint}"
-
-
-def _node_names(groups: Sequence[Group]) -> list[str]:
-    return [name for group in groups for name in group.node_names()]
 
 
 def _written_rests(classes: Sequence[type[IProtocol]]) -> list[str]:

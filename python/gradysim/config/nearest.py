@@ -11,15 +11,21 @@ _SLIP = 0.82
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate most like `name`, or else the only one that holds it; None if none is like it.
 
-    The case of letters does not count.
+    The case of letters does not count, unless candidates differ in nothing else: `mw` is rather mW than MW.
     """
     by_folded: dict[str, str] = {}
     for candidate in candidates:
-        by_folded.setdefault(candidate.casefold(), candidate)
+        known = by_folded.setdefault(candidate.casefold(), candidate)
+        if _letters_in_place(name, candidate) > _letters_in_place(name, known):
+            by_folded[candidate.casefold()] = candidate
     matches = get_close_matches(name.casefold(), by_folded, n=1, cutoff=0.6)
     if not matches and len(name) >= _LEAST_PART:
         matches = [candidate for candidate in by_folded if name.casefold() in candidate]
     return by_folded[matches[0]] if len(matches) == 1 else None
+
+
+def _letters_in_place(name: str, candidate: str) -> int:
+    return sum(map(str.__eq__, name, candidate))
 
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str:

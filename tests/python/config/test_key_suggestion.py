@@ -44,6 +44,21 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
             "did you mean `*.uavs[*].mobility.speed`?",
         ),
         (
+            "**.wlan[0].mac.rtsThreshold",
+            "`**.wlan[0].mac.rtsThreshold` matches no parameter; expected the name of one; "
+            "did you mean `**.wlan[0].mac.dcf.rtsPolicy.rtsThreshold`?",
+        ),
+        (
+            "*.uavs[1].power",
+            "`*.uavs[1].power` matches no parameter; expected the name of one; "
+            "did you mean `*.uavs[1].wlan[*].radio.transmitter.power`?",
+        ),
+        (
+            "*.radioMedium.sigma",
+            "`*.radioMedium.sigma` matches no parameter; expected the name of one; "
+            "did you mean `*.radioMedium.pathLoss.sigma`?",
+        ),
+        (
             "uavs[*].mobility.speed",
             "`uavs[*].mobility.speed` does not begin with `*.` or `**.`, "
             "nor with the network's name `Network.`; "
@@ -106,6 +121,15 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
 )
 def test_says_what_was_expected_and_the_nearest_key(folder: Any, key: str, message: str) -> None:
     assert folder.error(f"{key} = 1\n") == f"test.ini:6: {message}"
+
+
+def test_a_forgotten_index_is_told_even_if_another_name_is_more_like_it(folder: Any) -> None:
+    added = '*.tx.protocol.class = "protocols.py:Sensor"\n*.numRx = 2\n*.rx.mobility.speed = 1mps\n'
+    added += '*.rx[*].protocol.class = "protocols.py:Sensor"\n'
+    assert folder.error(added) == (
+        "test.ini:8: `*.rx.mobility.speed` matches no parameter; expected the name of one; "
+        "did you mean `*.rx[*].mobility.speed`?"
+    )
 
 
 def test_a_misspelt_number_of_nodes(folder: Any) -> None:

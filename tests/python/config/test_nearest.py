@@ -19,6 +19,14 @@ def test_finds_the_nearest(name: str, expected: str | None) -> None:
     assert nearest(name, NAMES) == expected
 
 
+@pytest.mark.parametrize(("name", "expected"), [("mw", "mW"), ("Mw", "MW"), ("mW", "mW")])
+@pytest.mark.parametrize("names", [["MW", "mW"], ["mW", "MW"]])
+def test_case_decides_between_names_that_differ_in_nothing_else(
+    name: str, expected: str, names: list[str]
+) -> None:
+    assert nearest(name, names) == expected
+
+
 def test_a_part_of_several_names_is_near_to_none() -> None:
     assert nearest("time", ["a-long-name-with-time-in-it", "another-long-name-with-time"]) is None
 
