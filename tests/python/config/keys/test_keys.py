@@ -12,6 +12,7 @@ STRUCTS = {
     "radio": "RadioConfig",
     "antenna": "AntennaConfig",
     "mac": "MacConfig",
+    "csma": "CsmaConfig",
     "mobility": "MobilityConfig",
 }
 
@@ -37,7 +38,7 @@ def test_targets_are_fields_of_the_engine() -> None:
 
 def test_every_field_of_the_engine_can_be_set() -> None:
     targets = {key.target for key in (*NODE_KEYS, *NETWORK_KEYS)}
-    made_of_others = {"medium.obstacles", "radio.antenna"}
+    made_of_others = {"medium.obstacles", "radio.antenna", "csma.ack_end_s"}
     assert fields_of_the_engine() - targets == made_of_others
 
 
