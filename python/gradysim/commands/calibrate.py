@@ -54,7 +54,7 @@ def calibrate_power(
             sender=sender,
             receiver=receiver,
         )
-        print(calibration.text(found, sys.stdout.encoding))
+        print(calibration.text(found, sys.stdout.encoding or "utf-8"))
         if picture is not None:
             calibration.draw(found, picture)
             print(f"drawn in {picture}")

@@ -1,5 +1,7 @@
 """`gradysim run` as a user meets it: a process with arguments, output and an exit code."""
 
+import contextlib
+import io
 import json
 import os
 import subprocess
@@ -8,6 +10,7 @@ from dataclasses import fields
 
 import pytest
 
+from gradysim.cli import main
 from gradysim.results.run_result import RunResult
 from python.cli.command import PROTOCOL, both_modes, compiled, environment, objects
 
@@ -203,3 +206,11 @@ def test_reception_over_distance_is_drawn_in_ascii_if_that_is_all_there_is(folde
     done = in_ascii(folder, "calibrate", "test.ini", "--range", "50m")
     assert (done.returncode, done.stderr) == (0, "")
     assert "100.00 %  " + 40 * "#" in done.stdout
+
+
+@compiled
+def test_the_command_can_be_called_from_python(folder):
+    output = io.StringIO()  # which has no encoding
+    with contextlib.redirect_stdout(output):
+        assert main(["calibrate", str(folder / "test.ini"), "--range", "50m"]) == 0
+    assert 40 * "█" in output.getvalue()
