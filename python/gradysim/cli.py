@@ -13,14 +13,18 @@ import os
 import sys
 from collections.abc import Sequence
 from io import TextIOWrapper
+from typing import TYPE_CHECKING
 
-from cyclopts import App, CycloptsError
+from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.commands.calibrate import calibrate_power
 from gradysim.commands.exit_code import INTERRUPTED, MISTAKE, OK
 from gradysim.commands.keys import list_keys
 from gradysim.commands.run import run
 from gradysim.commands.runs import list_runs
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
 
 
 def installed_version() -> str:
@@ -33,11 +37,22 @@ def installed_version() -> str:
         return "unknown (gradysim is not installed)"
 
 
+def mistake_in_arguments(error: CycloptsError) -> "RenderableType":
+    """Return what to print of it; of an argument that nothing takes cyclopts says only `Unused Tokens`."""
+    if not isinstance(error, UnusedCliTokensError) or not error.unused_tokens:
+        return CycloptsPanel(error)
+    first = error.unused_tokens[0]
+    command = " ".join(["gradysim", *(error.command_chain or ()), "--help"])
+    expected = "--set before each KEY=VALUE" if "=" in first else f"an option before it, see {command}"
+    return CycloptsPanel(f"{first} is one argument too many; expected {expected}")
+
+
 app = App(
     name="gradysim",
     help="Simulator of flying networks: one Python protocol, from a prototype to a realistic 802.11 network.",
     version=installed_version,
     suppress_keyboard_interrupt=False,
+    error_formatter=mistake_in_arguments,
 )
 app.command(run)
 app.command(list_runs, name="runs")

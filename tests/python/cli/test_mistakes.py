@@ -56,6 +56,21 @@ def test_wrong_arguments(gradysim, arguments):
     assert done.stdout == ""
 
 
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["run", "test.ini", "First"], "First is one argument too many; expected an option before it"),
+        (["run", "test.ini", "First"], "gradysim run --help"),
+        (["run", "test.ini", "--set", "a=1", "*.n[*].b=2"], "*.n[*].b=2 is one argument too many"),
+        (["run", "test.ini", "--set", "a=1", "*.n[*].b=2"], "expected --set before each KEY=VALUE"),
+    ],
+)
+def test_an_argument_that_nothing_takes_is_named_with_what_is_missing(gradysim, arguments, text):
+    done = gradysim(*arguments)
+    assert done.returncode == 2
+    assert text in " ".join(done.stderr.replace("│", "").split())
+
+
 @compiled
 @pytest.mark.parametrize(
     ("arguments", "refusal"),
