@@ -7,6 +7,7 @@ from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_
 from gradysim.config.keys.interface import WLAN, interface_in, written_for
 from gradysim.config.lookup import Found
 from gradysim.config.nearest import did_you_mean, nearest
+from gradysim.config.parameter_unit import annotations_of
 from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.protocol.interface import IProtocol
@@ -107,16 +108,27 @@ def _unknown_protocol_parameter_text(key: str, rest: Pattern, classes: Sequence[
     parameters = sorted(
         {"class", "typename", *(parameter for cls in classes for parameter in parameters_of(cls))}
     )
+    whose = " or ".join(cls.__name__ for cls in classes)
+    expected = f"expected one of {', '.join(parameters)}"
+    attribute = next((value for cls in classes if (value := getattr(cls, name, None)) is not None), None)
+    if attribute is None and any(_has_no_value(cls, name) for cls in classes):
+        example = f"such as `{name} = 0`"
+        return f"`{name}` is no parameter of {whose}, it has no value in the class, {example}; {expected}"
     match = nearest(name, parameters)
     hint = f"; did you mean `{key.removesuffix(name)}{match}`?" if match else ""
-    whose = " or ".join(cls.__name__ for cls in classes)
-    attribute = next((value for cls in classes if (value := getattr(cls, name, None)) is not None), None)
     why = (
         ""
         if attribute is None
         else f", it is of type {type(attribute).__name__} and not a plain public value"
     )
-    return f"`{name}` is no parameter of {whose}{why}; expected one of {', '.join(parameters)}{hint}"
+    return f"`{name}` is no parameter of {whose}{why}; {expected}{hint}"
+
+
+def _has_no_value(cls: type[IProtocol], name: str) -> bool:
+    """Whether it is an attribute of the nodes, declared, None or set by the constructor."""
+    names_in_constructor = getattr(getattr(cls.__init__, "__code__", None), "co_names", ())
+    declared = any(name in annotations_of(base) for base in cls.__mro__ if base not in IProtocol.__mro__)
+    return declared or hasattr(cls, name) or name in names_in_constructor
 
 
 def _written_rests(classes: Sequence[type[IProtocol]]) -> list[str]:

@@ -123,6 +123,19 @@ def test_says_what_was_expected_and_the_nearest_key(folder: Any, key: str, messa
     assert folder.error(f"{key} = 1\n") == f"test.ini:6: {message}"
 
 
+@pytest.mark.parametrize(
+    "body", ["gateway: int", "gateway: int | None = None", "def __init__(self): self.gateway = 3"]
+)
+def test_an_attribute_without_a_value_in_the_class_is_told_apart(folder: Any, body: str) -> None:
+    text = f"from protocols import Sensor as S\nclass Sensor(S):\n    {body}\n    gate = 1\n"
+    folder.write("others.py", text)
+    added = '*.buoy.protocol.class = "others.py:Sensor"\n*.buoy.protocol.gateway = 1\n'
+    assert folder.error(added) == (
+        "test.ini:7: `gateway` is no parameter of Sensor, it has no value in the class, such as"
+        " `gateway = 0`; expected one of class, gate, typename"
+    )
+
+
 def test_a_forgotten_index_is_told_even_if_another_name_is_more_like_it(folder: Any) -> None:
     added = '*.tx.protocol.class = "protocols.py:Sensor"\n*.numRx = 2\n*.rx.mobility.speed = 1mps\n'
     added += '*.rx[*].protocol.class = "protocols.py:Sensor"\n'
