@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "netsim/error.hpp"
+#include "netsim/kernel/fetch.hpp"
 
 namespace netsim {
 
@@ -123,11 +124,23 @@ void EventQueue::find_top() {
         if (heap_.empty()) {
             far_.open_next(heap_);
             make_heap();
+            fetch_ahead();
         }
         if (!is_dead(heap_.front())) {
             return;
         }
         remove_top();
+    }
+}
+
+void EventQueue::fetch_ahead() const {
+    for (const EventKey& key : heap_) {
+        netsim::fetch(slots_[key.slot]);
+    }
+    for (const EventKey& key : heap_) {
+        if (!is_dead(key)) {
+            slots_[key.slot].action.fetch();
+        }
     }
 }
 

@@ -90,6 +90,8 @@ private:
     }
     // Sees to it that the next event is at the top.
     void find_top();
+    // The events that are due soon are all in the heap: has what they will touch brought into the cache.
+    void fetch_ahead() const;
     void drop_all_dead();
     void make_heap();
     // From a position on that holds nothing, find the one for `key`, which is not in the heap.

@@ -31,6 +31,7 @@
 #include <memory>
 
 #include "netsim/config/csma_config.hpp"
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/frame_802154.hpp"
@@ -49,6 +50,10 @@ public:
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
     void send(NodeId destination, Payload payload) override;
+    void fetch() const override {
+        netsim::fetch(*this);
+        netsim::fetch(radio_);
+    }
     std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
 

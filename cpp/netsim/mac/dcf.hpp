@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "netsim/config/mac_config.hpp"
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/mac/contention.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/link.hpp"
@@ -56,6 +57,10 @@ public:
     static const Mode& broadcast_mode(const MacConfig& config);
 
     void send(NodeId destination, Payload payload) override;
+    void fetch() const override {
+        netsim::fetch(*this);
+        netsim::fetch(radio_);
+    }
     std::size_t longest_message_bytes() const override { return mtu_bytes_ - datagram_bytes(0); }
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;

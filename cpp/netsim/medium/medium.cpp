@@ -6,21 +6,10 @@
 #include <utility>
 
 #include "netsim/error.hpp"
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
-
-namespace {
-
-void fetch_lines(const void* object, std::ptrdiff_t lines) {
-    constexpr std::ptrdiff_t cache_line = 64;
-    const auto* address = static_cast<const char*>(object);
-    for (std::ptrdiff_t line = 0; line < lines; ++line) {
-        __builtin_prefetch(address + line * cache_line);
-    }
-}
-
-}  // namespace
 
 Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
                Hearing hearing, std::uint64_t seed)
@@ -227,13 +216,12 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
 
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void Medium::fetch(RadioId radio, FrameKind kind) const {
-    constexpr std::ptrdiff_t radio_lines = 4;
-    constexpr std::ptrdiff_t link_lines = 2;
+    constexpr std::size_t cache_line = 64;
     const Attached& there = attached_[radio];
-    fetch_lines(there.listener, radio_lines);
-    fetch_lines(there.link, link_lines);
-    fetch_lines(there.upper_layer, 1);
-    fetch_lines(there.protocol, 1);
+    fetch_bytes(there.listener, 4 * cache_line);
+    fetch_bytes(there.link, 2 * cache_line);
+    fetch_bytes(there.upper_layer, cache_line);
+    fetch_bytes(there.protocol, cache_line);
     fates_.fetch(there.interface.node, kind);
 }
 

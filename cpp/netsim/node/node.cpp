@@ -1,6 +1,7 @@
 #include "netsim/node/node.hpp"
 
 #include "netsim/error.hpp"
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/node/protocol_error.hpp"
 
 namespace netsim {
@@ -86,7 +87,7 @@ void Node::schedule_timer(std::string timer, SimTime time) {
                               "', is one more: time stands still; expected a later time");
     }
     const std::size_t number = timers_.add(std::move(timer));
-    timers_.set_event(number, simulator_.schedule_at(time, [this, number] { timer_due(number); }));
+    timers_.set_event(number, simulator_.schedule_at(time, TimerDue{this, number}));
 }
 
 void Node::cancel_timer(const std::string& timer) {
@@ -101,6 +102,18 @@ void Node::message_received(NodeId source, const Payload& payload) {
                      static_cast<std::uint64_t>(id_));
     fingerprint_.add_text(*payload);
     call_protocol("handle_packet", [&payload](Protocol& protocol) { protocol.handle_packet(payload); });
+}
+
+void Node::fetch_for_timer() const {
+    fetch(*this);
+    timers_.fetch();
+    if (protocol_) {
+        fetch(*protocol_);
+    }
+    fetch(*mobility_);
+    if (!links_.empty()) {
+        links_.front()->fetch();
+    }
 }
 
 void Node::timer_due(std::size_t number) {

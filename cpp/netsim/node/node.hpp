@@ -77,7 +77,17 @@ private:
     template <typename Call>
     void call_protocol(const char* callback, Call call);
     void message_received(NodeId source, const Payload& payload) override;
+    // What is due when a timer is.
+    struct TimerDue {
+        Node* node;
+        std::size_t number;
+
+        void operator()() const { node->timer_due(number); }
+        void fetch() const { node->fetch_for_timer(); }
+    };
     void timer_due(std::size_t number);
+    // Most timers send something.
+    void fetch_for_timer() const;
 
     // First what every message touches: one cache line, which the medium fetches ahead.
     Simulator& simulator_;

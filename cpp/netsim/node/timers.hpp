@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "netsim/kernel/event_queue.hpp"
+#include "netsim/kernel/fetch.hpp"
 
 namespace netsim {
 
@@ -33,6 +34,8 @@ public:
         free_.push_back(number);
         return std::move(timers_[number].name);
     }
+
+    void fetch() const { fetch_bytes(timers_.data(), sizeof(Timer)); }
 
     // Takes out all timers of that name and calls cancel_event(EventHandle) for each.
     template <typename CancelEvent>

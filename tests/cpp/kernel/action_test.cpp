@@ -46,5 +46,32 @@ TEST(Action, CanBeReplaced) {
     EXPECT_EQ(second, 1);
 }
 
+struct Fetching {
+    int* calls;
+    int* fetches;
+
+    void operator()() const { ++*calls; }
+    void fetch() const { ++*fetches; }
+};
+
+TEST(Action, PassesOnThatItWillRunSoon) {
+    int calls = 0;
+    int fetches = 0;
+    const Action action = Fetching{&calls, &fetches};
+    action.fetch();
+    EXPECT_EQ(fetches, 1);
+    EXPECT_EQ(calls, 0);
+}
+
+TEST(Action, WhatHasNoFetchNeedNotKnow) {
+    int calls = 0;
+    int fetches = 0;
+    Action action = Fetching{&calls, &fetches};
+    action = [&calls] { ++calls; };
+    action.fetch();
+    EXPECT_EQ(fetches, 0);
+    EXPECT_EQ(calls, 0);
+}
+
 }  // namespace
 }  // namespace netsim

@@ -1,5 +1,6 @@
 #include "netsim/kernel/event_queue.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <map>
@@ -204,6 +205,54 @@ TEST(EventQueue, WhatIsBeforeAllThatWaitBehindTheOneTakenOutWouldBeNext) {
 }
 
 // Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
+struct Fetching {
+    std::vector<int>* fetched;
+    int name;
+
+    void operator()() const {}
+    void fetch() const { fetched->push_back(name); }
+};
+
+TEST(EventQueue, ALargeOneSaysWhatIsDueSoonBeforeItRuns) {
+    constexpr int count = 5000;
+    EventQueue queue;
+    std::vector<int> fetched;
+    std::vector<bool> was_fetched(count);
+    for (int name = 0; name < count; ++name) {
+        queue.push(at(1000 * name), Priority::normal, Fetching{&fetched, name});
+    }
+    for (int name = 0; name < count; ++name) {
+        ASSERT_EQ(queue.next_time(), at(1000 * name));
+        for (const int each : std::exchange(fetched, {})) {
+            EXPECT_GE(each, name);
+            was_fetched[each] = true;
+        }
+        EXPECT_TRUE(was_fetched[name]) << name;
+        queue.pop();
+    }
+}
+
+TEST(EventQueue, SaysNothingOfWhatWasCancelled) {
+    constexpr int count = 5000;
+    EventQueue queue;
+    std::vector<int> fetched;
+    std::vector<EventHandle> odd;
+    for (int name = 0; name < count; ++name) {
+        const EventHandle handle = queue.push(at(1000 * name), Priority::normal, Fetching{&fetched, name});
+        if (name % 2 == 1) {
+            odd.push_back(handle);
+        }
+    }
+    for (const EventHandle handle : odd) {
+        queue.cancel(handle);
+    }
+    while (!queue.empty()) {
+        queue.pop();
+    }
+    EXPECT_FALSE(fetched.empty());
+    EXPECT_TRUE(std::ranges::none_of(fetched, [](int name) { return name % 2 == 1; }));
+}
+
 class EventQueueOracle : public testing::TestWithParam<unsigned> {};
 
 TEST_P(EventQueueOracle, AgreesWithASortedMap) {

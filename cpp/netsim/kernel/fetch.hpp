@@ -1,0 +1,24 @@
+// Has memory brought into the cache that will be used soon, while there is other work to do.
+//
+// In a large network what one event touches is in no cache by the time it runs: the others have pushed it out since the
+// last time. Whoever knows a while before what it will be says so with this. It changes nothing but the time that a run takes.
+#pragma once
+
+#include <cstddef>
+
+namespace netsim {
+
+inline void fetch_bytes(const void* object, std::size_t bytes) {
+    constexpr std::size_t cache_line = 64;
+    const auto* address = static_cast<const char*>(object);
+    for (std::size_t offset = 0; offset < bytes; offset += cache_line) {
+        __builtin_prefetch(address + offset);
+    }
+}
+
+template <typename Object>
+void fetch(const Object& object) {
+    fetch_bytes(&object, sizeof(Object));
+}
+
+}  // namespace netsim
