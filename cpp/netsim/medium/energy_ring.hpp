@@ -17,6 +17,7 @@
 #include <limits>
 #include <vector>
 
+#include "netsim/geometry/position.hpp"
 #include "netsim/medium/interface_id.hpp"
 
 namespace netsim {
@@ -25,6 +26,7 @@ class EnergyRing {
 public:
     struct Watched {
         RadioId radio = 0;
+        Position place;  // when the transmission began
         double missing_w =
             0;  // more than that must come before its channel can become busy where it is not yet
     };
@@ -32,6 +34,7 @@ public:
     // Who gets so much that it is in the first zone or further in, and does not notice that alone.
     struct Near {
         RadioId radio = 0;
+        Position place;
         double received_w = 0;
     };
 

@@ -93,6 +93,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.first_place = simulator_.reserve_places(2 * attached_.size());
     entry.odometer_m = odometer_.reading_m(now);
     entry.heard.clear();
+    entry.places.clear();
     entry.told = {};
     entry.rings.resize(audiences_.size());
     for (EnergyRing& ring : entry.rings) {
@@ -169,10 +170,13 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             }
             if (can_lock || is_loud(there, received_w)) {
                 fetch(radio, sent.label.kind);
-                entry.heard.push_back(Heard{now + propagation_delay(distance_m), radio, received_w});
+                const auto index = static_cast<std::uint32_t>(entry.places.size());
+                entry.heard.push_back(
+                    {now + propagation_delay(distance_m), received_w, radio, index, can_lock});
+                entry.places.push_back(place);
             }
             if (received_w >= first_zone_w && !is_surely_loud(there, received_w)) {
-                first_zone.push_back({radio, received_w});
+                first_zone.push_back({radio, place, received_w});
             }
         }
     }
@@ -218,7 +222,7 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
 void Medium::fetch(RadioId radio, FrameKind kind) const {
     constexpr std::size_t cache_line = 64;
     const Attached& there = attached_[radio];
-    fetch_bytes(there.listener, 4 * cache_line);
+    fetch_bytes(there.listener, 3 * cache_line);
     fetch_bytes(there.link, 2 * cache_line);
     fetch_bytes(there.upper_layer, cache_line);
     fetch_bytes(there.protocol, cache_line);
@@ -285,8 +289,12 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
     Due due;
     do {
         const Heard& heard = entry.heard[entry.told[edge]++];
-        const Arrival arrival{&entry.transmission, heard.start, heard.start + entry.transmission.duration,
-                              heard.power_w};
+        const Arrival arrival{&entry.transmission,
+                              heard.start,
+                              heard.start + entry.transmission.duration,
+                              heard.power_w,
+                              entry.places[heard.place],
+                              heard.lockable};
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
             MediumListener& listener = *attached_[heard.radio].listener;
@@ -314,21 +322,14 @@ void Medium::tell(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
     }
     simulator_.schedule_at_place(
         arrival.start, on_air.first_place + 2 * static_cast<Place>(radio),
-        [this, radio, &on_air, power_w = arrival.power_w] {
-            const SimTime start = simulator_.now();
-            const Transmission& transmission = on_air.transmission;
-            begin(radio, on_air, Arrival{&transmission, start, start + transmission.duration, power_w});
-        });
+        [this, radio, &on_air] { begin(radio, on_air, arrival_at(on_air.transmission, radio)); });
 }
 
 void Medium::begin(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
     attached_[radio].listener->arrival_started(arrival);
     simulator_.schedule_at_place(
-        arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1,
-        [this, radio, transmission = arrival.transmission, power_w = arrival.power_w] {
-            const SimTime end = simulator_.now();
-            attached_[radio].listener->arrival_ended(
-                Arrival{transmission, end - transmission->duration, end, power_w});
+        arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1, [this, radio, &on_air] {
+            attached_[radio].listener->arrival_ended(arrival_at(on_air.transmission, radio));
         });
 }
 
@@ -345,7 +346,7 @@ InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arri
             sent.start >= end || sent.band.share_in(here.band) == 0) {
             continue;
         }
-        interference_.add(arrival_at(sent, receiver));
+        interference_.add(arrival_at(sent, receiver, arrival.place));
     }
     return interference_;
 }

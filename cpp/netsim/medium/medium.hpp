@@ -86,9 +86,7 @@ public:
 
     // In W, no less than its largest sum over the time of the arrival, for one that reached the sensitivity: known at
     // once. Infinite if that says nothing.
-    double most_interference_w(const Arrival& arrival) const {
-        return on_air_[arrival.transmission->id - on_air_.front()->transmission.id]->others_w;
-    }
+    double most_interference_w(const Arrival& arrival) const { return entry_of(arrival).others_w; }
 
     const BackgroundNoise& background_noise() const { return background_noise_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
@@ -132,8 +130,8 @@ private:
         double least_energy_w = 0;  // below that, the sum of several is not noticed either
         double most_energy_w = 0;   // from that on, the noise or one transmission is enough for all of them
         double most_antenna_gain = 0;
-        KnownReach reach;
-        KnownReach first_zone_reach;
+        KnownReach reach{};
+        KnownReach first_zone_reach{};
         Neighbours members;
     };
     // What a radio is told of an arrival; at one time, in this order.
@@ -145,8 +143,10 @@ private:
     // An arrival to come.
     struct Heard {
         SimTime start;
-        RadioId radio = 0;
         double power_w = 0;
+        RadioId radio = 0;
+        std::uint32_t place = 0;  // an index of the entry's places
+        bool lockable = false;
     };
     struct OnAir {
         Transmission transmission;
@@ -156,6 +156,7 @@ private:
         double reach_m = 0;                 // nobody locks on to it farther away
         double others_w = 0;                // within that, at most, of all that are on the air beside it
         std::vector<Heard> heard;           // by those that notice it alone, in the order of their events
+        std::vector<Position> places;       // of theirs, at its start
         std::array<std::size_t, 2> told{};  // [edge]: so many of `heard`
         std::vector<EnergyRing> rings;      // [audience]
     };
@@ -174,15 +175,31 @@ private:
     };
 
     OnAir& put_on_air(Transmission transmission);
+    const OnAir& entry_of(const Arrival& arrival) const {
+        return *on_air_[arrival.transmission->id - on_air_.front()->transmission.id];
+    }
     // In the header, as sums over all that is on the air call it for each.
     Arrival arrival_at(const Transmission& transmission, RadioId radio) const {
+        return arrival_from(transmission, radio,
+                            receivers_[radio].trajectory->position_at(transmission.start));
+    }
+    // The same with less to look up. `place`: where the radio was when one of those on the air began.
+    Arrival arrival_at(const Transmission& transmission, RadioId radio, const Position& place) const {
+        return nobody_moved() ? arrival_from(transmission, radio, place) : arrival_at(transmission, radio);
+    }
+    // With the radio at `place` when the transmission starts.
+    Arrival arrival_from(const Transmission& transmission, RadioId radio, const Position& place) const {
         const Receiver& receiver = receivers_[radio];
-        const Position there = receiver.trajectory->position_at(transmission.start);
-        const double distance_m = distance(transmission.origin, there);
+        const double distance_m = distance(transmission.origin, place);
         const SimTime start = transmission.start + propagation_delay(distance_m);
-        return Arrival{
-            &transmission, start, start + transmission.duration,
-            power_w(transmission, transmission.band.share_in(receiver.band), radio, there, distance_m)};
+        const double received_w =
+            power_w(transmission, transmission.band.share_in(receiver.band), radio, place, distance_m);
+        return Arrival{&transmission, start, start + transmission.duration,
+                       received_w,    place, can_lock_on(receiver, transmission, received_w)};
+    }
+    // Since the first of those on the air began.
+    bool nobody_moved() const {
+        return odometer_.all_stand() && odometer_.reading_m(simulator_.now()) == on_air_.front()->odometer_m;
     }
     // The radio of the label's destination that can decode the transmission, or -1: of a broadcast, of an addressee
     // that has none, of the sender itself.
@@ -238,16 +255,16 @@ private:
     // A function of the radius: the most that `there`, sent with at most that power, antennas included, brings to
     // receivers within the radius of where `here` began.
     auto most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const;
-    double brought_w(const Transmission& sent, RadioId radio) {
+    double brought_w(const Transmission& sent, RadioId radio, const Position& place) {
         ++energy_looks_;
-        return sent.radio == radio ? 0 : arrival_at(sent, radio).power_w;
+        return sent.radio == radio ? 0 : arrival_at(sent, radio, place).power_w;
     }
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
     // Tells the radio of as many as it takes to find its channel busy when it is. Returns what more there must be until
     // there is somewhat to tell. What is worked out once for a radio is kept in its outlook, as the rings of several
     // transmissions ask for it, and again for each new one.
-    double missing_at(RadioId radio, const OnAir& newest);
-    void foresee(EnergyForecast& forecast, RadioId radio, const Transmission& sent, SimTime now);
+    double missing_at(RadioId radio, const Position& place, const OnAir& newest);
+    void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const Transmission& sent);
     Outlook& outlook_of(RadioId radio, const OnAir& newest);
     void take_back_outlooks(SimTime now);
     template <typename ReceiverOrAudience>

@@ -70,12 +70,12 @@ void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
         }
         // The bound does not tell, perhaps the power does.
         if (outlook_of_[watched.radio] == no_outlook) {
-            watched.missing_w -= brought_w(newest.transmission, watched.radio);
+            watched.missing_w -= brought_w(newest.transmission, watched.radio, watched.place);
             if (watched.missing_w > 0) {
                 continue;
             }
         }
-        watched.missing_w = missing_at(watched.radio, newest);
+        watched.missing_w = missing_at(watched.radio, watched.place, newest);
     }
     ring.add(bound_w);
     if (ring.is_too_narrow()) {
@@ -118,9 +118,9 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
     double rest_w = 0;
     std::for_each(bounds_.rbegin(), bounds_.rend(),
                   [&](Bound& bound) { rest_w = bound.rest_w = rest_w + bound.most_w; });
-    const auto watch = [&](RadioId radio, double received_w) {
+    const auto watch = [&](RadioId radio, const Position& place, double received_w) {
         if (outlook_of_[radio] != no_outlook) {
-            ring.watched().push_back({radio, missing_at(radio, newest)});
+            ring.watched().push_back({radio, place, missing_at(radio, place, newest)});
             return;
         }
         // Bounds give way to powers, one after the other, until it is known that something is missing.
@@ -129,14 +129,15 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
         const double level_w = receiver.energy_detection_w * (1 - margin);
         auto bound = bounds_.begin();
         for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
-            known_w += brought_w(*bound->transmission, radio);
+            known_w += brought_w(*bound->transmission, radio, place);
         }
         const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
-        ring.watched().push_back({radio, missing_w > 0 ? missing_w : missing_at(radio, newest)});
+        ring.watched().push_back(
+            {radio, place, missing_w > 0 ? missing_w : missing_at(radio, place, newest)});
     };
     if (ring.is_first_zone_enough()) {
         for (const EnergyRing::Near& near : ring.first_zone()) {
-            watch(near.radio, near.received_w);
+            watch(near.radio, near.place, near.received_w);
         }
         return;
     }
@@ -153,7 +154,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
                                       : power_w(sent, share, radio, place, distance(sent.origin, place));
         if (received_w >= ring.least_power_w() && received_w < watched_before_w &&
             !is_surely_loud(attached_[radio], received_w)) {
-            watch(radio, received_w);
+            watch(radio, place, received_w);
         }
     });
 }
@@ -169,7 +170,7 @@ double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience
            more;
 }
 
-double Medium::missing_at(RadioId radio, const OnAir& newest) {
+double Medium::missing_at(RadioId radio, const Position& place, const OnAir& newest) {
     Outlook& outlook = outlook_of(radio, newest);
     if (outlook.next_id > newest.transmission.id) {
         return outlook.missing_w;
@@ -180,7 +181,7 @@ double Medium::missing_at(RadioId radio, const OnAir& newest) {
     for (std::uint64_t id = std::max(outlook.next_id, first_id); id <= newest.transmission.id; ++id) {
         const OnAir& other = *on_air_[id - first_id];
         if (other.last_end > now) {
-            foresee(outlook.forecast, radio, other.transmission, now);
+            foresee(outlook.forecast, radio, place, other.transmission);
         }
     }
     outlook.next_id = newest.transmission.id + 1;
@@ -192,14 +193,15 @@ double Medium::missing_at(RadioId radio, const OnAir& newest) {
     return outlook.missing_w;
 }
 
-void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Transmission& sent, SimTime now) {
+void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Position& place,
+                     const Transmission& sent) {
     const Receiver& receiver = receivers_[radio];
     if (sent.radio == radio || sent.band.share_in(receiver.band) == 0) {
         return;
     }
     ++energy_looks_;
-    const Arrival arrival = arrival_at(sent, radio);
-    if (arrival.end <= now) {
+    const Arrival arrival = arrival_at(sent, radio, place);
+    if (arrival.end <= simulator_.now()) {
         return;
     }
     const EnergyForecast::Coming coming{sent.id, arrival.start, arrival.end, arrival.power_w};

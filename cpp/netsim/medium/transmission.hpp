@@ -72,6 +72,8 @@ struct Arrival {
     SimTime start;
     SimTime end;
     double power_w = 0;
+    Position place{};       // of the receiver, when the transmission started
+    bool lockable = false;  // strong enough for the receiver, on its channel and in a format that it knows
 };
 
 }  // namespace netsim

@@ -11,28 +11,26 @@ namespace netsim {
 Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
              const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
              const Attitude& attitude, PpduFormats formats)
-    : noise_w_(medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)),
-      energy_detection_w_(config.energy_detection_w),
+    : energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
-      formats_(formats),
-      sensitivity_w_(config.sensitivity_w),
-      band_{config.carrier_hz, config.bandwidth_hz},
       medium_(medium),
+      interface_(interface),
       reception_draws_(seed, interface.stream(), Purpose::reception),
       fates_(fates),
       fingerprint_(fingerprint),
-      interface_(interface),
       simulator_(simulator),
       frame_capture_(config),
       preamble_detection_(config),
+      band_{config.carrier_hz, config.bandwidth_hz},
       tx_power_w_(config.tx_power_w),
       error_model_(make_error_model(config)),
       antenna_(make_antenna(config.antenna, config.carrier_hz)) {
     detects_preambles_ = preamble_detection_.is_on();
     captures_frames_ = frame_capture_.is_on();
-    reception_ = {error_model_.get(), config.snir_threshold, noise_w_};
+    const double noise_w = medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure);
+    reception_ = {error_model_.get(), config.snir_threshold, noise_w};
     id_ = medium.attach(interface,
-                        Receiver{this, &trajectory, band_, sensitivity_w_, energy_detection_w_, noise_w_,
+                        Receiver{this, &trajectory, band_, config.sensitivity_w, energy_detection_w_, noise_w,
                                  preamble_detection_.duration(), formats},
                         MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
 }
@@ -85,7 +83,7 @@ void Radio::transmission_over() {
 
 void Radio::arrival_started(const Arrival& arrival) {
     present_.add({arrival.transmission, arrival.power_w});
-    if (arrival.power_w >= sensitivity_w_ && can_decode(*arrival.transmission)) {
+    if (arrival.lockable) {
         if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ == nullptr) {
@@ -122,7 +120,7 @@ void Radio::end_detection(const Transmission* transmission) {
         candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
     const auto snir = [&] {
         const auto& steps = interference_in(arrival, {arrival.start, simulator_.now()}).steps();
-        return arrival.power_w / (noise_w_ + steps.back().power_w);
+        return arrival.power_w / (reception_.noise_w + steps.back().power_w);
     };
     if (!is_strongest || !preamble_detection_.detects(arrival.power_w, snir())) {
         book(*transmission, FrameFate::preamble_undetected);
@@ -192,7 +190,7 @@ void Radio::end_reception(const Arrival& arrival) {
     const bool decoded = fate == FrameFate::delivered;
     remember(transmission, fate);
     if (is_observed_) {
-        observer_->received(arrival, noise_w_, decoded);
+        observer_->received(arrival, reception_.noise_w, decoded);
     }
     if (culprits != nullptr) {
         fates_.book_interference(node(), transmission.label, culprits->interferers);
@@ -262,7 +260,7 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 void Radio::update_busy() {
     bool busy = transmitting_ || locked_ != nullptr;
     if (!busy && !present_.empty()) {
-        double energy_w = noise_w_;
+        double energy_w = reception_.noise_w;
         for (const PresentArrival& present : present_.all()) {
             if (!is_candidate(present.transmission)) {
                 energy_w += present.power_w;

@@ -93,10 +93,6 @@ private:
         EventHandle detection;
     };
 
-    // A frame of its channel, in a format that it knows: others are nothing but energy to it.
-    bool can_decode(const Transmission& transmission) const {
-        return transmission.can_be_decoded(band_, formats_);
-    }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
     bool is_candidate(const Transmission* transmission) {
@@ -120,11 +116,11 @@ private:
     void transmission_over();
     void update_busy();
 
-    // In the order of use: the beginning of an arrival touches the first two cache lines, the end of a reception two more. In a
+    // In the order of use: the beginning of an arrival touches the first two cache lines, the end of a reception one more. In a
     // large network they are in no cache, so the medium has them fetched ahead (Medium::fetch).
     PresentArrivals present_;
     const Transmission* locked_ = nullptr;
-    double noise_w_;
+    ReceptionModel reception_;
     double energy_detection_w_;
     bool transmitting_ : 1 = false;
     bool turned_ : 1 = false;  // to transmit, which it does not yet
@@ -133,18 +129,14 @@ private:
     bool detects_preambles_ : 1 = false;  // as preamble_detection_ says, which lies farther away
     bool captures_frames_ : 1 = false;    // as frame_capture_ says
     bool is_observed_ : 1 = false;
-    PpduFormats formats_;
     RadioId id_ = 0;
-    double sensitivity_w_;
-    Band band_;
     RadioListener* listener_ = nullptr;
-
     Medium& medium_;
+    InterfaceId interface_;
+
     RandomStream reception_draws_;
-    ReceptionModel reception_;
     FrameFates& fates_;
     Fingerprint& fingerprint_;
-    InterfaceId interface_;
 
     Simulator& simulator_;
     RadioObserver* observer_ = nullptr;
@@ -153,6 +145,7 @@ private:
     PreambleDetection preamble_detection_;
     std::vector<Candidate> candidates_;  // none without preamble detection
     EventHandle header_end_;             // SNIR by chunks: pending until the header is decided
+    Band band_;
     double tx_power_w_;
     std::shared_ptr<const ErrorModel> error_model_;
     std::unique_ptr<const AntennaPattern> antenna_;  // null: isotropic
