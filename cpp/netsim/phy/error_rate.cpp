@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "netsim/config/check.hpp"
 #include "netsim/config/radio_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/phy/ber_table.hpp"
+#include "netsim/phy/bit_error_ceiling.hpp"
 #include "netsim/phy/oqpsk_error_rate.hpp"
 
 namespace netsim {
@@ -115,6 +117,28 @@ double cck_11_fit(double snir) {
     return dividend / divisor;
 }
 
+// The bits of the PHY header.
+constexpr double ofdm_header_bits = 24;
+constexpr double dsss_header_bits = 48;
+
+const BitErrorCeiling& ofdm_ceiling(Constellation constellation, CodeRate code_rate) {
+    static const auto ceilings = [] {
+        std::array<std::array<std::unique_ptr<const BitErrorCeiling>, 4>, 4>
+            all;  // [constellation][code rate]
+        using enum Constellation;
+        using enum CodeRate;
+        for (const Constellation each : {bpsk, qpsk, qam16, qam64}) {
+            for (const CodeRate rate : {one_half, two_thirds, three_quarters}) {
+                all[static_cast<std::size_t>(each)][static_cast<std::size_t>(rate)] =
+                    std::make_unique<const BitErrorCeiling>(
+                        [each, rate](double snir) { return coded_bit_error(each, rate, snir); });
+            }
+        }
+        return all;
+    }();
+    return *ceilings[static_cast<std::size_t>(constellation)][static_cast<std::size_t>(code_rate)];
+}
+
 double log_success(double bit_error, double bits) {
     if (bit_error == 0 || bits == 0) {
         return 0;
@@ -146,11 +170,33 @@ double NistErrorModel::success_probability(const Mode& mode, double snir, int ps
 
 double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
     NETSIM_ASSERT(snir >= 0);
-    constexpr double ofdm_bits = 24;
-    constexpr double dsss_bits = 48;
     return mode.family == ModeFamily::ofdm
-               ? log_success(coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir), ofdm_bits)
-               : log_success(dsss_1_bit_error(snir), dsss_bits);
+               ? log_success(coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir), ofdm_header_bits)
+               : log_success(dsss_1_bit_error(snir), dsss_header_bits);
+}
+
+// Of n bits that fail independently, each with at most b, all survive with at least 1 − n b.
+double NistErrorModel::least_success(const Mode& mode, double snir, int psdu_bytes) const {
+    constexpr double rounding = 1e-9;
+    const double bits = static_cast<double>(mode.data_bits(psdu_bytes));
+    const double most = 1 - rounding;
+    switch (mode.family) {
+        case ModeFamily::ofdm: {
+            static const BitErrorCeiling& header = ofdm_ceiling(Constellation::bpsk, CodeRate::one_half);
+            return most - ofdm_header_bits * header.at(snir) -
+                   bits * ofdm_ceiling(mode.constellation, mode.code_rate).at(snir);
+        }
+        case ModeFamily::dsss: {
+            static const BitErrorCeiling slow(dsss_1_bit_error);
+            static const BitErrorCeiling fast(dsss_2_bit_error);
+            return most - dsss_header_bits * slow.at(snir) -
+                   bits * (mode.bitrate_bps == 1'000'000 ? slow : fast).at(snir);
+        }
+        case ModeFamily::cck:    // its fits need not fall with the SNIR
+        case ModeFamily::oqpsk:  // not of 802.11
+            break;
+    }
+    return 0;
 }
 
 double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {

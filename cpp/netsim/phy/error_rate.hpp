@@ -34,9 +34,10 @@ public:
     // In [0, 1]. `snir` is a linear ratio ≥ 0, may be infinite; `psdu_bytes` ≥ 0.
     virtual double success_probability(const Mode& mode, double snir, int psdu_bytes) const = 0;
 
-    // Whether success_probability never falls when the SNIR rises, but for rounding: then a bound on the one bounds the
-    // other.
-    virtual bool rises_with_snir(const Mode& /*mode*/) const { return false; }
+    // Known at once: no more than success_probability at that SNIR and at every larger one. 0 or less, if that is all.
+    virtual double least_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const {
+        return 0;
+    }
 
     // Natural logarithms, ≤ 0, of the chances of the PHY header and of the rest: their sum is that of the above. A share
     // of a part survives with the share of its logarithm. A model that knows no header has all in the data.
@@ -51,8 +52,8 @@ public:
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
     double log_header_success(const Mode& mode, double snir) const override;
     double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
-    // All but the fits.
-    bool rises_with_snir(const Mode& mode) const override { return mode.family != ModeFamily::cck; }
+    // Of all but CCK.
+    double least_success(const Mode& mode, double snir, int psdu_bytes) const override;
 
     // Of one data bit after decoding, in [0, 1].
     static double bit_error_rate(const Mode& mode, double snir);

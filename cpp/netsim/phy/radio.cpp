@@ -209,10 +209,8 @@ void Radio::end_reception(const Arrival& arrival) {
 FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& culprits) {
     const double draw = reception_draws_.uniform();
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
-    // not be known. The margin is for rounding.
-    constexpr double surely = 1 - 1e-9;
-    if (reception_.errors->rises_with_snir(*arrival.transmission->mode) &&
-        draw < reception_.success(arrival, medium_.most_interference_w(arrival)) * surely) {
+    // not be known.
+    if (draw < reception_.least_success(arrival, medium_.most_interference_w(arrival))) {
         return FrameFate::delivered;
     }
     const Interference& interference = interference_in(arrival, {arrival.start, arrival.end}).worst();

@@ -33,6 +33,13 @@ struct ReceptionModel {
 
     // Of the whole frame, in mode "min", beside interference of at most that power.
     double success(const Arrival& arrival, double interference_w) const;
+    // No more than that, for all interference up to `most_interference_w`: known at once.
+    double least_success(const Arrival& arrival, double most_interference_w) const {
+        const double snir = arrival.power_w / (noise_w + most_interference_w);
+        return snir > snir_threshold ? errors->least_success(*arrival.transmission->mode, snir,
+                                                             arrival.transmission->psdu_bytes)
+                                     : 0;
+    }
     // Of one part, in mode "chunks", beside the interference of its period.
     double success(FramePart part, const Arrival& arrival, InterferenceSum& interference) const;
     double success_undisturbed(FramePart part, const Arrival& arrival) const;

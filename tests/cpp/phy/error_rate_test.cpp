@@ -190,26 +190,48 @@ TEST(NistErrorModel, BitErrorsAreAtMostOneAndFallWithTheSnir) {
     }
 }
 
-// Above some SNIR the model stops computing: there the longest frame succeeds to the last digit already. The
-// SNIR are 0.9 of those at which it stops.
-TEST(NistErrorModel, SuccessRisesWithTheSnirWhereItIsSaidTo) {
-    int rising = 0;
+// The modes for which there is a bound.
+std::vector<Mode> bounded_modes() {
+    std::vector<Mode> modes;
     for (const Mode& each : mode_set("g(mixed)").modes()) {
-        if (!NistErrorModel().rises_with_snir(each)) {
-            continue;
-        }
-        ++rising;
-        double before = 0;
-        for (int step = 0; step < 23'037; ++step) {  // up to 1e4
-            const double snir = 1e-6 * std::pow(1.001, step);
-            const double success = NistErrorModel().success_probability(each, snir, 1000);
-            EXPECT_GE(success, before * (1 - 1e-10)) << each.name << " at " << snir;
-            before = success;
+        if (NistErrorModel().least_success(each, infinity, 100) > 0) {
+            modes.push_back(each);
         }
     }
-    EXPECT_GE(rising, 8);  // of OFDM
+    return modes;
 }
 
+TEST(NistErrorModel, BoundsTheSuccessOfAllModesButCck) {
+    EXPECT_EQ(bounded_modes().size(), 10U);
+}
+
+TEST(NistErrorModel, SuccessIsNeverBelowItsBoundAtThatSnirOrALargerOne) {
+    for (const Mode& each : bounded_modes()) {
+        for (const int psdu_bytes : {14, 164, 1536}) {
+            double most_bound = 0;
+            for (int step = 0; step < 23'037; ++step) {  // up to 1e4
+                const double snir = 1e-6 * std::pow(1.001, step);
+                most_bound = std::max(most_bound, NistErrorModel().least_success(each, snir, psdu_bytes));
+                EXPECT_GE(NistErrorModel().success_probability(each, snir, psdu_bytes), most_bound)
+                    << each.name << " at " << snir;
+            }
+        }
+    }
+}
+
+// Where 1000 bytes fail once in a thousand times, the bound knows that they succeed 99 times in 100.
+TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
+    for (const Mode& each : bounded_modes()) {
+        double snir = 0.1;
+        while (NistErrorModel().success_probability(each, snir, 1000) < 0.999) {
+            snir *= 1.001;
+        }
+        EXPECT_GT(NistErrorModel().least_success(each, snir, 1000), 0.99) << each.name;
+    }
+}
+
+// Above some SNIR the model stops computing: there the longest frame succeeds to the last digit already. The
+// SNIR are 0.9 of those at which it stops.
 TEST(NistErrorModel, ShortCutForStrongSignalsChangesNoDigit) {
     for (const auto& [mbps, snir] :
          {std::pair{6.0, 13 * 0.9}, std::pair{9.0, 24 * 0.9}, std::pair{12.0, 26 * 0.9},

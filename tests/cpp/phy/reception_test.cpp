@@ -44,6 +44,24 @@ double success(const ReceptionModel& reception, FramePart part, const Arrival& a
     return reception.success(part, arrival, sum);
 }
 
+TEST(Reception, NoInterferenceUpToTheBoundLeavesLessThanTheLeastSuccess) {
+    const Frame100 frame(mode_set("g(erp)").mode_for_bitrate(24e6), 40);
+    const ReceptionModel reception = model();
+    for (const double most_w : {0.0, 0.1 * noise_w, 0.5 * noise_w, 0.9 * noise_w}) {
+        const double least = reception.least_success(frame.arrival, most_w);
+        EXPECT_GT(least, 0) << most_w;
+        for (const double share : {0.0, 0.3, 1.0}) {
+            EXPECT_GE(reception.success(frame.arrival, share * most_w), least) << share << " of " << most_w;
+        }
+    }
+}
+
+TEST(Reception, BelowTheThresholdTheLeastSuccessIsNone) {
+    const Frame100 frame(mode_set("g(erp)").mode_for_bitrate(6e6), 100);
+    EXPECT_GT(model(49).least_success(frame.arrival, noise_w), 0);
+    EXPECT_EQ(model(50).least_success(frame.arrival, noise_w), 0);
+}
+
 TEST(Reception, PartsOfAFrameFollowEachOther) {
     const Frame100 frame(mode_set("g(erp)").mode_for_bitrate(6e6), 1);
     EXPECT_EQ(period_of(FramePart::header, frame.arrival).start, us(1016));

@@ -1,0 +1,40 @@
+// A bit error rate from above, without working it out: steps over the SNIR, 32 to each factor of two.
+//
+// Most frames are so much stronger than what disturbs them that a look into this table decides about them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace netsim {
+
+class BitErrorCeiling {
+public:
+    // `rate_at(snir)` is in [0, 1] and does not rise with the SNIR, a linear ratio.
+    template <typename Rate>
+    explicit BitErrorCeiling(const Rate& rate_at) {
+        for (std::size_t i = 0; i < rates_.size(); ++i) {
+            rates_[i] = rate_at(std::bit_cast<double>((first_step + i) << step_shift));
+        }
+    }
+
+    // No less than the rate at `snir` ≥ 0 and at every larger one.
+    double at(double snir) const {
+        const std::uint64_t step = std::bit_cast<std::uint64_t>(snir) >> step_shift;
+        return step < first_step ? 1 : rates_[std::min(step - first_step, step_count - 1)];
+    }
+
+private:
+    // A step is a double without the bits of its fraction but the first five; as a number it rises with the double.
+    static constexpr int step_shift = 52 - 5;
+    static constexpr std::uint64_t first_step = std::bit_cast<std::uint64_t>(0.125) >> step_shift;
+    static constexpr std::uint64_t last_step = std::bit_cast<std::uint64_t>(2048.0) >> step_shift;
+    static constexpr std::uint64_t step_count = last_step - first_step + 1;
+
+    std::array<double, step_count> rates_;  // at the lower ends of the steps
+};
+
+}  // namespace netsim
