@@ -1,0 +1,54 @@
+// What this machine takes for a cache line in random order: in a network of 100 nodes all state lies in the caches near
+// the core, in one of 10,000 (about 8 MB of lines that frames touch) it does not, and beacon_bench's frames look at about
+// twelve lines for each copy. So the difference of the two sizes here is the least that flatness can miss.
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+namespace {
+
+struct alignas(64) Line {
+    std::size_t next = 0;
+};
+
+std::vector<std::size_t> random_order(std::size_t count) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), std::mt19937_64(1));
+    return order;
+}
+
+// Each line is known only from the one before: as a timer leads to its node, its link and its radio.
+void dependent_lines(benchmark::State& state) {
+    const std::vector<std::size_t> order =
+        random_order(static_cast<std::size_t>(state.range(0)) / sizeof(Line));
+    std::vector<Line> lines(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        lines[order[i]].next = order[(i + 1) % order.size()];
+    }
+    std::size_t at = 0;
+    for (auto _ : state) {
+        at = lines[at].next;
+        benchmark::DoNotOptimize(at);
+    }
+}
+BENCHMARK(dependent_lines)->Arg(80'000)->Arg(8'000'000);
+
+// Many are on their way at a time: as those of a transmission's receivers, which are fetched ahead.
+void independent_lines(benchmark::State& state) {
+    const std::vector<std::size_t> order =
+        random_order(static_cast<std::size_t>(state.range(0)) / sizeof(Line));
+    std::vector<Line> lines(order.size());
+    std::size_t i = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(++lines[order[i]].next);
+        i = i + 1 == order.size() ? 0 : i + 1;
+    }
+}
+BENCHMARK(independent_lines)->Arg(80'000)->Arg(8'000'000);
+
+}  // namespace
