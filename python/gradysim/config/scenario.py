@@ -78,6 +78,14 @@ class Scenario:
     obstacles: tuple[ObstacleSpec, ...] = ()
 
 
+def require_scenario(value: object) -> None:
+    """Raise TypeError if `value` is anything else, such as a file or the list of all runs."""
+    if not isinstance(value, Scenario):
+        raise TypeError(
+            f"expected a Scenario, one of the list that load_scenarios returns, got {value!r:.80}"
+        )
+
+
 @dataclass(frozen=True)
 class _Network:
     """The part of a scenario that is the same for all runs, unless a value says `${runnumber}`."""
@@ -108,7 +116,10 @@ def load_scenarios(
 
     Raises:
         ConfigError: Anything is wrong; nothing has been run.
+        TypeError: `overrides` is a text.
     """
+    if isinstance(overrides, str):
+        raise TypeError(f"expected a list of overrides, such as [{overrides!r}], got a text")
     file = Path(file)
     ini = read_ini(file)
     sections = search_order(ini, config)

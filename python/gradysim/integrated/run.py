@@ -12,7 +12,7 @@ from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 from gradysim.config.protocol_class import parametrize
-from gradysim.config.scenario import Scenario
+from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import start_captures
@@ -57,9 +57,11 @@ class IntegratedRun:
         0 is full speed. For viewers: events are up to 10 ms of wall time late.
 
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
-        accept a value of the scenario or cannot write a capture file, ValueError or TypeError when a handler
-        cannot work in this mode or `real_time` is no factor, and what the constructor of a protocol raises.
+        accept a value of the scenario or cannot write a capture file, ValueError or TypeError when `scenario`
+        is none, a handler cannot work in this mode or `real_time` is no factor, and what the constructor of a
+        protocol raises.
         """
+        require_scenario(scenario)
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
         self._scenario = scenario

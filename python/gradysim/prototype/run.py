@@ -8,7 +8,7 @@ import random
 from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
-from gradysim.config.scenario import Scenario
+from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.node_results import node_results
 from gradysim.results.run_result import RunResult
@@ -33,9 +33,10 @@ class PrototypeRun:
         0 is full speed.
 
         Raises ConfigError when the simulator does not accept a value of the scenario, ValueError or TypeError
-        when one of the handlers cannot be added or `real_time` is no factor, and what the constructor of a
-        protocol raises.
+        when `scenario` is none, one of the handlers cannot be added or `real_time` is no factor, and what the
+        constructor of a protocol raises.
         """
+        require_scenario(scenario)
         self._started = (perf_counter(), process_time())
         self._cost = (0.0, 0.0)
         self._scenario = scenario

@@ -17,6 +17,11 @@ def test_a_run_holds_what_the_file_says(folder: Any) -> None:
     )
 
 
+def test_a_text_is_no_list_of_overrides(folder: Any) -> None:
+    with pytest.raises(TypeError, match=r"such as \['repeat=2'\], got a text"):
+        load_scenarios(folder.ini, overrides="repeat=2")
+
+
 def test_defaults(folder: Any) -> None:
     scenario = folder.load()
     assert (scenario.seed, scenario.description, scenario.medium) == (0, "", {})

@@ -37,6 +37,12 @@ def result_of(make_run):
     return run
 
 
+@pytest.mark.parametrize("wrong", ["town.ini", [], None])
+def test_what_is_no_scenario_is_refused_with_what_was_expected(mode, wrong):
+    with pytest.raises(TypeError, match=r"one of the list that load_scenarios returns, got "):
+        MODES[mode](wrong)
+
+
 def test_result_of_a_whole_run(result_of, mode):
     result = result_of()
     assert (result.config, result.run, result.seed, result.mode) == ("General", 0, 0, mode)
