@@ -5,7 +5,7 @@ but who writes a special line below a general one mostly believes that it counts
 sections or files, the one that gives way is there to be overridden, and nothing is said.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from gradysim.config.lookup import is_ignored, is_option
@@ -19,6 +19,20 @@ _NO_DOT = "\0\0\0"
 _ANYTHING = ".".join([_NO_DOT] * 10)
 """Stands for what `**` may be; longer than any path, so that no row of `*` matches it."""
 
+_INSTEAD: dict[str, tuple[str, ...]] = {
+    "channelNumber": ("centerFrequency",),
+    "centerFrequency": ("channelNumber",),
+} | {
+    end: others
+    for axis in "XYZ"
+    for end, others in {
+        f"initial{axis}": (f"lineStart{axis}", f"lineStep{axis}"),
+        f"lineStart{axis}": (f"initial{axis}",),
+        f"lineStep{axis}": (f"initial{axis}",),
+    }.items()
+}
+"""By the last part of a key those of other keys that set the same."""
+
 
 def shadowed_lines(file: Path, config: str) -> list[str]:
     """Return one line of text for each, "FILE:LINE: warning: ...", of a configuration that can be loaded."""
@@ -31,18 +45,35 @@ def _of_section(section: Section) -> Iterator[str]:
     for entry in section.entries:
         if is_ignored(entry):
             continue
-        pattern = compile_pattern(entry.key)
-        above = same_key.setdefault(entry.key, entry)
-        if above is entry and not is_option(entry):
-            above = _first_that_covers(pattern, general) or entry
-            if _is_general(pattern):
+        above = _deprived_by(entry, same_key, general)
+        if above is None:
+            same_key.setdefault(entry.key, entry)
+            pattern = compile_pattern(entry.key)
+            if not is_option(entry) and _is_general(pattern):
                 general.append((pattern, entry))
-        if above.source.file == entry.source.file and above.text != entry.text:
+        elif above.source.file == entry.source.file:
             yield (
                 f"{entry.source}: warning: `{entry.key}` has no effect: line {above.source.line},"
                 f" `{above.key}`, fits as well and comes first; expected the special line above the"
                 " general one"
             )
+
+
+def _deprived_by(
+    entry: Entry, same_key: Mapping[str, Entry], general: Sequence[tuple[Pattern, Entry]]
+) -> Entry | None:
+    """The line above that is in force instead, wherever this one fits, and that says something else."""
+    for key in (entry.key, *_instead_of(entry.key)):
+        above = same_key.get(key) or _first_that_covers(compile_pattern(key), general)
+        if above is not None and (key != entry.key or above.text != entry.text):
+            return above
+    return None
+
+
+def _instead_of(key: str) -> list[str]:
+    """Keys of which the first one is in force, as they say the same thing in other words."""
+    start, dot, end = key.rpartition(".")
+    return [f"{start}{dot}{other}" for other in _INSTEAD.get(end, ())]
 
 
 def _is_general(pattern: Pattern) -> bool:
@@ -51,7 +82,7 @@ def _is_general(pattern: Pattern) -> bool:
     return parts is None or any(part.literal is None for part in parts[1:])
 
 
-def _first_that_covers(pattern: Pattern, above: list[tuple[Pattern, Entry]]) -> Entry | None:
+def _first_that_covers(pattern: Pattern, above: Sequence[tuple[Pattern, Entry]]) -> Entry | None:
     """The first of the lines above that fits wherever `pattern` does."""
     path = "".join(
         token.literal or (_ANYTHING if token.spans_dots else _any_of(token.text)) for token in pattern.tokens

@@ -28,6 +28,10 @@ def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
         ("*.uavs[*].mobility.speed", "*.uavs[0..3].mobility.speed"),
         ("*.uavs[0..3].mobility.speed", "*.uavs[2].mobility.speed"),
         ("**.wlan[*].bitrate", "*.uavs[*].wlan[0].bitrate"),
+        ("*.uavs[*].mobility.initialX", "*.uavs[*].mobility.lineStepX"),
+        ("*.uavs[*].mobility.lineStepY", "*.uavs[0].mobility.initialY"),
+        ("*.uav.mobility.initialZ", "*.uav.mobility.lineStartZ"),
+        ("**.radio.centerFrequency", "*.uavs[0].wlan[0].radio.channelNumber"),
     ],
 )
 def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
@@ -45,11 +49,20 @@ def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
         ("*.uavs[0..3].mobility.speed", "*.uavs[4].mobility.speed"),
         ("*.*.speed", "**.speed"),
         ("*.uavs[0].mobility.speed", "*.uavs[1].mobility.speed"),
+        ("*.uavs[*].mobility.lineStartX", "*.uavs[*].mobility.lineStepX"),
+        ("*.uavs[*].mobility.initialX", "*.uavs[*].mobility.lineStepY"),
+        ("*.uavs[0].mobility.initialX", "*.uavs[*].mobility.lineStepX"),
         ("cmdenv-status-frequency", "cmdenv-status-frequency"),
     ],
 )
 def test_what_has_one(write_ini: Write, above: str, below: str) -> None:
     assert shadowed_lines(write_ini(f"{above} = 1\n{below} = 2\n"), "General") == []
+
+
+def test_a_line_without_effect_deprives_no_other_of_its_own(write_ini: Write) -> None:
+    file = write_ini("**.lineStartX = 1m\n**.initialX = 1m\n**.lineStepX = 1m\n")
+    (text,) = shadowed_lines(file, "General")
+    assert text.startswith(f"{file}:2: ")
 
 
 def test_a_line_that_says_the_same_does_no_harm(write_ini: Write) -> None:
