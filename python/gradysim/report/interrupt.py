@@ -4,14 +4,18 @@ So a run stops between two of its slices, with its results whole; a protocol tha
 callback can still be left.
 """
 
+import contextlib
+import os
 import signal
 import threading
 from types import FrameType
 from typing import Self
 
+_ERROR_OUTPUT = 2  # the file descriptor
+
 
 class StopOnInterrupt:
-    """While inside the `with` block, SIGINT sets the flag that `should_stop()` reads.
+    """While inside the `with` block, SIGINT sets the flag that `should_stop()` reads, and says so.
 
     Outside the main thread, where Python allows no signal handlers, the flag is never set.
     """
@@ -37,3 +41,5 @@ class StopOnInterrupt:
         if self._pressed:
             raise KeyboardInterrupt
         self._pressed = True
+        with contextlib.suppress(OSError):  # not by sys.stderr, which may be in the middle of a line
+            os.write(_ERROR_OUTPUT, b"\nstopping after this step; Ctrl-C once more stops at once\n")
