@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.config.error import ConfigError
-from gradysim.config.kinds import choice, file_name, quantity
+from gradysim.config.kinds import choice, file_name, integer, number, quantity
 from gradysim.config.reader import Entry
 from gradysim.config.setting import Setting, SettingReader, read_scalar
 from gradysim.config.source import Source
@@ -24,6 +24,12 @@ def test_holds_the_value_and_its_place() -> None:
 def test_reads_an_entry_once_for_each_kind() -> None:
     settings, written = SettingReader(), entry("3mps")
     assert settings.setting(written, SPEED) is settings.setting(written, SPEED)
+
+
+def test_an_entry_for_two_kinds_has_a_value_of_each() -> None:
+    settings, written = SettingReader(), entry("3")
+    values = [settings.scalar(written, kind) for kind in (integer(), number())]
+    assert [type(value) for value in values] == [int, float]
 
 
 def test_errors_name_the_place_the_entry_and_what_was_expected() -> None:
