@@ -1,5 +1,6 @@
 """What to say about a key that matches nothing: what was expected there, and the nearest valid key."""
 
+import re
 from collections.abc import Sequence
 
 from gradysim.config.groups import Group
@@ -23,6 +24,9 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
         hint = did_you_mean(key, _written_keys(key, groups, ()))
         return f"{problem}; expected a key such as `*.uavs[*].mobility.speed`{hint}"
     base, bracket, _ = found.parts[1].text.partition("[")
+    if re.fullmatch(r"num[a-z]\w*", base) and len(found.parts) == 2:
+        size = f"`*.num{base[3].upper()}{base[4:]}`"
+        return f"`{key}` matches no node; expected a capital letter where the group's name begins: {size}"
     match = nearest(base, [*(group.name for group in groups), *NETWORK_MODULES])
     group = next((group for group in groups if group.name == match), None)
     if match is not None:

@@ -221,11 +221,11 @@ def _network(
             raise ConfigError(error.message + instead, error.source) from None
         raise
     protocols = load_protocols(lookup, groups, settings, loader)
+    if not protocols:
+        raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
     counts = interface_counts(lookup, groups, settings)
     kinds = {name: NodeKind(protocol.cls, counts[name]) for name, protocol in protocols.items()}
     check_parameters(lookup, groups, kinds, obstacle_count(lookup, settings))
-    if not protocols:
-        raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
 
     found = {
         key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None

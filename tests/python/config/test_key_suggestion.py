@@ -39,6 +39,11 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
             "did you mean `*.groundStation.mobility.speed`?",
         ),
         (
+            "*.numuavs",
+            "`*.numuavs` matches no node; "
+            "expected a capital letter where the group's name begins: `*.numUavs`",
+        ),
+        (
             "*.uavs.mobility.speed",
             "`*.uavs.mobility.speed` matches no parameter; expected the name of one; "
             "did you mean `*.uavs[*].mobility.speed`?",

@@ -194,6 +194,12 @@ def test_nodes_are_needed(folder: Any) -> None:
     )
 
 
+def test_keys_of_nodes_without_any_are_told_the_same(folder: Any) -> None:
+    folder.write("test.ini", '[General]\nsim-time-limit = 1s\n**.protocol.class = "protocols.py:Sensor"\n')
+    with pytest.raises(ConfigError, match=r"there are no nodes; expected some, such as `\*\.numUavs = 2`"):
+        load_scenarios(folder.ini)
+
+
 def test_a_misspelt_general_is_named(folder: Any) -> None:
     folder.write("test.ini", "[Genral]\nsim-time-limit = 1s\n*.numUavs = 2\n[Config X]\n")
     for config in ["General", "X"]:
