@@ -86,7 +86,9 @@ public:
 
     // In W, no less than its largest sum over the time of the arrival, for one that reached the sensitivity: known at
     // once. Infinite if that says nothing.
-    double most_interference_w(const Arrival& arrival) const { return entry_of(arrival).others_w; }
+    double most_interference_w(const Arrival& arrival) const {
+        return on_air_[arrival.transmission->id - on_air_.front()->transmission.id]->others_w;
+    }
 
     const BackgroundNoise& background_noise() const { return background_noise_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
@@ -175,20 +177,18 @@ private:
     };
 
     OnAir& put_on_air(Transmission transmission);
-    const OnAir& entry_of(const Arrival& arrival) const {
-        return *on_air_[arrival.transmission->id - on_air_.front()->transmission.id];
-    }
     // In the header, as sums over all that is on the air call it for each.
     Arrival arrival_at(const Transmission& transmission, RadioId radio) const {
-        return arrival_from(transmission, radio,
-                            receivers_[radio].trajectory->position_at(transmission.start));
+        return arrival_at_place(transmission, radio,
+                                receivers_[radio].trajectory->position_at(transmission.start));
     }
-    // The same with less to look up. `place`: where the radio was when one of those on the air began.
+    // The same, mostly with less to look up. `place`: where the radio was when any of those on the air began.
     Arrival arrival_at(const Transmission& transmission, RadioId radio, const Position& place) const {
-        return nobody_moved() ? arrival_from(transmission, radio, place) : arrival_at(transmission, radio);
+        return nobody_moved() ? arrival_at_place(transmission, radio, place)
+                              : arrival_at(transmission, radio);
     }
     // With the radio at `place` when the transmission starts.
-    Arrival arrival_from(const Transmission& transmission, RadioId radio, const Position& place) const {
+    Arrival arrival_at_place(const Transmission& transmission, RadioId radio, const Position& place) const {
         const Receiver& receiver = receivers_[radio];
         const double distance_m = distance(transmission.origin, place);
         const SimTime start = transmission.start + propagation_delay(distance_m);
