@@ -34,7 +34,7 @@ private:
     static constexpr std::uint64_t last_step = std::bit_cast<std::uint64_t>(2048.0) >> step_shift;
     static constexpr std::uint64_t step_count = last_step - first_step + 1;
 
-    std::array<double, step_count> rates_;  // at the lower ends of the steps
+    std::array<double, step_count> rates_{};  // at the lower ends of the steps
 };
 
 }  // namespace netsim

@@ -178,7 +178,7 @@ double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
 // Of n bits that fail independently, each with at most b, all survive with at least 1 − n b.
 double NistErrorModel::least_success(const Mode& mode, double snir, int psdu_bytes) const {
     constexpr double rounding = 1e-9;
-    const double bits = static_cast<double>(mode.data_bits(psdu_bytes));
+    const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
     const double most = 1 - rounding;
     switch (mode.family) {
         case ModeFamily::ofdm: {

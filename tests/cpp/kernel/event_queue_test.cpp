@@ -219,10 +219,10 @@ TEST(EventQueue, ALargeOneSaysWhatIsDueSoonBeforeItRuns) {
     std::vector<int> fetched;
     std::vector<bool> was_fetched(count);
     for (int name = 0; name < count; ++name) {
-        queue.push(at(1000 * name), Priority::normal, Fetching{&fetched, name});
+        queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
     }
     for (int name = 0; name < count; ++name) {
-        ASSERT_EQ(queue.next_time(), at(1000 * name));
+        ASSERT_EQ(queue.next_time(), at(std::int64_t{1000} * name));
         for (const int each : std::exchange(fetched, {})) {
             EXPECT_GE(each, name);
             was_fetched[each] = true;
@@ -238,7 +238,8 @@ TEST(EventQueue, SaysNothingOfWhatWasCancelled) {
     std::vector<int> fetched;
     std::vector<EventHandle> odd;
     for (int name = 0; name < count; ++name) {
-        const EventHandle handle = queue.push(at(1000 * name), Priority::normal, Fetching{&fetched, name});
+        const EventHandle handle =
+            queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
         if (name % 2 == 1) {
             odd.push_back(handle);
         }
