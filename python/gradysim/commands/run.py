@@ -77,7 +77,7 @@ def run(
             scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
             warn_of_equal_seeds(scenarios)
-            warn_of_shadowed_lines(file, config)
+            warn_of_shadowed_lines(scenarios[0])
             for scenario in scenarios:
                 check(scenario)
             if mode == "integrated":

@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -21,11 +20,11 @@ def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
         )
 
 
-def warn_of_shadowed_lines(file: Path, config: str) -> None:
-    """Say on the error output which lines of the file have no effect, because of others above them."""
+def warn_of_shadowed_lines(scenario: "Scenario") -> None:
+    """Say on the error output which lines of its file have no effect, because of others above them."""
     from gradysim.config.shadowed_lines import shadowed_lines
 
-    for text in shadowed_lines(file, config):
+    for text in shadowed_lines(scenario.sections):
         print(text, file=sys.stderr)
 
 

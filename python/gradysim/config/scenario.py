@@ -1,7 +1,7 @@
 """What a configuration says, run by run: the plain data that both modes are built from."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from gradysim.config.error import ConfigError
@@ -63,6 +63,7 @@ class Scenario:
         communication_medium: Prototype mode's medium.
         reference_coordinates: Latitude in degrees, longitude in degrees and altitude in metres of the origin.
         obstacles: What stands between the nodes.
+        sections: The sections of the file that the configuration consists of, in the order of the search.
     """
 
     file: Path
@@ -76,6 +77,7 @@ class Scenario:
     communication_medium: CommunicationMediumSpec
     reference_coordinates: tuple[float, float, float]
     obstacles: tuple[ObstacleSpec, ...] = ()
+    sections: tuple[Section, ...] = field(default=(), repr=False)
 
 
 def require_scenario(value: object) -> None:
@@ -146,7 +148,7 @@ def load_scenarios(
         options = _options(_substituted(only_options, config, number))
         if network is None or varies:
             network = _network(_substituted(ranked, config, number), loader, instead, source)
-        scenarios.append(_scenario(file, config, number, options, network, source))
+        scenarios.append(_scenario(file, config, number, options, network, sections))
     return scenarios
 
 
@@ -165,12 +167,18 @@ def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section]) -> 
 
 
 def _scenario(
-    file: Path, config: str, number: int, options: Mapping[str, Entry], network: _Network, source: Source
+    file: Path,
+    config: str,
+    number: int,
+    options: Mapping[str, Entry],
+    network: _Network,
+    sections: list[Section],
 ) -> Scenario:
     sim_time_limit = options.get("sim-time-limit")
     if sim_time_limit is None:
         raise ConfigError(
-            f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`", source
+            f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`",
+            sections[0].source,
         )
     seed = options.get("seed-set")
     description = options.get("description")
@@ -186,6 +194,7 @@ def _scenario(
         communication_medium=network.communication_medium,
         reference_coordinates=network.reference_coordinates,
         obstacles=network.obstacles,
+        sections=tuple(sections),
     )
 
 

@@ -5,13 +5,11 @@ but who writes a special line below a general one mostly believes that it counts
 sections or files, the one that gives way is there to be overridden, and nothing is said.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from gradysim.config.lookup import is_ignored, is_option
 from gradysim.config.pattern import Pattern, compile_pattern
-from gradysim.config.reader import Entry, Section, read_ini
-from gradysim.config.sections import search_order
+from gradysim.config.reader import Entry, Section
 
 _NO_DOT = "\0\0\0"
 """Stands for what a wildcard within one name may be: `*` matches it, a range and a name do not."""
@@ -34,9 +32,9 @@ _INSTEAD: dict[str, tuple[str, ...]] = {
 """By the last part of a key those of other keys that set the same."""
 
 
-def shadowed_lines(file: Path, config: str) -> list[str]:
-    """Return one line of text for each, "FILE:LINE: warning: ...", of a configuration that can be loaded."""
-    return [text for section in search_order(read_ini(file), config) for text in _of_section(section)]
+def shadowed_lines(sections: Iterable[Section]) -> list[str]:
+    """Return one line of text for each, "FILE:LINE: warning: ...", of sections that make a valid scenario."""
+    return [text for section in sections for text in _of_section(section)]
 
 
 def _of_section(section: Section) -> Iterator[str]:
@@ -54,9 +52,14 @@ def _of_section(section: Section) -> Iterator[str]:
         elif above.source.file == entry.source.file:
             yield (
                 f"{entry.source}: warning: `{entry.key}` has no effect: line {above.source.line},"
-                f" `{above.key}`, fits as well and comes first; expected the special line above the"
-                " general one"
+                f" `{above.key}`, {_why(entry, above)}"
             )
+
+
+def _why(entry: Entry, above: Entry) -> str:
+    if above.key in (entry.key, *_instead_of(entry.key)):
+        return "says the same thing and comes first; expected one of them"
+    return "fits as well and comes first; expected the special line above the general one"
 
 
 def _deprived_by(

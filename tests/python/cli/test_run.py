@@ -55,6 +55,31 @@ def test_what_protocols_print_is_kept_out_of_the_json(gradysim, origin):
     assert f"printed by a {origin}" in done.stderr
 
 
+def test_a_file_may_come_out_of_a_pipe(folder):
+    text = (folder / "test.ini").read_text().replace('.class = "', f'.class = "{folder}/')
+    done = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "gradysim",
+            "run",
+            "/dev/stdin",
+            "-c",
+            "Chatty",
+            "-r",
+            "0",
+            "--mode",
+            "prototype",
+        ],
+        env=environment(),
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_set_comes_before_the_file(gradysim):
     done = gradysim(
         "run", "test.ini", "--mode", "prototype", "--json", "-r", "0",

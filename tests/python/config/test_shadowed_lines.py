@@ -3,14 +3,20 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.config.reader import read_ini
+from gradysim.config.sections import search_order
 from gradysim.config.shadowed_lines import shadowed_lines
 
 Write = Callable[..., Path]
 
 
+def told(file: Path, config: str = "General") -> list[str]:
+    return shadowed_lines(search_order(read_ini(file), config))
+
+
 def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
     file = write_ini("*.uavs[*].mobility.speed = 3mps\n*.uavs[1].mobility.speed = 5mps\n")
-    assert shadowed_lines(file, "General") == [
+    assert told(file) == [
         f"{file}:2: warning: `*.uavs[1].mobility.speed` has no effect: line 1, `*.uavs[*].mobility.speed`,"
         " fits as well and comes first; expected the special line above the general one"
     ]
@@ -35,7 +41,7 @@ def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
     ],
 )
 def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
-    (text,) = shadowed_lines(write_ini(f"{above} = 1\n{below} = 2\n"), "General")
+    (text,) = told(write_ini(f"{above} = 1\n{below} = 2\n"))
     assert f"`{below}` has no effect: line 1, `{above}`" in text
 
 
@@ -56,27 +62,36 @@ def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
     ],
 )
 def test_what_has_one(write_ini: Write, above: str, below: str) -> None:
-    assert shadowed_lines(write_ini(f"{above} = 1\n{below} = 2\n"), "General") == []
+    assert told(write_ini(f"{above} = 1\n{below} = 2\n")) == []
+
+
+@pytest.mark.parametrize(
+    ("above", "below"),
+    [("*.numUavs", "*.numUavs"), ("*.uavs[0].mobility.initialX", "*.uavs[0].mobility.lineStepX")],
+)
+def test_no_order_helps_lines_that_say_the_same_thing(write_ini: Write, above: str, below: str) -> None:
+    (text,) = told(write_ini(f"{above} = 1\n{below} = 2\n"))
+    assert text.endswith(f"`{above}`, says the same thing and comes first; expected one of them")
 
 
 def test_a_line_without_effect_deprives_no_other_of_its_own(write_ini: Write) -> None:
     file = write_ini("**.lineStartX = 1m\n**.initialX = 1m\n**.lineStepX = 1m\n")
-    (text,) = shadowed_lines(file, "General")
+    (text,) = told(file)
     assert text.startswith(f"{file}:2: ")
 
 
 def test_a_line_that_says_the_same_does_no_harm(write_ini: Write) -> None:
     file = write_ini("*.uavs[*].mobility.speed = 3mps\n*.uavs[1].mobility.speed = 3mps\n")
-    assert shadowed_lines(file, "General") == []
+    assert told(file) == []
 
 
 def test_another_section_and_an_included_file_are_there_to_be_overridden(write_ini: Write) -> None:
     write_ini("**.speed = 1mps\n", "base.ini")
     file = write_ini("**.speed = 2mps\ninclude base.ini\n[Config A]\n**.speed = 3mps\n")
-    assert shadowed_lines(file, "A") == []
+    assert told(file, "A") == []
 
 
 def test_only_sections_of_the_configuration_are_looked_at(write_ini: Write) -> None:
     file = write_ini("[Config A]\nrepeat = 2\n[Config B]\nrepeat = 2\nrepeat = 3\n")
-    assert shadowed_lines(file, "A") == []
-    assert len(shadowed_lines(file, "B")) == 1
+    assert told(file, "A") == []
+    assert len(told(file, "B")) == 1
