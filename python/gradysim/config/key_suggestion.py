@@ -24,7 +24,7 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
         hint = did_you_mean(key, _written_keys(key, groups, ()))
         return f"{problem}; expected a key such as `*.uavs[*].mobility.speed`{hint}"
     base, bracket, _ = found.parts[1].text.partition("[")
-    if re.fullmatch(r"num[a-z]\w*", base) and len(found.parts) == 2:
+    if re.fullmatch(r"num(?!ber)[a-z]\w*", base) and len(found.parts) == 2:
         size = f"`*.num{base[3].upper()}{base[4:]}`"
         return f"`{key}` matches no node; expected a capital letter where the group's name begins: {size}"
     match = nearest(base, [*(group.name for group in groups), *NETWORK_MODULES])

@@ -44,6 +44,11 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
             "expected a capital letter where the group's name begins: `*.numUavs`",
         ),
         (
+            "*.numberOfUavs",
+            "`*.numberOfUavs` matches no node; expected one of `groundStation`, `uavs[*]`; "
+            "did you mean `*.numUavs`?",
+        ),
+        (
             "*.uavs.mobility.speed",
             "`*.uavs.mobility.speed` matches no parameter; expected the name of one; "
             "did you mean `*.uavs[*].mobility.speed`?",
