@@ -1,8 +1,8 @@
 """Gives a protocol class the parameters of one node."""
 
 import types
-from collections.abc import Mapping
-from functools import lru_cache
+from collections.abc import Callable, Mapping
+from functools import lru_cache, wraps
 
 from gradysim.protocol.interface import IProtocol
 
@@ -43,8 +43,8 @@ def _subclass(cls: type, bases: tuple[type, ...], namespace: Mapping[str, object
     return types.new_class(cls.__name__, bases, exec_body=lambda body: body.update({**namespace, **named}))
 
 
-def _data_class_constructor(cls: type, values: Mapping[str, object]) -> types.FunctionType | None:
-    """The constructor that `@dataclass` made for `cls`, with `values` as the defaults of these fields.
+def _data_class_constructor(cls: type, values: Mapping[str, object]) -> Callable[..., None] | None:
+    """The constructor that `@dataclass` made for `cls`, which takes `values` where it is given nothing else.
 
     It holds its defaults itself, so class attributes of a subclass do not change them. None if there is no
     such constructor, or none of its fields is among the values.
@@ -57,14 +57,10 @@ def _data_class_constructor(cls: type, values: Mapping[str, object]) -> types.Fu
     is_written_out = not set(names) <= vars(cls)["__dataclass_fields__"].keys()
     if is_written_out or not values.keys() & set(names):
         return None
-    defaults = made.__defaults__ or ()
-    with_default = code.co_varnames[code.co_argcount - len(defaults) : code.co_argcount]
-    constructor = types.FunctionType(code, made.__globals__, made.__name__, closure=made.__closure__)
-    constructor.__qualname__ = made.__qualname__
-    constructor.__defaults__ = tuple(
-        values.get(name, default) for name, default in zip(with_default, defaults, strict=True)
-    )
-    constructor.__kwdefaults__ = {
-        name: values.get(name, default) for name, default in (made.__kwdefaults__ or {}).items()
-    }
+
+    @wraps(made)
+    def constructor(self: object, *by_position: object, **by_name: object) -> None:
+        others = names[len(by_position) :]
+        made(self, *by_position, **{name: values[name] for name in others if name in values} | by_name)
+
     return constructor

@@ -82,6 +82,17 @@ def test_a_constructor_that_is_written_out_runs(cls: type[Quiet]) -> None:
     assert (protocol.first, protocol.twice) == (5, 10)  # type: ignore[attr-defined]
 
 
+class Choosy(FlyingDataClass):
+    def __init__(self) -> None:
+        super().__init__(3, third=[4])
+
+
+def test_what_a_derived_class_gives_to_the_constructor_counts() -> None:
+    protocol = parametrize(Choosy, {"first": 5, "second": 6})()
+    assert isinstance(protocol, Choosy)
+    assert (protocol.first, protocol.second, protocol.third) == (3, 6, [4])
+
+
 @dataclass(kw_only=True)
 class AskingOnly(Quiet):
     start: InitVar[float] = 1.0
