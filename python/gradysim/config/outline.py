@@ -9,8 +9,12 @@ Corner = tuple[float, float]
 Ring = tuple[Corner, ...]
 """Corners of a closed line; the last one is joined to the first."""
 
-_TOUCH_M = 1e-3
-"""Sides that reach no farther beyond each other only touch: corners are seldom known better."""
+_TOUCH_M = 0.1
+"""Sides that reach no farther beyond each other only touch.
+
+So much, a unit of the sixth decimal of a degree, is what rounding makes of a courtyard at a wall: GeoJSON
+files mostly have no more decimals (The GeoJSON Format, RFC 7946, 2016, section 11.2).
+"""
 
 
 def encloses_nothing(ring: Ring) -> bool:

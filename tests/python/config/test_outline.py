@@ -27,7 +27,8 @@ def test_corners_on_one_line_enclose_nothing() -> None:
         [((0, 0), (5, 0), (10, 0), (10, 10), (0, 10))],  # a corner that is none
         [((0, 0), (10, 0), (10, 10), (10, 20), (10, 10), (0, 10))],  # there and back
         [((0, 0), (5, 5), (10, 0), (10, 10), (5, 5), (0, 10))],  # two triangles that meet in a corner
-        [((0, 0), (10, 0), (10, 10), (5, -1e-4), (0, 10))],  # touches as far as anybody can know
+        [((0, 0), (10, 0), (10, 10), (5, -0.05), (0, 10))],  # touches as far as anybody can know
+        [((0, 0), (10, 0.05), (10, 10), (0, 10)), ((3, 0), (7, 0), (5, 5))],  # at the wall but for rounding
     ],
 )
 def test_sides_that_touch_do_not_cross(rings: list[Ring]) -> None:
