@@ -170,9 +170,9 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             }
             if (can_lock || is_loud(there, received_w)) {
                 fetch(radio, sent.label.kind);
-                const auto index = static_cast<std::uint32_t>(entry.places.size());
+                const auto place_index = static_cast<std::uint32_t>(entry.places.size());
                 entry.heard.push_back(
-                    {now + propagation_delay(distance_m), received_w, radio, index, can_lock});
+                    {now + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
                 entry.places.push_back(place);
             }
             if (received_w >= first_zone_w && !is_surely_loud(there, received_w)) {
