@@ -1,7 +1,10 @@
 """The outline of an obstacle seen from above, and what can be wrong with it."""
 
 import math
-from collections.abc import Iterator, Sequence
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from statistics import median
 
 Corner = tuple[float, float]
 """x and y in metres."""
@@ -16,6 +19,12 @@ So much, a unit of the sixth decimal of a degree, is what rounding makes of a co
 files mostly have no more decimals (The GeoJSON Format, RFC 7946, 2016, section 11.2).
 """
 
+_FEW = 16
+"""Comparisons of each side with others that are cheaper than to part the sides."""
+
+_MOST_IN_BOTH = 0.25
+"""Part of the sides that a line may meet; each half has three quarters of all at most, so there is an end."""
+
 
 def encloses_nothing(ring: Ring) -> bool:
     """Whether all corners lie on one line."""
@@ -25,27 +34,75 @@ def encloses_nothing(ring: Ring) -> bool:
     return all(dx * side_y == dy * side_x for side_x, side_y in sides)
 
 
+@dataclass(frozen=True)
+class _Side:
+    """Where it begins, as its ring and corner, and both ends."""
+
+    ring: int
+    corner: int
+    begin: Corner
+    end: Corner
+    west: float
+    """The least x."""
+    east: float
+    """The largest x."""
+
+
 def crossing_sides(rings: Sequence[Ring]) -> tuple[tuple[int, int], tuple[int, int]] | None:
     """Two sides of one outline that cross, each by its ring and the corner where it begins; None if none do.
 
     Sides that touch, as those of a courtyard at the wall, or those around a corner that occurs twice, do not.
     """
-    sides = sorted(_sides(rings))
-    for first, (_, east, ring, corner, a, b) in enumerate(sides, start=1):
-        for west, _, other_ring, other_corner, c, d in sides[first:]:
-            if west > east:  # as all behind it in this order
-                break
-            if _are_apart(a, b, c, d) and _are_apart(c, d, a, b):
-                found = (ring, corner), (other_ring, other_corner)
+    return _crossing_among(
+        [
+            _Side(ring, corner, begin, end, min(begin[0], end[0]), max(begin[0], end[0]))
+            for ring, corners in enumerate(rings)
+            for corner, (begin, end) in enumerate(zip(corners, (*corners[1:], corners[0]), strict=True))
+        ]
+    )
+
+
+def _crossing_among(sides: list[_Side]) -> tuple[tuple[int, int], tuple[int, int]] | None:
+    """The same, of these sides. Those that overlap in x are compared; if too many do, parted before."""
+    sides = sorted(sides, key=lambda side: side.west)
+    wests = [side.west for side in sides]
+    ends = [bisect_right(wests, side.east) for side in sides]  # of those behind a side that overlap with it
+    if sum(ends) - sum(range(1, len(sides) + 1)) > _FEW * len(sides) and (halves := _halves(sides)):
+        return _crossing_among(halves[0]) or _crossing_among(halves[1])
+    for index, (one, end) in enumerate(zip(sides, ends, strict=True), start=1):
+        for other in sides[index:end]:
+            if sides_cross(one.begin, one.end, other.begin, other.end):
+                found = (one.ring, one.corner), (other.ring, other.corner)
                 return min(found), max(found)
     return None
 
 
-def _sides(rings: Sequence[Ring]) -> Iterator[tuple[float, float, int, int, Corner, Corner]]:
-    """Least x, largest x, ring, corner where it begins, both ends."""
-    for index, ring in enumerate(rings):
-        for corner, (begin, end) in enumerate(zip(ring, (*ring[1:], ring[0]), strict=True)):
-            yield min(begin[0], end[0]), max(begin[0], end[0]), index, corner, begin, end
+def _halves(sides: list[_Side]) -> tuple[list[_Side], list[_Side]] | None:
+    """The sides on either side of a line, those that meet it in both halves; None if too many do.
+
+    The line is along the longest side or across it: so the teeth of a comb are parted, in whatever direction
+    they lie, and at its corner the two combs of an L.
+    """
+    longest = max(sides, key=lambda side: math.dist(side.begin, side.end))
+    dx, dy = longest.end[0] - longest.begin[0], longest.end[1] - longest.begin[1]
+    best: tuple[list[_Side], list[_Side]] | None = None
+    fewest = len(sides) * _MOST_IN_BOTH
+    for axis_x, axis_y in ((-dy, dx), (dx, dy)):
+        spans = [
+            sorted((axis_x * x + axis_y * y for x, y in (side.begin, side.end))) for side in sides
+        ]  # of their shadows on the axis
+        middle = median(low + high for low, high in spans) / 2
+        below = [side for side, (low, _) in zip(sides, spans, strict=True) if low <= middle]
+        above = [side for side, (_, high) in zip(sides, spans, strict=True) if high >= middle]
+        if len(below) + len(above) - len(sides) < fewest:
+            fewest = len(below) + len(above) - len(sides)
+            best = below, above
+    return best
+
+
+def sides_cross(begin: Corner, end: Corner, c: Corner, d: Corner) -> bool:
+    """Whether the side from `begin` to `end` and that from `c` to `d` reach beyond each other."""
+    return _are_apart(begin, end, c, d) and _are_apart(c, d, begin, end)
 
 
 def _are_apart(begin: Corner, end: Corner, c: Corner, d: Corner) -> bool:

@@ -1,12 +1,13 @@
 """Outlines of obstacles that enclose nothing or cross themselves."""
 
 import math
+from itertools import combinations
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
+from gradysim.config.outline import Ring, crossing_sides, encloses_nothing, sides_cross
 
 SQUARE: Ring = ((0, 0), (10, 0), (10, 10), (0, 10))
 
@@ -57,3 +58,48 @@ def test_two_corners_exchanged_make_sides_cross(count: int, turned_rad: float, d
     at = data.draw(st.integers(0, count - 2))
     ring[at : at + 2] = reversed(ring[at : at + 2])
     assert crossing_sides([tuple(ring)]) is not None
+
+
+def comb(teeth: int, turned_rad: float, length_m: float = 100.0) -> Ring:
+    """A wall with long teeth, which all overlap as seen from their side."""
+    corners = [(-1.0, 0.0)]
+    for y in range(0, 2 * teeth, 2):
+        corners += [(length_m, y), (length_m, y + 1), (0.0, y + 1), (0.0, y + 2)]
+    corners.append((-1.0, 2.0 * teeth))
+    cos, sin = math.cos(turned_rad), math.sin(turned_rad)
+    return tuple((cos * x - sin * y, sin * x + cos * y) for x, y in corners)
+
+
+@given(st.integers(1, 60), st.floats(0, 7))
+def test_the_teeth_of_a_comb_do_not_cross(teeth: int, turned_rad: float) -> None:
+    assert crossing_sides([comb(teeth, turned_rad)]) is None
+
+
+@given(st.integers(20, 60), st.floats(0, 7), st.data())
+def test_one_bent_tooth_of_a_comb_is_found(teeth: int, turned_rad: float, data: st.DataObject) -> None:
+    at = data.draw(st.integers(0, teeth - 2))
+    ring = list(comb(teeth, turned_rad))
+    ring[1 + 4 * at] = ring[1 + 4 * (at + 1) + 2]  # the tip is bent across the next tooth
+    found = crossing_sides([tuple(ring)])
+    assert found is not None
+    assert all(4 * at <= corner <= 4 * (at + 2) for _, corner in found)
+
+
+coordinates = st.floats(-50, 50)
+corners_of_a_ring = st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=80).map(tuple)
+
+
+@given(st.lists(corners_of_a_ring, min_size=1, max_size=3))
+def test_agrees_with_the_comparison_of_each_side_with_each(rings: list[Ring]) -> None:
+    sides = {
+        (ring, corner): (corners[corner], corners[(corner + 1) % len(corners)])
+        for ring, corners in enumerate(rings)
+        for corner in range(len(corners))
+    }
+    crossing = {
+        (one, other)
+        for one, other in combinations(sorted(sides), 2)
+        if sides_cross(*sides[one], *sides[other])
+    }
+    found = crossing_sides(rings)
+    assert found in crossing if crossing else found is None
