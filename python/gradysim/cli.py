@@ -5,8 +5,8 @@
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
-Exit codes: 0 all is well; 1 a protocol failed; 2 a mistake in the arguments or in the .ini file;
-130 Ctrl-C. Each command has its own file in `gradysim.commands`.
+Exit codes: 0 all is well; 1 a protocol failed; 2 a mistake in the arguments or in the .ini file, or an
+output that takes no more; 130 Ctrl-C. Each command has its own file in `gradysim.commands`.
 """
 
 import os
@@ -64,16 +64,35 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (that of this process by default) and return the exit code."""
     if sys.stdout is None:  # closed by whoever started the command
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
     if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
         sys.stdout.reconfigure(errors="backslashreplace")  # rather than lose a result over a letter in it
     try:
-        code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
-        sys.stdout.flush()  # here, where it is known what to do if nobody reads it
+        try:
+            code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
+        finally:
+            sys.stdout.flush()  # here, where it is known what to do if nobody takes it
     except CycloptsError:  # cyclopts has said what is wrong
         return MISTAKE
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:  # who reads the output, such as `head`, has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes once more
+        abandon_output()
         return OK
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):  # what rich makes of it
+            return OK
+        raise
+    except OSError as error:
+        if error.filename is not None:
+            raise
+        abandon_output()
+        print(f"standard output: {error.strerror or error}", file=sys.stderr)
+        return MISTAKE
     return code if isinstance(code, int) else OK
+
+
+def abandon_output() -> None:
+    """Let nothing more be written to standard output: the interpreter flushes it once more as it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -3,7 +3,6 @@
 import contextlib
 import io
 import json
-import os
 import subprocess
 import sys
 from dataclasses import fields
@@ -143,32 +142,6 @@ def test_a_result_directory_that_is_a_file_is_named_with_its_option(gradysim):
     assert (done.returncode, done.stderr.strip()) == (2, expected)
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["keys"],
-        ["runs", "test.ini"],  # which ends before its buffer is full
-        ["run", "test.ini", "--mode", "prototype", "--json"],
-        pytest.param(["calibrate", "test.ini", "--range", "50m"], marks=compiled),
-    ],
-)
-def test_a_reader_that_has_had_enough_ends_it_silently(folder, arguments):
-    theirs, ours = os.pipe()
-    os.close(theirs)
-    done = subprocess.run(
-        [sys.executable, "-m", "gradysim", *arguments],
-        cwd=folder,
-        env=environment(),
-        stdout=ours,
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
-    os.close(ours)
-    assert [line for line in done.stderr.splitlines() if line != "printed by a protocol"] == []
-    assert done.returncode == 0
-
-
 @compiled
 def test_the_same_seed_gives_the_same_fingerprint_in_another_process(gradysim):
     first, again = (
@@ -185,22 +158,6 @@ def test_runs_lists_the_runs(gradysim):
         "Run 1: $repetition=1",
         "Run 2: $repetition=2",
     ]
-
-
-@pytest.mark.parametrize("arguments", [["runs", "test.ini"], ["keys"], ["run", "test.ini", "--json"]])
-def test_a_closed_output_is_one_that_nobody_reads(folder, arguments):
-    if arguments[0] == "run":
-        arguments = [*arguments, "--mode", "prototype"]
-    command = 'exec "$@" >&-'
-    done = subprocess.run(
-        ["sh", "-c", command, "sh", sys.executable, "-m", "gradysim", *arguments],
-        cwd=folder,
-        env=environment(),
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
-    assert (done.returncode, set(done.stderr.splitlines()) - {"printed by a protocol"}) == (0, set())
 
 
 def in_ascii(folder, *arguments):

@@ -1,4 +1,5 @@
 import dataclasses
+import errno
 import json
 import pathlib
 
@@ -35,14 +36,15 @@ def test_a_disk_that_is_full_does_not_cost_the_earlier_file(tmp_path, monkeypatc
     def write_half(path, text, **_):
         with path.open("w", encoding="utf-8") as file:
             file.write(text[: len(text) // 2])
-        raise OSError("no space left")
+        raise OSError(errno.ENOSPC, "no space left")
 
     with monkeypatch.context() as patch:
         patch.setattr(pathlib.Path, "write_text", write_half)
-        with pytest.raises(OSError, match="no space left"):
+        with pytest.raises(OSError, match="no space left") as raised:
             write_run_file(dataclasses.replace(RESULT, events=11), tmp_path)
     (path,) = tmp_path.iterdir()
     assert path.read_text(encoding="utf-8") == earlier
+    assert raised.value.filename == str(path)
 
 
 def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):

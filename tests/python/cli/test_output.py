@@ -1,0 +1,87 @@
+"""Outputs that take no more: a full disk, a reader that has gone, a closed one."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from python.cli.command import compiled, environment
+
+FULL_DISK = Path("/dev/full")
+
+QUIET = ["--set", "*.uavs[*].protocol.class=protocol.py:Quiet"]
+"""Protocols that print nothing themselves."""
+
+EVERY_COMMAND = pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--help"],
+        ["--version"],
+        ["keys"],
+        ["runs", "test.ini"],  # which ends before its buffer is full
+        ["run", "test.ini", "--mode", "prototype", *QUIET],
+        ["run", "test.ini", "--mode", "prototype", *QUIET, "--json"],
+        pytest.param(["calibrate", "test.ini", "--range", "50m"], marks=compiled),
+    ],
+)
+
+
+def run_with_output(folder, output, arguments, **variables):
+    """The command with a file as its standard output."""
+    return subprocess.run(
+        [sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env={**environment(), **variables},
+        stdout=output,
+        stderr=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+
+
+@EVERY_COMMAND
+def test_a_reader_that_has_had_enough_ends_it_silently(folder, arguments):
+    theirs, ours = os.pipe()
+    os.close(theirs)
+    done = run_with_output(folder, ours, arguments)
+    os.close(ours)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.skipif(not FULL_DISK.exists(), reason="this system has no disk that is always full")
+@pytest.mark.parametrize("buffering", [{}, {"PYTHONUNBUFFERED": "1"}], ids=["buffered", "unbuffered"])
+@EVERY_COMMAND
+def test_a_full_disk_is_told_in_one_line(folder, arguments, buffering):
+    with FULL_DISK.open("w") as full:
+        done = run_with_output(folder, full, arguments, **buffering)
+    assert (done.returncode, done.stderr) == (2, "standard output: No space left on device\n")
+
+
+@pytest.mark.parametrize("closed", ["1", "2"])
+@pytest.mark.parametrize("arguments", [["runs", "test.ini"], ["keys"], ["run", "test.ini", *QUIET, "--json"]])
+def test_a_closed_output_is_one_that_nobody_reads(folder, arguments, closed):
+    if arguments[0] == "run":
+        arguments = [*arguments, "--mode", "prototype"]
+    done = subprocess.run(
+        ["sh", "-c", f'exec "$@" {closed}>&-', "sh", sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert ("Traceback" in done.stdout, bool(done.stdout)) == (False, closed == "2")
+
+
+def test_a_mistake_is_no_result_where_the_error_output_is_closed(folder):
+    done = subprocess.run(
+        ["sh", "-c", 'exec "$@" 2>&-', "sh", sys.executable, "-m", "gradysim", "runs", "missing.ini"],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, b"")
