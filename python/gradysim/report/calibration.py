@@ -33,8 +33,13 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
     block = "█" if "█".encode(encoding, errors="ignore") else "#"
     for distance_m, ratio in c.curve:
         bar = block * round(ratio * BAR_WIDTH)
-        lines.append(f"{distance_m:6.5g} m  {100 * ratio:7.2f} %  {bar}".rstrip())
+        lines.append(f"{_in_metres(distance_m):>6} m  {100 * ratio:7.2f} %  {bar}".rstrip())
     return "\n".join(lines)
+
+
+def _in_metres(distance_m: float) -> str:
+    """Five digits, or all before the point."""
+    return f"{distance_m:.5g}" if distance_m < 99_999.5 else f"{distance_m:.0f}"
 
 
 def _what_decides(sensitivity_w: float | None) -> list[str]:
@@ -70,7 +75,7 @@ def draw(calibration: Calibration, path: Path) -> None:
     Raises:
         ImportError: matplotlib is missing; the text says how to get it.
         ValueError: The ending names no format.
-        OSError: The file cannot be written.
+        OSError: The file, which it names, cannot be written.
     """
     c = calibration
     figure = _figure()
@@ -80,7 +85,11 @@ def draw(calibration: Calibration, path: Path) -> None:
     axes.axhline(c.ratio, linestyle=":", color="gray")
     axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
     axes.set_title(f"{c.sender} to {c.receiver}, {c.tx_power_w * 1000:.4g} mW, {c.bitrate_bps / 1e6:g} Mbps")
-    figure.savefig(path)
+    try:
+        figure.savefig(path)
+    except OSError as error:
+        error.filename = str(path)  # which a full disk does not say
+        raise
 
 
 def _figure() -> "Figure":

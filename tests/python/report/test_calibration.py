@@ -1,5 +1,6 @@
 """The text and the picture of a calibration; tests of its figures are in tests/python/integrated."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,7 +8,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.calibration import Calibration
-from gradysim.report.calibration import check_picture, text
+from gradysim.report.calibration import check_picture, draw, text
 
 
 def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None) -> Calibration:
@@ -39,6 +40,15 @@ def test_a_sensitivity_that_decides_is_told() -> None:
 
 
 @pytest.mark.parametrize(
+    ("distance_m", "written"),
+    [(2.5, "   2.5 m"), (2561.725, "2561.7 m"), (99_999.6, "100000 m"), (1_234_567.8, "1234568 m")],
+)
+def test_distances_are_metres_without_an_exponent(distance_m: float, written: str) -> None:
+    lines = text(replace(calibration(), curve=((distance_m, 0.5),))).splitlines()
+    assert lines[-1].startswith(f"{written}    50.00 %  █")
+
+
+@pytest.mark.parametrize(
     ("name", "problem"),
     [
         ("nowhere/curve.png", r"there is no folder .*nowhere; expected one that is there"),
@@ -61,3 +71,15 @@ def test_a_picture_that_can_be_is_not(tmp_path: Path, name: str) -> None:
     pytest.importorskip("matplotlib")
     check_picture(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_that_finds_no_room_names_its_file(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    full_disk = Path("/dev/full")
+    if not full_disk.exists():
+        pytest.skip("this system has no disk that is always full")
+    picture = tmp_path / "curve.svg"
+    picture.symlink_to(full_disk)
+    with pytest.raises(OSError, match="No space left") as raised:
+        draw(replace(calibration(), curve=((1.0, 0.5),)), picture)
+    assert raised.value.filename == str(picture)
