@@ -1,10 +1,9 @@
 """Ways to place nodes."""
 
-import math
 import random
 
+from gradysim.protocol.checked_values import checked_range
 from gradysim.protocol.position import Position
-from gradysim.simulator.number_range import is_in_range
 
 
 class PositionScheme:
@@ -21,15 +20,9 @@ class PositionScheme:
         Raises:
             ValueError: A range is not (low, high) of finite numbers, low <= high.
         """
-        for axis, given in zip("xyz", (x_range, y_range, z_range), strict=True):
-            if not _is_range(given):
-                raise ValueError(f"{axis}_range must be (low, high), two finite numbers, got {given!r}")
-        return (random.uniform(*x_range), random.uniform(*y_range), random.uniform(*z_range))
-
-
-def _is_range(given: tuple[float, float]) -> bool:
-    try:
-        low, high = given
-    except (TypeError, ValueError):
-        return False
-    return is_in_range(low, -math.inf, above=True) and is_in_range(high, low)
+        box = [
+            checked_range(f"{axis}_range", given, ValueError)
+            for axis, given in zip("xyz", (x_range, y_range, z_range), strict=True)
+        ]
+        x, y, z = (random.uniform(lowest, highest) for lowest, highest in box)
+        return (x, y, z)

@@ -13,6 +13,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from gradysim.encapsulator.python import PythonEncapsulator
+from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
@@ -138,7 +139,7 @@ class Simulator:
             raise ValueError(f"there is a node with the id {identifier!r} already")
         node: Node[Any] = Node()
         node.id = identifier
-        node.position = _checked_position(position)
+        node.position = checked_point("the position of a node", position, ValueError)
         node.seed = self.seed
         node.protocol_encapsulator = PythonEncapsulator(node, **self._handlers)
         node.protocol_encapsulator.encapsulate(_checked_protocol(protocol))
@@ -366,7 +367,8 @@ class SimulationBuilder:
         Returns:
             Its id: 0 for the first node, then 1, ...
         """
-        self._nodes.append((_checked_protocol(protocol), _checked_position(position)))
+        place = checked_point("the position of a node", position, ValueError)
+        self._nodes.append((_checked_protocol(protocol), place))
         return len(self._nodes) - 1
 
     def build(self) -> Simulator:
@@ -381,13 +383,3 @@ def _checked_protocol(protocol: type[IProtocol]) -> type[IProtocol]:
     if not isinstance(protocol, type) or not hasattr(protocol, "instantiate"):
         raise TypeError(f"expected a protocol's class, a subclass of IProtocol, got {protocol!r}")
     return protocol
-
-
-def _checked_position(position: Position) -> Position:
-    try:
-        x, y, z = map(float, position)
-    except (TypeError, ValueError):
-        x = y = z = math.nan
-    if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
-        raise ValueError(f"expected a position of three finite numbers (x, y, z) in metres, got {position!r}")
-    return (x, y, z)

@@ -8,10 +8,10 @@ from enum import Enum
 from os import PathLike
 from pathlib import Path
 
+from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.checked_values import checked_number, checked_point
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 

@@ -3,12 +3,11 @@
 import logging
 import math
 from dataclasses import dataclass
-from typing import Any
 
+from gradysim.protocol.checked_values import checked_number, checked_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.checked_values import checked_number
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 
@@ -48,7 +47,8 @@ class RandomMobilityPlugin:
         config = config or RandomMobilityConfig()
         self._protocol = protocol
         self._ranges = tuple(
-            _checked_range(name, getattr(config, name)) for name in ("x_range", "y_range", "z_range")
+            checked_range(name, getattr(config, name), ValueError)
+            for name in ("x_range", "y_range", "z_range")
         )
         tolerance = checked_number(
             "tolerance", config.tolerance, lambda m: 0 <= m < math.inf, "finite and >= 0 m", ValueError
@@ -103,15 +103,3 @@ class RandomMobilityPlugin:
             dx, dy, dz = x - target_x, y - target_y, z - target_z
             if dx * dx + dy * dy + dz * dz <= self._squared_tolerance:
                 self.travel_to_random_waypoint()
-
-
-def _checked_range(name: str, value: Any) -> tuple[float, float]:
-    try:
-        lowest, highest = map(float, value)
-    except (TypeError, ValueError, OverflowError):
-        lowest = highest = math.nan
-    if -math.inf < lowest <= highest < math.inf:
-        return (lowest, highest)
-    raise ValueError(
-        f"{name} must be two finite numbers (lowest, highest) in metres, the lowest first, got {value!r}"
-    )

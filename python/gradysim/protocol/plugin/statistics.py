@@ -7,8 +7,8 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.plugin.checked_values import checked_number
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 
 DATA_COLLECTION_INTERVAL = 0.1

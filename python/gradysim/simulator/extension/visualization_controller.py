@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.extension.extension import Extension, provider_of
+from gradysim.simulator.number_range import is_in_range
 
 Color = tuple[float, float, float]
 """(red, green, blue)."""
@@ -37,7 +38,7 @@ class VisualizationController(Extension):
 
     def resize_nodes(self, size: float) -> None:
         """Draw all nodes as spheres of this size, > 0."""
-        if not _is_number(size) or not size > 0:
+        if not is_in_range(size, 0, above=True):
             raise ValueError(f"the size of nodes must be a finite number > 0, got {size!r}")
         self._send("resize_nodes", size=size)
 
@@ -62,11 +63,7 @@ class VisualizationController(Extension):
 
 def _checked_color(color: Color, greatest: float) -> Color:
     parts = tuple(color) if isinstance(color, tuple | list) else ()
-    if len(parts) != 3 or not all(_is_number(part) and 0 <= part <= greatest for part in parts):
+    if len(parts) != 3 or not all(is_in_range(part, 0, greatest) for part in parts):
         limits = "of 0 to 255" if math.isfinite(greatest) else ">= 0"
         raise ValueError(f"a colour must be (red, green, blue), three numbers {limits}, got {color!r}")
     return (parts[0], parts[1], parts[2])
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)

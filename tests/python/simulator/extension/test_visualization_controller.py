@@ -41,8 +41,10 @@ def test_commands(controller, handler, method, arguments, command):
         ("paint_node", (0, "red"), ValueError, "'red'"),
         ("paint_environment", ((-1, 0, 0),), ValueError, "-1"),
         ("paint_environment", ((math.nan, 0, 0),), ValueError, "nan"),
+        ("paint_environment", ((10**400, 0, 0),), ValueError, "three numbers >= 0"),
         ("resize_nodes", (0,), ValueError, "> 0, got 0"),
         ("resize_nodes", ("big",), ValueError, "'big'"),
+        ("resize_nodes", (math.inf,), ValueError, "> 0, got inf"),
         ("show_node_id", (0, 1), TypeError, "got 1"),
     ],
 )

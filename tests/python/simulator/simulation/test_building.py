@@ -53,9 +53,9 @@ def test_an_id_is_given_once():
         simulator.create_node((0, 0, 0), protocol(), 0)
 
 
-@pytest.mark.parametrize("position", [(1, 2), (1, 2, math.nan), (1, 2, "x"), None, 5])
+@pytest.mark.parametrize("position", [(1, 2), (1, 2, math.nan), "123"])
 def test_a_malformed_position_is_refused(position):
-    with pytest.raises(ValueError, match="three finite numbers"):
+    with pytest.raises(ValueError, match="the position of a node must be three finite numbers"):
         SimulationBuilder().add_node(protocol(), position)
 
 

@@ -4,10 +4,10 @@ import logging
 import math
 from dataclasses import dataclass
 
+from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
-from gradysim.protocol.plugin.checked_values import checked_number, checked_point
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.plugin.follow_mobility.mobility import (

@@ -4,10 +4,10 @@ import logging
 import math
 from dataclasses import dataclass
 
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.checked_values import checked_number
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.follow_mobility.broadcast_clock import BroadcastClock
 from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException

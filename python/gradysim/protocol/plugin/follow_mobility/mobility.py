@@ -8,7 +8,7 @@ import json
 import math
 from typing import NamedTuple
 
-from gradysim.protocol.plugin.checked_values import checked_number, checked_point
+from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.position import Position
 

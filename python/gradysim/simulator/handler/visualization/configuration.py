@@ -1,8 +1,8 @@
 """What is shown of a simulation, how often and where."""
 
-import math
 from dataclasses import dataclass
 
+from gradysim.protocol.checked_values import checked_range
 from gradysim.simulator.number_range import is_in_range
 
 
@@ -37,15 +37,6 @@ class VisualizationConfiguration:
             if not is_in_range(value, 0, above=True):
                 raise ValueError(f"{name} must be finite and > 0 s, got {value!r}")
         for name in ("x_range", "y_range", "z_range"):
-            _check_range(name, getattr(self, name))
+            checked_range(name, getattr(self, name), ValueError)
         if not isinstance(self.port, int) or not 0 <= self.port <= 65535:
             raise ValueError(f"port must be an integer from 0 to 65535, got {self.port!r}")
-
-
-def _check_range(name: str, value: tuple[float, float]) -> None:
-    try:
-        low, high = map(float, value)
-    except (TypeError, ValueError):
-        low = high = math.nan
-    if not -math.inf < low <= high < math.inf:
-        raise ValueError(f"{name} must be (least, greatest) in metres, both finite, got {value!r}")

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from gradysim.protocol.plugin.checked_values import checked_number, checked_point
+from gradysim.protocol.checked_values import checked_number, checked_point, checked_range
 
 
 class WrongError(Exception):
@@ -35,7 +35,34 @@ def test_three_finite_numbers_are_a_point(point):
     assert checked_point("home", point, WrongError) == (1.0, 2.0, 3.0)
 
 
-@pytest.mark.parametrize("point", [(1, 2), (1, 2, 3, 4), (1, 2, math.inf), ("a", 2, 3), "123", None, 5])
+@pytest.mark.parametrize(
+    "point",
+    [
+        *((1, 2), (1, 2, 3, 4), (1, 2, math.inf), ("a", 2, 3), "123", None, 5),
+        pytest.param((1, 2, 10**400), id="huge"),
+    ],
+)
 def test_anything_else_is_refused(point):
     with pytest.raises(WrongError, match=r"home must be three finite numbers \(x, y, z\) in metres, got"):
         checked_point("home", point, WrongError)
+
+
+@pytest.mark.parametrize("limits", [(1, 2), [1.0, 2.0], range(1, 3)])
+def test_two_finite_numbers_in_order_are_a_range(limits):
+    assert checked_range("width", limits, WrongError) == (1.0, 2.0)
+
+
+def test_a_range_may_be_a_single_number():
+    assert checked_range("width", (3, 3), WrongError) == (3.0, 3.0)
+
+
+@pytest.mark.parametrize(
+    "limits",
+    [
+        *((2, 1), (1,), (1, 2, 3), (1, math.inf), (math.nan, 2), ("a", 2), "12", None, 5),
+        pytest.param((1, 10**400), id="huge"),
+    ],
+)
+def test_what_is_no_range_is_refused(limits):
+    with pytest.raises(WrongError, match=r"width must be two finite numbers \(lowest, highest\) in metres"):
+        checked_range("width", limits, WrongError)
