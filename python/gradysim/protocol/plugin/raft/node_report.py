@@ -149,7 +149,7 @@ def statistics(node: RaftNode) -> dict[str, Any]:
         "is_leader": node.state is RaftState.LEADER,
         "leader_id": node.leader_id,
         "consensus_variables": list(node.config.get_consensus_variables()),
-        "committed_values_count": len(committed_values(node)),
+        "committed_values_count": sum(value is not None for value in committed_values(node).values()),
         "active_timers_count": len(node.timers.pending),
     }
 

@@ -117,6 +117,6 @@ def test_the_statistics_of_a_node(network):
         "is_leader": True,
         "leader_id": network.leader.node_id,
         "consensus_variables": ["v", "w"],
-        "committed_values_count": 2,
+        "committed_values_count": 1,
         "active_timers_count": 1,
     }
