@@ -101,6 +101,5 @@ def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> Non
         )
     except ValueError as error:
         wrong = interval if interval is not None and "telemetry_interval" in str(error) else speed
-        if wrong is None:
-            raise
+        assert wrong is not None
         raise ConfigError.at(wrong.source, str(error)) from error

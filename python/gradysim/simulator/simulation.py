@@ -336,11 +336,8 @@ class Simulator:
                 _logger.exception("The handler %s failed to finalize, too", handler.get_label())
         self._formatter.clear_iteration()
         self._formatter.thread = None
-        try:
-            while self._guards:
-                self._guards.pop(0)()
-        finally:
-            self._pacing = self._report = None
+        while self._guards:
+            self._guards.pop(0)()
 
 
 class SimulationBuilder:

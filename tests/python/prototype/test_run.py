@@ -3,7 +3,7 @@ import sys
 
 import pytest
 
-from gradysim.prototype.run import run
+from gradysim.prototype.run import PrototypeRun, run
 
 
 def test_fates_count_what_was_sent(make_scenario):
@@ -45,6 +45,23 @@ def test_the_same_seed_gives_the_same_run(make_scenario):
 def test_the_compiled_part_is_not_needed():
     code = "import sys; sys.modules['gradysim._netsim'] = None; import gradysim.prototype.run"
     subprocess.run([sys.executable, "-c", code], check=True, env={"PYTHONPATH": ":".join(sys.path)})
+
+
+def test_before_a_run_its_result_is_there(make_scenario):
+    result = PrototypeRun(make_scenario()).result()
+    assert (result.interrupted, result.sim_time_s, result.wall_s, result.cpu_s) == (True, 0, 0, 0)
+
+
+def test_a_run_in_which_finish_fails_is_not_complete(make_scenario):
+    failing = PrototypeRun(make_scenario("class Tested(Quiet):\n    def finish(self): raise ArithmeticError"))
+    with pytest.raises(ArithmeticError):
+        failing.execute()
+    assert failing.result().interrupted
+
+
+def test_without_a_word_a_run_does_not_wait(make_scenario, wall_clock):
+    PrototypeRun(make_scenario()).execute()
+    assert wall_clock.sleeps == []
 
 
 def test_at_the_pace_of_the_wall_clock(make_scenario, wall_clock):

@@ -16,11 +16,10 @@ def test_points_lie_in_the_box(x_range, y_range, z_range):
     )
 
 
-def test_the_default_box():
-    x, y, z = PositionScheme.random()
-    assert -10 <= x <= 10
-    assert -10 <= y <= 10
-    assert 0 <= z <= 10
+@pytest.mark.parametrize(("share", "corner"), [(0, (-10, -10, 0)), (1, (10, 10, 10))])
+def test_the_corners_of_the_default_box(monkeypatch, share, corner):
+    monkeypatch.setattr("random.uniform", lambda low, high: low + share * (high - low))
+    assert PositionScheme.random() == corner
 
 
 @pytest.mark.parametrize("wrong", [(5, -5), 5, (1, 2, 3), (0, float("nan")), ("a", "b"), None])

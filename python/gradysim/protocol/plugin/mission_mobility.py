@@ -142,7 +142,6 @@ class MissionMobilityPlugin:
             return
         self._dispatcher.unregister_handle_telemetry(self._handle_telemetry)
         self._mission = ()
-        self._waypoint = 0
         self._reversed = False
 
     def set_current_waypoint(self, waypoint: int) -> None:

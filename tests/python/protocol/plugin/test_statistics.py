@@ -214,6 +214,20 @@ def test_who_bound_the_callback_since_keeps_it(protocol):
     assert (heard, protocol.calls) == (["hello"], [("handle_packet", "hello")])
 
 
+def test_stopping_twice_is_no_error(protocol, provider):
+    collector = create_statistics(protocol)
+    collector.unregister()
+    collector.unregister()
+    assert provider.timers == []
+
+
+def test_a_collector_that_was_stopped_can_start_again(protocol, provider):
+    collector = create_statistics(protocol)
+    collector.unregister()
+    collector.register()
+    assert provider.timers == [(DATA_COLLECTION_INTERVAL, "statistics")]
+
+
 def test_after_finish_a_new_collection_can_start(protocol, provider):
     create_statistics(protocol, "part", 1)
     provider.pass_time(protocol, 1)

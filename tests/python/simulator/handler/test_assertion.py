@@ -175,7 +175,7 @@ def test_what_is_no_case_is_refused(wrong):
 
 def test_after_a_failure_nothing_more_is_judged(caplog):
     with pytest.raises(FailedAssertionException, match="few"):
-        run(always(1), eventually(4))
+        run(eventually(4), always(1))
     assert caplog.messages == []
 
 

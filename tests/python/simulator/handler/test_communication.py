@@ -178,6 +178,8 @@ def test_another_node_does_not_change_the_losses_of_the_first_ones(world):
         (SendMessageCommand("hi", "1"), "node '1', which does not exist"),
         (SendMessageCommand("hi", [1]), r"node \[1\], which does not exist"),
         (SendMessageCommand("hi", None), "without a destination"),
+        (SendMessageCommand("hi", 1, interface=16), "interface must be an int from 0 to 15"),
+        (SendMessageCommand("hi", 1, interface=None), "interface must be an int from 0 to 15"),
         (CommunicationCommand(CommunicationCommandType.SEND, "hi"), "without a destination"),
         (CommunicationCommand(7, "hi"), "unknown communication command: 7"),
         (BroadcastMessageCommand(b"hi"), "text only, got a bytes"),

@@ -92,6 +92,14 @@ def test_stepping_runs_one_event_at_a_time():
     assert (simulator.step_simulation(), tested.calls.count(("finish", 0))) == (False, 1)
 
 
+def test_stepping_gets_to_the_event_at_the_very_end():
+    tested = timers(1, 5)
+    simulator = build(tested, duration=5)
+    while simulator.step_simulation():
+        pass
+    assert fired(tested) == ["1", "5"]
+
+
 def test_running_some_events_says_whether_it_goes_on():
     tested = timers(1, 2, 3)
     simulator = build(tested)

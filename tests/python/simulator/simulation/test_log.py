@@ -5,9 +5,7 @@ import weakref
 from simulated import build, timers
 
 from gradysim.simulator import simulation
-from gradysim.simulator.simulation import (
-    PositionScheme,
-)
+from gradysim.simulator.simulation import PositionScheme
 
 
 def test_simulations_stepped_in_turn_log_their_own_lines(tmp_path):
@@ -44,6 +42,13 @@ def test_the_course_of_the_simulation_is_logged(capsys):
     assert "Simulation started" in lines
     assert "Simulation finished" in lines
     assert "Total iterations: 1\tSimulation time: 0:00:01" in lines
+
+
+def test_the_wall_time_of_the_run_is_logged(capsys, monkeypatch):
+    clock = iter([1000.0, 1090.0])
+    monkeypatch.setattr("time.monotonic", lambda: next(clock))
+    build(timers(1)).start_simulation()
+    assert "Real time elapsed: 0:01:30\t" in capsys.readouterr().err
 
 
 def test_the_log_can_be_turned_off(capsys):

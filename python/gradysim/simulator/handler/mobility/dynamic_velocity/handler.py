@@ -9,7 +9,6 @@ from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility.dynamic_velocity.config import DynamicVelocityMobilityConfiguration
 from gradysim.simulator.handler.mobility.dynamic_velocity.core import (
-    apply_acceleration_limits,
     apply_velocity_limits,
     apply_velocity_tracking_first_order,
     integrate_position,
@@ -122,14 +121,15 @@ class DynamicVelocityMobilityHandler(INodeHandler):
 
     def _accelerated(self, velocity: Velocity, desired: Velocity) -> Velocity:
         config = self._config
-        dt = config.update_rate
-        acceleration = (config.max_acc_xy, config.max_acc_z)
-        if config.tau_xy is None and config.tau_z is None:
-            velocity = apply_acceleration_limits(velocity, desired, dt, *acceleration)
-        else:
-            velocity = apply_velocity_tracking_first_order(
-                velocity, desired, dt, *acceleration, config.tau_xy, config.tau_z
-            )
+        velocity = apply_velocity_tracking_first_order(
+            velocity,
+            desired,
+            config.update_rate,
+            config.max_acc_xy,
+            config.max_acc_z,
+            config.tau_xy,
+            config.tau_z,
+        )
         return apply_velocity_limits(velocity, config.max_speed_xy, config.max_speed_z)
 
     def _delivery(self, node: Node[Any]) -> Callable[[], None]:
