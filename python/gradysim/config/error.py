@@ -5,6 +5,9 @@ from typing import Self
 
 from gradysim.config.source import Source
 
+_MOST_LETTERS = 200
+"""Of a value in a message. The corners of an outline would fill a screen before it says what is wrong."""
+
 
 class ConfigError(ValueError):
     """A mistake in a configuration. Its text is "FILE:LINE: what is wrong; what was expected".
@@ -29,10 +32,14 @@ class ConfigError(ValueError):
     def at(cls, source: Source, text: str) -> Self:
         """An error found elsewhere (the engine's check of a range, say) in the value at `source`."""
         is_told = source.is_command_line or not source.key
-        return cls(text if is_told else f"{source.key} = {source.value}: {text}", source)
+        return cls(text if is_told else f"{source.key} = {_shortened(source.value)}: {text}", source)
 
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
+
+
+def _shortened(value: str) -> str:
+    return value if len(value) <= _MOST_LETTERS else f"{value[: _MOST_LETTERS // 2]}…"
 
 
 class BadValue(ValueError):  # noqa: N818 - no error of its own: see below

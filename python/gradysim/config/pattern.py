@@ -13,6 +13,9 @@ from gradysim.config.error import BadValue
 
 _NUMBER_RANGE = re.compile(r"(?:\[(\d*)\.\.(\d*)\])|(?:\{(\d*)\.\.(\d*)\})", re.ASCII)
 
+_MOST_DIGITS = 18
+"""Of the ends of a range. The regular expression grows with their square, and no node has such an index."""
+
 
 @dataclass(frozen=True)
 class Token:
@@ -151,6 +154,9 @@ def _character_set(content: str) -> Token:
 
 def _number_range(text: str, low: str, high: str) -> Token:
     """A token for the decimal numbers low..high. The number ends where its digits end."""
+    low, high = low.lstrip("0"), high and (high.lstrip("0") or "0")
+    if max(len(low), len(high)) > _MOST_DIGITS:
+        raise BadValue(f"the range `{text:.20}...` has a number of more than {_MOST_DIGITS} digits")
     first = int(low or "0")
     if high and int(high) < first:
         raise BadValue(f"the range `{text}` is empty; expected the smaller number first")

@@ -8,6 +8,7 @@ from types import ModuleType
 
 from gradysim.config.error import BadValue
 from gradysim.config.nearest import did_you_mean
+from gradysim.config.neighbours import names_beside
 from gradysim.config.protocol_contract import check_contract
 from gradysim.config.protocol_module import ModuleLoader
 from gradysim.protocol.interface import IProtocol
@@ -36,10 +37,13 @@ class ProtocolLoader:
 
     def _from_file(self, place: str, folder: Path) -> ModuleType:
         file = folder / place
-        if not file.is_file():
-            siblings = [sibling.name for sibling in file.parent.glob("*.py")] if file.parent.is_dir() else []
+        try:
+            is_file = file.is_file()
+        except OSError as error:
+            raise BadValue(f"{file}: {error.strerror}") from error
+        if not is_file:
             prefix = place[: len(place) - len(Path(place).name)]
-            hint = did_you_mean(place, (prefix + sibling for sibling in sorted(siblings)))
+            hint = did_you_mean(place, (prefix + sibling for sibling in names_beside(file, "*.py")))
             raise BadValue(f"there is no file {file}", hint)
         try:
             return self._modules.load(file)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from gradysim.config.error import ConfigError
 from gradysim.config.nearest import did_you_mean
+from gradysim.config.neighbours import names_beside
 from gradysim.config.source import Source
 
 GENERAL = "General"
@@ -86,10 +87,11 @@ class _Reader:
     def read(self, file: Path, section: str, asked_by: Source | None, including: tuple[Path, ...]) -> None:
         """Read one file into `section`, up to its first heading."""
         headings: dict[str, int] = {}
+        text = _text_of(file, asked_by)  # what cannot be read has no other name either
         resolved = file.resolve()
         if resolved in including:
             raise ConfigError(f"{file} includes itself; expected another file", asked_by)
-        for number, line in _logical_lines(file, _text_of(file, asked_by)):
+        for number, line in _logical_lines(file, text):
             source = Source(file, number)
             if line.startswith("["):
                 section = self._open_section(line, source, headings)
@@ -125,11 +127,12 @@ class _Reader:
 def _text_of(file: Path, asked_by: Source | None) -> str:
     try:
         data = file.read_bytes()
-    except OSError as error:
-        siblings = sorted(file.parent.glob("*.ini")) if file.parent.is_dir() else []
-        hint = did_you_mean(file.name, (sibling.name for sibling in siblings))
-        reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
-        raise ConfigError(f"{file}: {reason}; expected an .ini file{hint}", asked_by) from error
+    except (OSError, ValueError) as error:  # a ValueError if there is a zero byte in its name
+        hint = did_you_mean(file.name, names_beside(file, "*.ini"))
+        reason = error.strerror if isinstance(error, OSError) else None
+        if isinstance(error, FileNotFoundError):
+            reason = "no such file"
+        raise ConfigError(f"{file}: {reason or error}; expected an .ini file{hint}", asked_by) from error
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -28,6 +28,11 @@ def test_at_adds_the_entry_to_somebody_elses_text() -> None:
     assert str(ConfigError.at(SOURCE, "out of range")) == "a.ini:7: *.x.mobility.speed = -1mps: out of range"
 
 
+def test_at_leaves_most_of_a_long_value_out() -> None:
+    source = Source(Path("a.ini"), 7, "*.x.points", "1" * 5000)
+    assert str(ConfigError.at(source, "out of range")) == f"a.ini:7: *.x.points = {'1' * 100}…: out of range"
+
+
 def test_at_does_not_repeat_what_the_command_line_says() -> None:
     source = Source(Path("a.ini"), 0, "repeat", "0")
     assert str(ConfigError.at(source, "out of range")) == "--set repeat=0: out of range"

@@ -47,6 +47,7 @@ def matches(pattern: str, path: str) -> bool:
         ("n{3..5}*", "n4x", True),
         ("n{3..5}", "n04", True),
         ("n{3..}", "n007", True),
+        ("n[" + "0" * 5000 + "3..0004]", "n[4]", True),
         ("n[3]", "n[3]", True),
         ("n[3]", "n[30]", False),
         (r"a\*", "a*", True),
@@ -69,6 +70,14 @@ def test_examples(pattern: str, path: str, expected: bool) -> None:
             "`{` is not closed; expected `}` after it (a plain brace is written `\\{`)",
         ),
         ("a[5..3]", "the range `[5..3]` is empty; expected the smaller number first"),
+        (
+            "a[0..1000000000000000000]",
+            "the range `[0..1000000000000000...` has a number of more than 18 digits",
+        ),
+        (
+            "a[" + "9" * 5000 + "..]",
+            "the range `[9999999999999999999...` has a number of more than 18 digits",
+        ),
         ("a{z-b}", "the range `z-b` is empty; expected `b-z`"),
         ("a\\", "a backslash stands at the end; expected a character after it"),
         ("{^}", "`{^}` holds no characters; expected some, such as `{^a-z}`"),

@@ -109,6 +109,13 @@ def test_a_file_that_does_not_load_shows_its_own_error_and_line(
     assert re.fullmatch(rf"broken\.py does not load: {re.escape(error)}.* \(broken\.py:{line}\)", shown)
 
 
+@pytest.mark.parametrize(
+    ("name", "problem"), [("p" * 5000, "File name too long"), ("p\0", "there is no file p\0.py")]
+)
+def test_a_name_that_no_file_has_is_an_error(error_of: Any, name: str, problem: str) -> None:
+    assert problem in error_of(f"{name}.py:Mobile")
+
+
 def test_an_error_in_a_sibling_shows_the_siblings_line(folder: Any, error_of: Any) -> None:
     folder.write("broken.py", "import sibling_x")
     folder.write("sibling_x.py", "\n\n1 / 0")

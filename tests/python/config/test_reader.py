@@ -203,6 +203,18 @@ def test_a_file_that_includes_itself_by_another_name_is_found_out(write_ini: Wri
     )
 
 
+def test_a_link_that_leads_to_itself_is_no_file(write_ini: Write, tmp_path: Path) -> None:
+    (tmp_path / "loop.ini").symlink_to("loop.ini")
+    assert error_of(write_ini("include loop.ini\n")).startswith("test.ini:1: loop.ini: Too many levels")
+
+
+@pytest.mark.parametrize("name", ["more\0.ini", "m" * 5000, "m" * 5000 + "/more.ini"])
+def test_a_name_that_no_file_has_is_an_error(write_ini: Write, name: str) -> None:
+    text = error_of(write_ini(f"include {name}\n"))
+    assert text.startswith(f"test.ini:1: {name}: ")
+    assert text.endswith("; expected an .ini file")
+
+
 def test_a_missing_file_has_no_line(tmp_path: Path, write_ini: Write) -> None:
     write_ini("a = 1\n", "zigzag.ini")
     assert (
