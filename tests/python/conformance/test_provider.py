@@ -130,7 +130,7 @@ def test_a_failure_carries_the_same_note(callback: str) -> None:
     assert failure("integrated", callback) == failure("prototype", callback)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.lists(st.floats(0, 1), max_size=20, unique_by=lambda time: round(time * 1e12)))
 def test_timers_of_any_times_are_due_within_the_picosecond_that_the_engine_counts_in(
     times: list[float],

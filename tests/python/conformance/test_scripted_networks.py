@@ -20,7 +20,7 @@ KINDS = ["broadcast", "unicast", "schedule", "schedule", "cancel", "draw", "trac
 seeds = st.integers(0, 2**31 - 1)
 coordinates = st.integers(-40, 40).map(float)
 networks = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1, max_size=5)
-many = settings(max_examples=200, deadline=None)
+many = settings(max_examples=200)
 
 
 def scripts(delays: st.SearchStrategy[int]) -> st.SearchStrategy[Script]:

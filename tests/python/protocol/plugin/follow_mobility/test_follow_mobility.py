@@ -112,7 +112,7 @@ def test_whatever_the_place_they_converge_to_it(make_scenario, build_simulation)
     leader_class, follower_class = (node.protocol for node in scenario.nodes[:2])
 
     @given(target=points, relative=points, orientation=st.floats(-360, 360))
-    @settings(max_examples=10, deadline=None)
+    @settings(max_examples=10)
     def law(target, relative, orientation):
         simulator = build_simulation(
             SimulationConfiguration(duration=30, seed=1, execution_logging=False),

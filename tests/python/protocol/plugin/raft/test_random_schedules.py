@@ -99,7 +99,7 @@ def act(network, faults_type, action, argument):
             network.faults = faults_type(loss=network.faults.loss, duplication=0.2, delay_s=(0.0, argument))
 
 
-@settings(max_examples=250, deadline=None)
+@settings(max_examples=250)
 @given(st.lists(ACTIONS, min_size=5, max_size=60), st.integers(0, 2**16), st.sampled_from(RaftMode))
 def test_any_schedule_is_safe_and_recovers(network_type, faults_type, actions, seed, mode):
     network = network_type(NODES, seed, mode)
