@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 Mode = Literal["integrated", "prototype"]
+"""The same as in `gradysim.results.run_result`, which `gradysim --help` does not load."""
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
 ConfigOption = Annotated[str, Parameter(alias="-c", help="Name of the configuration: a section of the file.")]

@@ -18,7 +18,7 @@ from gradysim.config.error import ConfigError
 from gradysim.config.keys.environment import OBSTACLE_FILE
 from gradysim.config.kinds import LARGEST_COORDINATE_M
 from gradysim.config.nearest import misspelt
-from gradysim.config.obstacle_spec import ObstacleSpec
+from gradysim.config.obstacle_spec import DEFAULT_MATERIAL, ObstacleSpec
 from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.source import Source
 from gradysim.protocol.position import Position, geo_to_cartesian
@@ -144,7 +144,7 @@ def _obstacles(
     base_m = _number(properties, "base", 0.0)
     if height_m <= 0:
         raise _BadFileError(f"its height is {height_m:g}; expected metres, more than 0")
-    material = properties.get("material", "concrete")
+    material = properties.get("material", DEFAULT_MATERIAL)
     if not isinstance(material, str):
         raise _BadFileError(f"its material is {material!r}; expected a name")
     own = {

@@ -6,6 +6,9 @@ from dataclasses import dataclass, field
 from gradysim.config.outline import Ring
 from gradysim.config.source import Source
 
+DEFAULT_MATERIAL = "concrete"
+"""Of obstacles that do not say theirs."""
+
 
 @dataclass(frozen=True)
 class ObstacleSpec:
@@ -28,7 +31,7 @@ class ObstacleSpec:
     base_m: float
     top_m: float
     source: Source
-    material: str = "concrete"
+    material: str = DEFAULT_MATERIAL
     relative_permittivity: float = -1.0
     conductivity_spm: float = -1.0
     sources: Mapping[str, Source] = field(default_factory=dict)

@@ -8,7 +8,7 @@ from gradysim.config.geojson import read_geojson
 from gradysim.config.key import Key
 from gradysim.config.keys.environment import NUM_OBSTACLES, OBSTACLE_FILE, OBSTACLE_KEYS, obstacle_path
 from gradysim.config.lookup import Lookup
-from gradysim.config.obstacle_spec import ObstacleSpec
+from gradysim.config.obstacle_spec import DEFAULT_MATERIAL, ObstacleSpec
 from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.setting import Setting, SettingReader
 from gradysim.config.source import Source
@@ -89,7 +89,7 @@ def _obstacle(name: str, values: Mapping[str, Setting], size_source: Source | No
         for field in ("relative_permittivity", "conductivity_spm")
         if field in values
     }
-    material = str(values["material"].value) if "material" in values else "concrete"
+    material = str(values["material"].value) if "material" in values else DEFAULT_MATERIAL
     sources = {f"obstacle.{field}": setting.source for field, setting in values.items()}
     return ObstacleSpec(name, (ring,), base_m, top_m, source, material, **own, sources=sources)
 

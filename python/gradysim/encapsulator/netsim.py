@@ -66,12 +66,11 @@ class NetsimProvider(IProvider):
         """Serve the protocol of `node`.
 
         Args:
-            node: the engine's node
-            seed: the seed of the run; the protocol's random numbers follow from it and the node's id
-            reference_coordinates: latitude in degrees, longitude in degrees and altitude in metres of the
-                origin of the scene
-            nodes: all nodes of the network, for extensions that look around
-            handlers: handlers that watch the run, by their labels
+            node: The engine's node.
+            seed: Seed of the run; the protocol's random numbers follow from it and the node's id.
+            reference_coordinates: (latitude deg, longitude deg, altitude m) of the scene's origin.
+            nodes: All nodes of the network, for extensions that look around.
+            handlers: Handlers that watch the run, by their labels.
         """
         self._node = node
         self._nodes = nodes

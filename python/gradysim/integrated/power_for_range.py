@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
 from gradysim.config.keys.interface import DEFAULT_INTERFACE
+from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at_line
@@ -16,8 +17,7 @@ RATIO = 0.5
 MESSAGE_BYTES = 50
 """What a range means if nothing else is said: half of the broadcast messages of that length arrive."""
 
-
-_MTU_BYTES = MESSAGE_BYTES + 28
+_LEAST_MTU_BYTES = MESSAGE_BYTES + 28
 """With the headers of IPv4 and UDP."""
 
 
@@ -27,7 +27,7 @@ class PowersForRanges:
     def __init__(self, medium: "MediumConfig") -> None:
         """For nodes in that medium."""
         self._medium = medium
-        self._has_powers = medium.typename != "UnitDiskRadioMedium"
+        self._has_powers = medium.typename in RADIO_MEDIA.names
         self._known: dict[object, float] = {}
 
     def set_powers(self, config: "NodeConfig", spec: NodeSpec) -> None:
@@ -50,10 +50,10 @@ class PowersForRanges:
         if power_w is None:
             mtu = wlan.mac.get("mtu_bytes")
             is_80211 = config.wlan[index].typename == DEFAULT_INTERFACE
-            if mtu is not None and is_80211 and int(mtu.value) < _MTU_BYTES:
+            if mtu is not None and is_80211 and int(mtu.value) < _LEAST_MTU_BYTES:
                 text = (
-                    f"expected at least {_MTU_BYTES}B: transmitter.communicationRange is about messages of"
-                    f" {MESSAGE_BYTES}B, which have {_MTU_BYTES - MESSAGE_BYTES}B of headers"
+                    f"expected at least {_LEAST_MTU_BYTES}B: transmitter.communicationRange is about messages"
+                    f" of {MESSAGE_BYTES}B, which have {_LEAST_MTU_BYTES - MESSAGE_BYTES}B of headers"
                 )
                 raise ConfigError.at(mtu.source, text)
             budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)

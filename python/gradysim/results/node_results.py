@@ -16,9 +16,9 @@ def node_results(
     """Return the results in the order of the ids.
 
     Args:
-        scenario: what was run
-        ends: for each node, in the same order, its position (m) and the variables that it tracked
-        frames_by_bitrate: for each node, in the same order; None for a mode that has no bitrates
+        scenario: What was run.
+        ends: For each node, in the same order, its position (m) and the variables that it tracked.
+        frames_by_bitrate: For each node, in the same order; None for a mode that has no bitrates.
     """
     rates = repeat({}, len(scenario.nodes)) if frames_by_bitrate is None else frames_by_bitrate
     return tuple(

@@ -4,6 +4,7 @@ from gradysim.config.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.kinds import boolean, choice, coordinate, integer, number, text
+from gradysim.config.obstacle_spec import DEFAULT_MATERIAL
 
 MATERIALS = (
     "concrete",
@@ -87,7 +88,7 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
         "material",
         choice(*MATERIALS),
         "what it is made of",
-        default='"concrete"',
+        default=f'"{DEFAULT_MATERIAL}"',
     ),
     _body(
         "relativePermittivity",
