@@ -99,7 +99,7 @@ class CameraHardware(Extension):
         distance = math.hypot(dx, dy, dz)
         if distance > self._configuration.camera_reach:
             return False
-        if distance == 0:
+        if distance == 0:  # which has no direction: products of -0 and 0 would tell one
             return True
         ax, ay, az = self._axis
         # The arcus tangent knows every angle; the arcus cosine fails where its argument rounds to > 1.

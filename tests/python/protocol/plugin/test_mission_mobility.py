@@ -87,12 +87,13 @@ def test_a_loop_of_one_waypoint_stays_there_in_silence(protocol, loop):
     assert protocol.provider.targets == [(5.0, 5.0, 5.0)]
 
 
+@pytest.mark.parametrize("tolerance", [0.5, 4])
 @pytest.mark.parametrize("axis", [0, 1, 2])
-@pytest.mark.parametrize(("distance", "waypoint"), [(0.5, 1), (-0.5, 1), (0.51, 0), (-0.51, 0)])
-def test_a_waypoint_is_reached_within_the_tolerance(protocol, axis, distance, waypoint):
-    plugin = mission(protocol, tolerance=0.5)
+@pytest.mark.parametrize(("share", "waypoint"), [(1, 1), (-1, 1), (1.02, 0), (-1.02, 0)])
+def test_a_waypoint_is_reached_within_the_tolerance(protocol, tolerance, axis, share, waypoint):
+    plugin = mission(protocol, tolerance=tolerance)
     position = [0.0, 0.0, 0.0]
-    position[axis] = distance
+    position[axis] = share * tolerance
     protocol.handle_telemetry(Telemetry(tuple(position)))
     assert plugin.current_waypoint == waypoint
 
@@ -117,6 +118,13 @@ def test_a_stopped_mission_does_not_go_on(protocol):
     plugin.stop_mission()
     protocol.handle_telemetry(Telemetry(LINE[0]))
     assert protocol.provider.targets == [LINE[0]]
+
+
+def test_a_stopped_mission_is_not_reversed_any_more(protocol):
+    plugin = mission(protocol, LoopMission.REVERSE)
+    plugin.set_reversed(True)
+    plugin.stop_mission()
+    assert not plugin.is_reversed
 
 
 def test_stopping_when_idle_does_nothing(protocol):

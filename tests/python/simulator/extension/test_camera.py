@@ -63,6 +63,20 @@ def test_with_the_widest_cone_everything_in_reach_is_seen(see):
     assert see(180, 0, 0) == ["north", "east", "south", "up", "down", "same", "slanting"]
 
 
+@pytest.mark.parametrize("place", [(100, 0, 0), (0, 100, 0), (0, 0, 100)])
+@pytest.mark.parametrize(("x", "seen"), [(5, 1), (-5, 0), (0, 1)])
+def test_it_looks_from_where_it_is(protocols, place, x, seen):
+    protocol, *_ = protocols([place, (place[0] + x, *place[1:])], MobilityHandler())
+    camera = CameraHardware(protocol, CameraConfiguration(10, 30, 90, 0))
+    assert len(camera.take_picture()) == seen
+
+
+@pytest.mark.parametrize("elevation", [45, 135])
+@pytest.mark.parametrize("rotation", [45, 135, 225, 315])
+def test_a_node_at_its_own_place_is_seen_wherever_it_looks(see, elevation, rotation):
+    assert "same" in see(1, elevation, rotation)
+
+
 def test_what_is_known_of_a_node(protocols):
     protocol, *_ = protocols([(0, 0, 0), (0, 0, 1)], MobilityHandler())
     camera = CameraHardware(protocol, CameraConfiguration(10, 30, 0, 0))

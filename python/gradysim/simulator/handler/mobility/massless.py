@@ -101,7 +101,7 @@ class MasslessMobilityHandler(INodeHandler):
             raise ValueError(f"speed of node {node_id} must be finite and >= 0 m/s, got {speed!r}")
         rate = self._configuration.update_rate
         if telemetry_interval is not None and telemetry_interval != 0:
-            if not is_in_range(telemetry_interval, 0, above=True):
+            if not is_in_range(telemetry_interval, 0):
                 raise ValueError(
                     f"telemetry_interval of node {node_id} must be finite and >= 0 s, "
                     f"got {telemetry_interval!r}"
