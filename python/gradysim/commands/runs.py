@@ -8,10 +8,12 @@ from gradysim.commands.scenarios import load
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
     from gradysim.config.error import ConfigError
+    from gradysim.config.iterations import text_of_iterations
 
     try:
         for scenario in load(file, config, None, settings):
-            print(f"Run {scenario.run_number}: $repetition={scenario.run_number}")
+            values = {**scenario.iterations, "repetition": scenario.repetition}
+            print(f"Run {scenario.run_number}: {text_of_iterations(values)}")
     except ConfigError as mistake:
         return say_mistake(mistake)
     return OK

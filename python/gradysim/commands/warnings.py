@@ -9,9 +9,10 @@ if TYPE_CHECKING:
 
 
 def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
-    """Say on the error output that runs share a seed."""
+    """Say on the error output that runs share a seed, all else being equal."""
     seeds = {scenario.seed for scenario in scenarios}
-    if len(seeds) < len(scenarios):
+    different = {(scenario.seed, *scenario.iterations.values()) for scenario in scenarios}
+    if len(different) < len(scenarios):
         same = f"seed {seeds.pop()}" if len(seeds) == 1 else "only a few different seeds"
         print(
             f"warning: the {len(scenarios)} runs of {scenarios[0].config} have {same}: runs with one seed are"

@@ -9,10 +9,12 @@ from gradysim.config.source import Source
 _RANGE = re.compile(r"\s*(\d{1,9})\s*(?:(?:\.\.|-)\s*(\d{1,9})\s*)?", re.ASCII)
 
 
-def select_runs(runs: str | Iterable[int] | None, count: int, config: str, source: Source) -> list[int]:
+def select_runs(
+    runs: str | Iterable[int] | None, count: int, config: str, source: Source, made_of: str = ""
+) -> list[int]:
     """The run numbers, in increasing order, each once; all of 0 to count-1 for None.
 
-    `source` is where `count` comes from.
+    `source` is where `count` comes from, and `made_of` says how, if it is not `repeat` alone.
 
     Raises:
         ConfigError: The text is no list of numbers, or there is no such run.
@@ -25,7 +27,9 @@ def select_runs(runs: str | Iterable[int] | None, count: int, config: str, sourc
             run = numbers.start if not numbers or numbers.start < 0 else numbers.stop - 1
             has = "run 0" if count == 1 else f"runs 0 to {count - 1}"
             raise ConfigError(
-                f"configuration `{config}` has no run {run}; expected {has} (`repeat = {count}`)", source
+                f"configuration `{config}` has no run {run}; expected {has}"
+                f" ({made_of or f'`repeat = {count}`'})",
+                source,
             )
     return sorted({run for numbers in ranges for run in numbers})
 

@@ -1,12 +1,20 @@
 """What a configuration says, run by run: the plain data that both modes are built from."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from gradysim.config.constraint import holds
 from gradysim.config.error import ConfigError
 from gradysim.config.groups import find_groups
 from gradysim.config.interfaces import interface_counts
+from gradysim.config.iterations import (
+    MAX_VALUES,
+    IterationVariable,
+    combinations,
+    count_combinations,
+    name_iterations,
+)
 from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS
 from gradysim.config.keys.options import OPTIONS
@@ -54,7 +62,8 @@ class Scenario:
     Attributes:
         file: The .ini file.
         config: Name of the configuration.
-        run_number: 0 to repeat-1.
+        run_number: From 0, over all combinations of values that the configuration iterates over, and their
+            repetitions.
         seed: Of all random streams of the run.
         description: What the configuration says of itself, or "".
         sim_time_limit_s: Simulated time at which the run ends.
@@ -64,6 +73,8 @@ class Scenario:
         reference_coordinates: Latitude in degrees, longitude in degrees and altitude in metres of the origin.
         obstacles: What stands between the nodes.
         sections: The sections of the file that the configuration consists of, in the order of the search.
+        repetition: 0 to repeat-1.
+        iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
     """
 
     file: Path
@@ -78,6 +89,8 @@ class Scenario:
     reference_coordinates: tuple[float, float, float]
     obstacles: tuple[ObstacleSpec, ...] = ()
     sections: tuple[Section, ...] = field(default=(), repr=False)
+    repetition: int = 0
+    iterations: Mapping[str, str] = field(default_factory=dict)
 
 
 def require_scenario(value: object) -> None:
@@ -90,7 +103,7 @@ def require_scenario(value: object) -> None:
 
 @dataclass(frozen=True)
 class _Network:
-    """The part of a scenario that is the same for all runs, unless a value says `${runnumber}`."""
+    """The part of a scenario that is the same for all runs in which no value of it differs."""
 
     nodes: tuple[NodeSpec, ...]
     medium: Mapping[str, Setting]
@@ -133,23 +146,63 @@ def load_scenarios(
             check_option(entry)
 
     source = sections[0].source
+    ranked, variables = name_iterations(ranked)
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
-    repeat = _options(_substituted(only_options, config, 0)).get("repeat")
-    count = int(read_scalar(repeat, OPTIONS["repeat"])) if repeat else 1
-    numbers = select_runs(runs, count, config, repeat.source if repeat else source)
+    numbered = _numbered_runs(_options(only_options), variables, config, runs, source)
 
     loader = ProtocolLoader()
-    network: _Network | None = None
-    parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
-    varies = any(map(depends_on_run, parameters))
+    networks: dict[tuple[str, ...], _Network] = {}
+    varying = [
+        entry
+        for _, entry in ranked
+        if not is_option(entry) and not is_ignored(entry) and depends_on_run(entry)
+    ]
     instead = _what_to_run_instead(ini, config, sections)
     scenarios = []
-    for number in numbers:
-        options = _options(_substituted(only_options, config, number))
-        if network is None or varies:
-            network = _network(_substituted(ranked, config, number), loader, instead, source)
-        scenarios.append(_scenario(file, config, number, options, network, sections))
+    for number, repetition, iterations in numbered:
+        values = run_variables(config, number, repetition, iterations)
+        alike = tuple(substitute(entry, values).text for entry in varying)
+        if alike not in networks:
+            networks = {alike: _network(_substituted(ranked, values), loader, instead, source)}
+        options = _options(_substituted(only_options, values))
+        scenario = _scenario(file, config, number, options, networks[alike], sections)
+        scenarios.append(replace(scenario, repetition=repetition, iterations=iterations))
     return scenarios
+
+
+def _numbered_runs(
+    options: Mapping[str, Entry],
+    variables: list[IterationVariable],
+    config: str,
+    runs: str | Iterable[int] | None,
+    source: Source,
+) -> list[tuple[int, int, dict[str, str]]]:
+    """The runs that are wanted: number, repetition and the values of the iteration variables."""
+    repeat = options.get("repeat")
+    if repeat is not None and "${" in repeat.text:
+        raise ConfigError.at(repeat.source, "it is the same for all combinations; expected a number")
+    repetitions = int(read_scalar(repeat, OPTIONS["repeat"])) if repeat else 1
+    count = count_combinations(variables)
+    chosen: Sequence[dict[str, str]] | None = None
+    if (constraint := options.get("constraint")) is not None:
+        chosen = [values for values in combinations(variables) if holds(constraint, values)]
+        if not chosen:
+            raise ConfigError.at(
+                constraint.source, f"none of {count} combinations of values is left; expected one at least"
+            )
+        count = len(chosen)
+    if count * repetitions > MAX_VALUES:
+        raise ConfigError(
+            f"configuration `{config}` has {count} combinations of values and {repetitions} runs of each;"
+            f" expected at most {MAX_VALUES} runs",
+            repeat.source if repeat else source,
+        )
+    made_of = f"{count} combinations of values, `repeat = {repetitions}`" if variables else ""
+    place = repeat.source if repeat else source
+    numbers = select_runs(runs, count * repetitions, config, place, made_of)
+    if chosen is None:
+        chosen = list(combinations(variables))
+    return [(number, number % repetitions, chosen[number // repetitions]) for number in numbers]
 
 
 def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section]) -> str:
@@ -198,8 +251,7 @@ def _scenario(
     )
 
 
-def _substituted(ranked: list[tuple[int, Entry]], config: str, run_number: int) -> list[tuple[int, Entry]]:
-    variables = run_variables(config, run_number)
+def _substituted(ranked: list[tuple[int, Entry]], variables: Mapping[str, str]) -> list[tuple[int, Entry]]:
     return [(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked]
 
 

@@ -163,6 +163,8 @@ class IntegratedRun:
         return RunResult(
             config=scenario.config,
             run=scenario.run_number,
+            repetition=scenario.repetition,
+            iterations=scenario.iterations,
             seed=scenario.seed,
             mode="integrated",
             sim_time_s=network.now,

@@ -79,6 +79,8 @@ class PrototypeRun:
         return RunResult(
             config=scenario.config,
             run=scenario.run_number,
+            repetition=scenario.repetition,
+            iterations=scenario.iterations,
             seed=scenario.seed,
             mode="prototype",
             sim_time_s=simulator.current_time,

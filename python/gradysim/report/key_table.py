@@ -18,7 +18,8 @@ All that an `.ini` file may say; `gradysim keys` prints this page, `gradysim key
 understood too: a power in `mW` or `dBm`, a time in `ms` or `h`.
 Of two lines that fit, the first one is in force: write `*.uavs[0].mobility.speed` above
 `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that another one above it in the same section of
-the same file deprives of any effect. A section may also say `extends = NAME` and `abstract = true`. What only
+the same file deprives of any effect. A list of values, `${10ms, 50ms}`, makes runs of each
+(docs/guides/results.md). A section may also say `extends = NAME` and `abstract = true`. What only
 OMNeT++ needs is ignored: `network`, `result-dir`, `experiment-label`, `cmdenv-*`, `qtenv-*`,
 `*.visualizer.**`.
 

@@ -9,6 +9,7 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
+from gradysim.config.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
 from gradysim.results.run_result import NodeResult, RunResult
 
@@ -58,7 +59,8 @@ def title(text: str) -> Text:
 def heading(result: RunResult) -> Text:
     """Return which run this was, and whether it ended early."""
     text = Text(f"{result.config} run {result.run}", style="bold")
-    text.append(f"  seed {result.seed}, {result.mode} mode", style="not bold")
+    values = f"{text_of_iterations(result.iterations)}, " if result.iterations else ""
+    text.append(f"  {values}seed {result.seed}, {result.mode} mode", style="not bold")
     if result.interrupted:
         text.append(f"\ninterrupted at {result.sim_time_s:g} s of simulated time", style="bold red")
     return text

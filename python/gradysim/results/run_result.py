@@ -3,6 +3,8 @@
 `gradysim.prototype.run` and `gradysim.integrated.run` make it; the command line prints and writes it.
 """
 
+import contextlib
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -46,6 +48,15 @@ class NodeResult:
         }
 
 
+def plain_iteration(value: str) -> int | float | str:
+    """Return the value of an iteration variable as a number if it is a plain one, else without its quotes."""
+    for number in (int, float):
+        with contextlib.suppress(ValueError):
+            if math.isfinite(number(value)):
+                return number(value)
+    return value[1:-1] if len(value) > 1 and value[0] == value[-1] == '"' else value
+
+
 @dataclass(frozen=True)
 class RunResult:
     """What one run computed and what it cost."""
@@ -72,6 +83,10 @@ class RunResult:
     """{what: {kind: {fate: count}}}; `what` is "messages", and "frames" or, in prototype mode, "copies"."""
     nodes: tuple[NodeResult, ...]
     """In the order of their ids."""
+    repetition: int = 0
+    """Number among the runs with the same values of iteration variables, from 0."""
+    iterations: Mapping[str, str] = field(default_factory=dict)
+    """{name of an iteration variable, `${x=1, 2}`: its value in this run, as a text}."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the result as plain dicts, lists, text and numbers."""
@@ -88,4 +103,6 @@ class RunResult:
             "fingerprint": self.fingerprint,
             "fates": plain_value(self.fates),
             "nodes": [node.to_json_object() for node in self.nodes],
+            "repetition": self.repetition,
+            "iterations": {name: plain_iteration(value) for name, value in self.iterations.items()},
         }

@@ -150,6 +150,27 @@ def test_the_same_seed_gives_the_same_fingerprint_in_another_process(gradysim):
     assert first == again
 
 
+def test_runs_of_different_values_may_have_one_seed(gradysim):
+    varied = ("--set", "sim-time-limit=${limit=1, 2, 3}s", "--set", "repeat=1", "--set", "seed-set=4")
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--json", *varied)
+    assert "warning" not in done.stderr
+    assert [(run["iterations"], run["sim_time_s"]) for run in objects(done.stdout)] == [
+        ({"limit": 1}, 1.0),
+        ({"limit": 2}, 2.0),
+        ({"limit": 3}, 3.0),
+    ]
+
+
+def test_runs_lists_the_values_of_iteration_variables(gradysim):
+    done = gradysim("runs", "test.ini", "--set", "repeat=2", "--set", "sim-time-limit=${limit=1s, 2s}")
+    assert done.stdout.splitlines() == [
+        "Run 0: $limit=1s, $repetition=0",
+        "Run 1: $limit=1s, $repetition=1",
+        "Run 2: $limit=2s, $repetition=0",
+        "Run 3: $limit=2s, $repetition=1",
+    ]
+
+
 def test_runs_lists_the_runs(gradysim):
     done = gradysim("runs", "test.ini", "-c", "Failing")
     assert done.returncode == 0

@@ -4,7 +4,7 @@ from typing import Any
 import pytest
 
 from gradysim.config import ConfigError, load_scenarios
-from gradysim.config.scenario import CommunicationMediumSpec
+from gradysim.config.scenario import CommunicationMediumSpec, Scenario
 
 
 def test_a_run_holds_what_the_file_says(folder: Any) -> None:
@@ -80,6 +80,85 @@ def test_values_may_depend_on_the_run(folder: Any) -> None:
     assert scenarios[0].nodes[1].protocol is scenarios[1].nodes[1].protocol
 
 
+def speeds(scenarios: list[Scenario]) -> list[object]:
+    return [scenario.nodes[1].mobility["speed_mps"].value for scenario in scenarios]
+
+
+def test_a_run_for_each_combination_of_values_and_repetition(folder: Any) -> None:
+    folder.load("repeat = 2\n*.uavs[*].mobility.speed = ${speed=1, 2}mps\n")
+    scenarios = load_scenarios(folder.ini)
+    assert [scenario.run_number for scenario in scenarios] == [0, 1, 2, 3]
+    assert [scenario.seed for scenario in scenarios] == [0, 1, 2, 3]
+    assert [scenario.repetition for scenario in scenarios] == [0, 1, 0, 1]
+    assert [scenario.iterations["speed"] for scenario in scenarios] == ["1", "1", "2", "2"]
+    assert speeds(scenarios) == [1.0, 1.0, 2.0, 2.0]
+    assert scenarios[0].nodes is scenarios[1].nodes
+    assert speeds(load_scenarios(folder.ini, runs="2")) == [2.0]
+
+
+def test_options_may_iterate_too(folder: Any) -> None:
+    folder.load("seed-set = ${repetition}\nrepeat = 2\n[X]\nsim-time-limit = ${10s, 20s}\n")
+    assert [(scenario.sim_time_limit_s, scenario.seed) for scenario in load_scenarios(folder.ini, "X")] == [
+        (10.0, 0),
+        (10.0, 1),
+        (20.0, 0),
+        (20.0, 1),
+    ]
+
+
+def test_an_override_fixes_what_the_file_iterates_over(folder: Any) -> None:
+    folder.load("*.uavs[*].mobility.speed = ${speed=1, 2}mps\n")
+    assert speeds(load_scenarios(folder.ini, overrides=["*.uavs[*].mobility.speed=5mps"])) == [5.0]
+    overrides = ["*.uavs[*].mobility.speed=${6..8}mps"]
+    assert speeds(load_scenarios(folder.ini, overrides=overrides)) == [6.0, 7.0, 8.0]
+
+
+def test_a_constraint_chooses_combinations_and_numbers_close_up(folder: Any) -> None:
+    folder.load(
+        "*.uavs[*].mobility.speed = ${speed=1..3}mps\n*.uavs[*].protocol.retries = ${n=1..3}\n"
+        "constraint = $n < $speed\n"
+    )
+    scenarios = load_scenarios(folder.ini)
+    assert [scenario.run_number for scenario in scenarios] == [0, 1, 2]
+    assert [tuple(scenario.iterations.values()) for scenario in scenarios] == [
+        ("2", "1"),
+        ("3", "1"),
+        ("3", "2"),
+    ]
+
+
+def test_a_constraint_that_leaves_nothing(folder: Any) -> None:
+    added = "*.uavs[*].mobility.speed = ${speed=1..3}mps\nconstraint = $speed > 3\n"
+    assert folder.error(added) == (
+        "test.ini:7: constraint = $speed > 3: none of 3 combinations of values is left; expected one at least"
+    )
+
+
+def test_repeat_is_the_same_for_all_combinations(folder: Any) -> None:
+    assert folder.error("repeat = ${1, 2}\n") == (
+        "test.ini:6: repeat = ${1, 2}: it is the same for all combinations; expected a number"
+    )
+
+
+def test_there_is_a_limit_to_the_number_of_runs(folder: Any) -> None:
+    assert folder.error("repeat = 1000\n**.speed = ${1..2000}mps\n") == (
+        "test.ini:6: configuration `General` has 2000 combinations of values and 1000 runs of each;"
+        " expected at most 1000000 runs"
+    )
+
+
+def test_a_run_beyond_all_combinations_says_how_many_there_are(folder: Any) -> None:
+    folder.load("repeat = 3\n**.speed = ${1, 2}mps\n")
+    with pytest.raises(ConfigError, match=r"runs 0 to 5 \(2 combinations of values, `repeat = 3`\)$"):
+        load_scenarios(folder.ini, runs=[6])
+
+
+def test_a_mistake_in_one_of_the_values_is_found_at_once(folder: Any) -> None:
+    folder.load()
+    with pytest.raises(ConfigError, match=r"\$\{1mps, 2s\}.* expected a speed"):
+        load_scenarios(folder.ini, overrides=["**.speed=${1mps, 2s}"])
+
+
 @pytest.mark.parametrize(
     ("key", "text", "field", "value"),
     [
@@ -146,8 +225,8 @@ def test_the_place_on_earth(folder: Any) -> None:
             "seed-set = 1.5: `1.5` is no whole number; expected a whole number",
         ),
         (
-            "*.uavs[*].mobility.speed = ${v=1,2}mps\n",
-            "*.uavs[*].mobility.speed = ${v=1,2}mps: iteration variables",
+            "*.uavs[*].mobility.speed = ${v}mps\n",
+            "*.uavs[*].mobility.speed = ${v}mps: there is no variable `v`",
         ),
         (
             "**.failureRate = 1.5\n",

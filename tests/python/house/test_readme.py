@@ -70,12 +70,6 @@ def test_its_links_lead_somewhere(root: Path) -> None:
     assert [link for link in links if "://" not in link and not (root / link).exists()] == []
 
 
-def test_the_sweep_in_the_shell_sets_a_key_that_exists(root: Path, first_protocol: Path) -> None:
-    setting = re.search(r'--set "(.*)=\$jitter"', (root / "README.md").read_text())
-    assert setting is not None
-    load_scenarios(first_protocol, overrides=[f"{setting[1]}=10ms"])
-
-
 def test_the_commands_of_the_first_protocol_print_what_is_said(
     first_protocol: Path, shell: Callable[..., str]
 ) -> None:
@@ -86,17 +80,22 @@ def test_the_commands_of_the_first_protocol_print_what_is_said(
         assert [node["tracked_variables"]["heard"] for node in result["nodes"]] == [int(heard_by_each)] * 4
 
 
-def test_the_sweep_in_the_shell_leaves_a_folder_for_each_value(
+def test_the_study_has_the_runs_and_the_files_that_are_told(
     first_protocol: Path, shell: Callable[..., str]
 ) -> None:
-    (loop,) = re.findall(r"^for .*?^done$", README.read_text(), re.MULTILINE | re.DOTALL)
-    shell(loop.replace("gradysim run", "gradysim run --quiet"), first_protocol.parent)
-    folders = (first_protocol.parent / "results").iterdir()
-    assert {folder.name: len(list(folder.glob("*.json"))) for folder in folders} == {
-        "jitter-10ms": 1,
-        "jitter-50ms": 1,
-        "jitter-100ms": 1,
-    }
+    readme = README.read_text()
+    (study,) = re.findall(r"^```ini\n(\[Config Study\]\n.*?)^```", readme, re.MULTILINE | re.DOTALL)
+    with first_protocol.open("a") as file:
+        file.write(study)
+    commands = re.findall(
+        r"^(gradysim runs? hello.ini -c Study.*?) +# (.*), and so on$", readme, re.MULTILINE
+    )
+    (listing, first_line), (running, first_file) = commands
+    lines = shell(listing, first_protocol.parent).splitlines()
+    assert (lines[0], len(lines)) == (first_line, 30)
+    shell(f"{running} --quiet", first_protocol.parent)
+    assert (first_protocol.parent / first_file).is_file()
+    assert len(list((first_protocol.parent / "results").iterdir())) == 30
 
 
 def test_the_commands_of_docker_name_what_there_is(root: Path) -> None:
@@ -123,7 +122,8 @@ def test_contributing_lists_every_command(root: Path) -> None:
 
 def test_each_line_of_its_sh_snippets_is_of_a_kind_that_is_tested_here() -> None:
     snippets = re.findall(r"^```sh\n(.*?)^```", README.read_text(), re.MULTILINE | re.DOTALL)
-    loop = re.compile(r"^for .*?^done$", re.MULTILINE | re.DOTALL)
-    lines = loop.sub("", "".join(snippets)).split("\n")
-    known = re.compile(r"make [a-z-]+ .*|docker .*|gradysim run .* # .*heard = \d+|")
+    lines = "".join(snippets).split("\n")
+    known = re.compile(
+        r"make [a-z-]+ .*|docker .*|gradysim run .* # .*heard = \d+|gradysim runs? .* -c Study .*# .*|"
+    )
     assert [line for line in lines if not known.fullmatch(line)] == []

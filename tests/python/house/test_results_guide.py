@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config import Scenario
+from gradysim.config import Scenario, load_scenarios
 from gradysim.prototype.run import run
 
 GUIDE = "docs/guides/results.md"
@@ -59,7 +59,40 @@ def test_its_study_compares_both_modes(folder: Path, shown: dict[str, Any]) -> N
     assert totals[-2:] == [("100ms", "prototype", 2, 708), ("100ms", "integrated", 2, 708)]
 
 
+def test_its_intervals_of_the_study_are_those_that_are_told(
+    root: Path,
+    code_blocks: CodeBlocks,
+    shell: Callable[[str, Path], str],
+    folder: Path,
+    shown: dict[str, Any],
+) -> None:
+    with (folder / "hello.ini").open("a") as file:
+        file.write(code_blocks("README.md", "ini")[1])
+    shell("gradysim run hello.ini -c Study --result-dir results --quiet", folder)
+    shares = shown["deliveries"](folder / "results")
+    table = {jitter: shown["with_confidence"](of_jitter) for jitter, of_jitter in shares.items()}
+    assert table.pop("10ms") == (1, 0)
+    told = re.findall(r"([\d.]+) % ± ([\d.]+) %", (root / GUIDE).read_text())
+    computed = [(f"{100 * mean:.1f}", f"{100 * half:.1f}") for mean, half in (table["100us"], table["1ms"])]
+    assert computed == told
+
+
+@pytest.mark.parametrize(
+    ("line", "runs"),
+    [
+        ("*.nodes[*].protocol.jitter = ${10ms, 50ms}", 2),
+        ("*.nodes[*].mobility.lineStepX = ${10..60 step 10}m", 6),
+        ("seed-set = ${repetition}", 1),
+    ],
+)
+def test_lines_of_studies_are_understood(root: Path, folder: Path, line: str, runs: int) -> None:
+    assert f"| `{line}` |" in (root / GUIDE).read_text()
+    scenarios = load_scenarios(folder / "hello.ini", overrides=[line])
+    assert len(scenarios) == runs
+
+
 def test_its_table_has_all_fields(root: Path, make_scenario: Callable[..., Scenario]) -> None:
-    rows = re.findall(r"^\| (`.*?) \|", (root / GUIDE).read_text(), re.MULTILINE)
+    table = (root / GUIDE).read_text().partition("A row for each node")[0]
+    rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     names = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
     assert names == set(run(make_scenario()).to_json_object())

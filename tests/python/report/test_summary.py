@@ -53,6 +53,11 @@ def test_what_is_in_it(what):
     assert what in printed()
 
 
+def test_values_of_iteration_variables_are_in_the_heading():
+    shown = printed(iterations={"jitter": "10ms", "0": "5"})
+    assert shown.splitlines()[0] == "ZigZag5 run 2  $jitter=10ms, $0=5, seed 7, integrated mode"
+
+
 def test_fates_are_a_table_with_a_column_per_kind():
     lines = [line.split() for line in printed().splitlines()]
     assert ["fate", "broadcast", "ack"] in lines

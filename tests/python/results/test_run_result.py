@@ -18,6 +18,8 @@ def result_with(tracked_variables):
         fingerprint=None,
         fates={"messages": {"broadcast": {"delivered": 3}}},
         nodes=(node,),
+        repetition=1,
+        iterations={"jitter": "10ms", "nodes": "5", "alpha": "2.5", "name": '"a"', "noise": "nan"},
     )
 
 
@@ -36,6 +38,8 @@ def test_keys_and_values_that_scripts_rely_on():
         ("interrupted", False),
         ("fingerprint", None),
         ("fates", {"messages": {"broadcast": {"delivered": 3}}}),
+        ("repetition", 1),
+        ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
     ]
 
 

@@ -28,8 +28,15 @@ OPTION_KEYS: tuple[Key, ...] = (
         "repeat",
         "option.repeat",
         integer(1, 1_000_000),
-        "How many runs there are, from number 0",
+        "How many runs there are of each combination of values of `${...}`, with a seed each",
         default="1",
+    ),
+    Key(
+        "constraint",
+        "option.constraint",
+        text(),
+        "Which combinations of values are runs: `$x < $y && $x != 3`; all by default",
+        default='""',
     ),
     Key("description", "option.description", text(), "What the configuration is about", default='""'),
 )

@@ -1,0 +1,75 @@
+"""The option `constraint`: which combinations of iteration variables are runs, as in `$nodes * $rate < 500`.
+
+Its grammar: comparisons of two values, joined by `&&` and `||`, of which `&&` binds more tightly. Variables
+are written `$x` or `${x}`.
+"""
+
+import operator
+import re
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from gradysim.config.error import BadValue, ConfigError
+from gradysim.config.expression import Value, parse_value
+from gradysim.config.quantity import Quantity
+from gradysim.config.reader import Entry
+
+_COMPARISONS: dict[str, Callable[[Any, Any], bool]] = {
+    "<=": operator.le,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    ">": operator.gt,
+}
+_SIGN = re.compile(r"(<=|>=|==|!=|<|>)")
+_VARIABLE = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
+
+
+def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
+    """Whether a combination of values is wanted.
+
+    Raises:
+        ConfigError: The constraint is no comparison, or cannot be decided.
+    """
+
+    def value_of(match: re.Match[str]) -> str:
+        name = match[1] or match[2]
+        if name not in variables:
+            known = " or ".join(f"`${other}`" for other in variables) or "a configuration with `${x=1, 2}`"
+            raise ConfigError.at(constraint.source, f"there is no variable `{name}`; expected {known}")
+        return variables[name]
+
+    text = constraint.text
+    if text.startswith('"') and text.endswith('"'):
+        text = text[1:-1].replace('\\"', '"')
+    text = _VARIABLE.sub(value_of, text)
+    try:
+        return any(all(map(_comparison, alternative.split("&&"))) for alternative in text.split("||"))
+    except BadValue as error:
+        raise ConfigError.at(
+            constraint.source,
+            f"{error.problem} in `{text}`; expected comparisons such as `$x < $y && $y != 3`"
+            f"{error.suggestion}",
+        ) from error
+
+
+def _comparison(text: str) -> bool:
+    parts = _SIGN.split(text)
+    if len(parts) != 3:
+        raise BadValue(f"`{text.strip()}` is not one comparison")
+    left, right = parse_value(parts[0]), parse_value(parts[2])
+    return _COMPARISONS[parts[1]](*_comparable(left, right))
+
+
+def _comparable(left: Value, right: Value) -> tuple[object, object]:
+    """Both as Python's numbers or texts. Raises BadValue if they are of different kinds."""
+    if isinstance(left, Quantity) and isinstance(right, Quantity):
+        if left.unit is None and right.unit is None:
+            return left.number, right.number
+        if left.unit is not None and right.unit is not None:
+            return left.to(right.unit), float(right.number)
+        raise BadValue(f"`{left}` and `{right}` measure different things")
+    if type(left) is type(right) and isinstance(left, str | bool):
+        return left, right
+    raise BadValue("it compares a number with something else")
