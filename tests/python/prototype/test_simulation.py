@@ -1,6 +1,9 @@
+from dataclasses import replace
+
 import pytest
 
 from gradysim.config.error import ConfigError
+from gradysim.config.scenario import CommunicationMediumSpec
 from gradysim.prototype.simulation import build_simulation, communication_medium
 
 
@@ -83,3 +86,9 @@ def test_a_telemetry_interval_below_the_simulators_step_is_an_error_at_its_setti
 def test_the_medium(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", "*.communicationMedium.transmissionRange = 30m")
     assert communication_medium(scenario).transmission_range == 30
+
+
+def test_a_medium_that_a_script_got_wrong_is_refused(make_scenario):
+    scenario = replace(make_scenario(), communication_medium=CommunicationMediumSpec(failure_rate=2.0))
+    with pytest.raises(ConfigError, match=r"test\.ini: \*\.communicationMedium: failure_rate .* got 2\.0"):
+        build_simulation(scenario)

@@ -142,7 +142,7 @@ def test_eventually_true_of_the_simulation():
 def test_a_case_goes_by_the_name_of_its_predicate():
     case = always(1)
     assert issubclass(case, SimulationTestCase)
-    assert case.__name__ == "few"
+    assert (case.__name__, case.__qualname__, case.__module__) == ("few", "always.<locals>.few", __name__)
 
 
 def test_a_case_of_ones_own():

@@ -36,6 +36,14 @@ def test_lines_say_when_and_to_whom(capsys):
     assert "INFO     [it=0 time=0:00:07.500000 | Tested 0 handle_timer] hello\n" in capsys.readouterr().err
 
 
+def test_lines_between_two_steps_belong_to_no_event(capsys):
+    simulator = build(timers(1, 2))
+    simulator.step_simulation()
+    logging.getLogger().info("between")
+    simulator.finalize()
+    assert "INFO     between\n" in capsys.readouterr().err
+
+
 def test_the_course_of_the_simulation_is_logged(capsys):
     build(timers(1)).start_simulation()
     lines = capsys.readouterr().err
