@@ -21,6 +21,7 @@ from gradysim.commands.warnings import (
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
+    from gradysim.report.interrupt import StopOnInterrupt
     from gradysim.report.supervised_run import Outcome, Run
     from gradysim.results.run_result import RunResult
 
@@ -67,19 +68,23 @@ def run(
     from gradysim.config.error import ConfigError
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report.interrupt import StopOnInterrupt
+    from gradysim.report.waiting import waiting
 
     output = sys.stdout
+    bar = not quiet and not as_json
     # What protocols print, also when they are imported, must not get between the JSON objects.
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
         try:
             if result_dir is not None:
                 make_result_dir(result_dir)
-            scenarios = load(file, config, runs, settings, seed)
+            with waiting(f"reading {file}", shown=bar):
+                scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
             warn_of_equal_seeds(scenarios)
             warn_of_shadowed_lines(scenarios[0])
-            for scenario in scenarios:
-                check(scenario)
+            with waiting(f"checking {config}", shown=bar):
+                for scenario in scenarios:
+                    check(scenario)
             if mode == "integrated":
                 warn_of_what_is_seldom_meant(scenarios)
             with StopOnInterrupt() as interrupt:
@@ -87,8 +92,11 @@ def run(
                     if interrupt.should_stop():  # pressed between two runs
                         say_unfinished(scenarios, done)
                         return INTERRUPTED
-                    bar = not quiet and not as_json
-                    outcome = run_one(build, scenario, interrupt.should_stop, bar=bar)
+                    try:
+                        outcome = run_one(build, scenario, interrupt, bar=bar)
+                    except KeyboardInterrupt:  # while it was built
+                        say_unfinished(scenarios, done)
+                        return INTERRUPTED
                     code = report(outcome, output, result_dir, as_json=as_json)
                     if pcap and outcome.result is not None:
                         for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
@@ -113,15 +121,23 @@ def make_result_dir(directory: Path) -> None:
 
 
 def run_one(
-    build: "Callable[[Scenario], Run]", scenario: "Scenario", should_stop: Callable[[], bool], *, bar: bool
+    build: "Callable[[Scenario], Run]", scenario: "Scenario", interrupt: "StopOnInterrupt", *, bar: bool
 ) -> "Outcome":
-    """Carry out one run, with a progress bar if `bar` and the error output is a terminal."""
+    """Carry out one run, with a progress bar if `bar` and the error output is a terminal.
+
+    Raises KeyboardInterrupt if Ctrl-C is pressed before it is built.
+    """
     from rich.console import Console
 
     from gradysim.report.supervised_run import carry_out
+    from gradysim.report.waiting import waiting
+
+    def build_it(scenario: "Scenario") -> "Run":
+        with interrupt.at_once(), waiting(f"building {len(scenario.nodes):,} nodes", shown=bar):
+            return build(scenario)
 
     console = Console(stderr=True) if bar and sys.stderr.isatty() else None
-    return carry_out(build, scenario, should_stop, console)
+    return carry_out(build_it, scenario, interrupt.should_stop, console)
 
 
 def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool) -> int:

@@ -9,6 +9,7 @@ SC 2011: Philox4x32 with 10 rounds.
 """
 
 from enum import IntEnum
+from functools import lru_cache
 from random import Random
 from struct import Struct
 from typing import Any, Self
@@ -39,6 +40,7 @@ def philox4x32(counter: Words, key: tuple[int, int]) -> Words:
     return _ten_rounds(counter, _round_keys(*key), ones=1)
 
 
+@lru_cache(maxsize=16)  # those of all nodes of a run are the same
 def _round_keys(key_0: int, key_1: int) -> tuple[tuple[int, int], ...]:
     return tuple(
         ((key_0 + number * _WEYL_0) & _MASK_32, (key_1 + number * _WEYL_1) & _MASK_32)

@@ -8,6 +8,7 @@ import contextlib
 import os
 import signal
 import threading
+from collections.abc import Iterator
 from types import FrameType
 from typing import Self
 
@@ -22,10 +23,22 @@ class StopOnInterrupt:
 
     def __init__(self) -> None:
         self._pressed = False
+        self._at_once = False
 
     def should_stop(self) -> bool:
         """Return whether Ctrl-C was pressed."""
         return self._pressed
+
+    @contextlib.contextmanager
+    def at_once(self) -> Iterator[None]:
+        """While inside, the first press raises, too: what is only being built has no results to keep."""
+        if self._pressed:
+            raise KeyboardInterrupt
+        self._at_once = True
+        try:
+            yield
+        finally:
+            self._at_once = False
 
     def __enter__(self) -> Self:
         self._in_main_thread = threading.current_thread() is threading.main_thread()
@@ -38,7 +51,7 @@ class StopOnInterrupt:
             signal.signal(signal.SIGINT, self._previous)
 
     def _on_signal(self, _signal: int, _frame: FrameType | None) -> None:
-        if self._pressed:
+        if self._pressed or self._at_once:
             raise KeyboardInterrupt
         self._pressed = True
         with contextlib.suppress(OSError):  # not by sys.stderr, which may be in the middle of a line

@@ -41,6 +41,10 @@ class Stuck(Talker):
         while True:
             signal.raise_signal(signal.SIGINT)
 
+class StuckInTheMaking(Quiet):
+    def __init__(self):
+        signal.raise_signal(signal.SIGINT)
+
 class Unmakeable(Quiet):
     def __init__(self):
         raise RuntimeError("no constructor")
@@ -65,6 +69,9 @@ sim-time-limit = 2500h
 
 [Config Stuck]
 *.uavs[*].protocol.class = "protocol.py:Stuck"
+
+[Config StuckInTheMaking]
+*.uavs[*].protocol.class = "protocol.py:StuckInTheMaking"
 
 [Config Unmakeable]
 *.uavs[*].protocol.class = "protocol.py:Unmakeable"

@@ -38,6 +38,19 @@ def test_a_second_ctrl_c_leaves_a_protocol_that_never_returns(gradysim, mode):
 
 
 @both_modes
+def test_ctrl_c_stops_at_once_what_is_still_being_built(gradysim, mode):
+    done = gradysim("run", "test.ini", "-c", "StuckInTheMaking", "--mode", mode)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "StuckInTheMaking: 0 of 3 runs are done, 3 were not begun (0..2)\n"
+
+
+def test_ctrl_c_stops_at_once_what_is_still_being_read(folder, gradysim):
+    (folder / "long.py").write_text("import signal\nsignal.raise_signal(signal.SIGINT)\n", encoding="utf-8")
+    done = gradysim("run", "test.ini", "--set", "*.uavs[*].protocol.class=long.py:Long")
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
+
+
+@both_modes
 def test_the_summary_of_an_interrupted_run_says_so(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", mode)
     assert "interrupted at 1 s of simulated time" in done.stdout

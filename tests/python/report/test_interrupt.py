@@ -30,6 +30,23 @@ def test_the_second_press_is_an_order():
             signal.raise_signal(signal.SIGINT)
 
 
+def test_where_nothing_is_lost_the_first_press_is_an_order():
+    with StopOnInterrupt() as interrupt:
+        with pytest.raises(KeyboardInterrupt), interrupt.at_once():
+            signal.raise_signal(signal.SIGINT)
+        assert not interrupt.should_stop()
+
+
+def test_behind_it_the_first_press_is_a_wish_again():
+    with StopOnInterrupt() as interrupt:
+        with interrupt.at_once():
+            pass
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.should_stop()
+        with pytest.raises(KeyboardInterrupt), interrupt.at_once():
+            pytest.fail("it was pressed before")
+
+
 def test_afterwards_all_is_as_before():
     before = signal.getsignal(signal.SIGINT)
     with StopOnInterrupt():
