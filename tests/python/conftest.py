@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.simulator import real_time
@@ -42,7 +42,7 @@ sim-time-limit = 2.05s
 *.uavs[*].mobility.telemetryInterval = 0.5s
 """
 
-settings.register_profile("any machine", deadline=None)
+settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("any machine")  # a machine that does other things, too, makes no test fail
 
 
