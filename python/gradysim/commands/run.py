@@ -57,6 +57,13 @@ def run(
     result_dir: Annotated[
         Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.MODE.json.")
     ] = None,
+    resume: Annotated[
+        bool,
+        Parameter(
+            negative="",
+            help="Leave out runs whose file in --result-dir is complete and of the same settings and seed.",
+        ),
+    ] = False,
     pcap: PcapOption = (),
     as_json: Annotated[
         bool,
@@ -81,6 +88,10 @@ def run(
                 scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
             warn_of_equal_seeds(scenarios)
+            if resume:
+                scenarios = left_to_do(scenarios, mode, result_dir)
+                if not scenarios:
+                    return OK
             warn_of_shadowed_lines(scenarios[0])
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
@@ -118,6 +129,26 @@ def make_result_dir(directory: Path) -> None:
     except OSError as error:
         reason = "it is a file" if directory.is_file() else error.strerror or str(error)
         raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
+
+
+def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, result_dir: Path | None) -> "list[Scenario]":
+    """Return the runs that have no result yet, and say which have one. ConfigError without a folder."""
+    from gradysim.config.error import ConfigError
+    from gradysim.config.run_numbers import text_of_runs
+    from gradysim.results.run_file import is_done
+
+    if result_dir is None:
+        raise ConfigError("--resume: there is no folder to look into; expected --result-dir DIR, too")
+    left = [scenario for scenario in scenarios if not is_done(scenario, mode, result_dir)]
+    to_do = {scenario.run_number for scenario in left}
+    done = [scenario.run_number for scenario in scenarios if scenario.run_number not in to_do]
+    if done:
+        print(
+            f"{scenarios[0].config}: {len(done)} of {len(scenarios)} runs {'is' if len(done) == 1 else 'are'}"
+            f" in {result_dir} ({text_of_runs(done)}) and left out",
+            file=sys.stderr,
+        )
+    return left
 
 
 def run_one(

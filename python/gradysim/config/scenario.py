@@ -29,6 +29,7 @@ from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, r
 from gradysim.config.run_numbers import select_runs
 from gradysim.config.sections import config_names, search_order, unused_sections
 from gradysim.config.setting import Setting, SettingReader, read_scalar
+from gradysim.config.settings_hash import entries_of_the_hash, settings_hash
 from gradysim.config.source import Source
 from gradysim.config.struct_reader import read_struct
 from gradysim.config.variables import depends_on_run, run_variables, substitute
@@ -75,6 +76,7 @@ class Scenario:
         sections: The sections of the file that the configuration consists of, in the order of the search.
         repetition: 0 to repeat-1.
         iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
+        settings_hash: Of all that the file and the command line say of this run, the seed of `--seed` apart.
     """
 
     file: Path
@@ -91,6 +93,7 @@ class Scenario:
     sections: tuple[Section, ...] = field(default=(), repr=False)
     repetition: int = 0
     iterations: Mapping[str, str] = field(default_factory=dict)
+    settings_hash: str = ""
 
 
 def require_scenario(value: object) -> None:
@@ -158,6 +161,7 @@ def load_scenarios(
         if not is_option(entry) and not is_ignored(entry) and depends_on_run(entry)
     ]
     instead = _what_to_run_instead(ini, config, sections)
+    in_force = entries_of_the_hash(ranked)
     scenarios = []
     for number, repetition, iterations in numbered:
         values = run_variables(config, number, repetition, iterations)
@@ -166,7 +170,14 @@ def load_scenarios(
             networks = {alike: _network(_substituted(ranked, values), loader, instead, source)}
         options = _options(_substituted(only_options, values))
         scenario = _scenario(file, config, number, options, networks[alike], sections)
-        scenarios.append(replace(scenario, repetition=repetition, iterations=iterations))
+        scenarios.append(
+            replace(
+                scenario,
+                repetition=repetition,
+                iterations=iterations,
+                settings_hash=settings_hash(_substituted(in_force, values)),
+            )
+        )
     return scenarios
 
 

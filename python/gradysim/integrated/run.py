@@ -165,6 +165,7 @@ class IntegratedRun:
             run=scenario.run_number,
             repetition=scenario.repetition,
             iterations=scenario.iterations,
+            settings_hash=scenario.settings_hash,
             seed=scenario.seed,
             mode="integrated",
             sim_time_s=network.now,

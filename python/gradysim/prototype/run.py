@@ -81,6 +81,7 @@ class PrototypeRun:
             run=scenario.run_number,
             repetition=scenario.repetition,
             iterations=scenario.iterations,
+            settings_hash=scenario.settings_hash,
             seed=scenario.seed,
             mode="prototype",
             sim_time_s=simulator.current_time,

@@ -4,7 +4,29 @@ import json
 import os
 from pathlib import Path
 
-from gradysim.results.run_result import RunResult
+from gradysim.config.scenario import Scenario
+from gradysim.results.run_result import Mode, RunResult
+
+
+def run_file(directory: Path, config: str, run: int, mode: Mode) -> Path:
+    """Return the file for one run."""
+    return directory / f"{config}-#{run}.{mode}.json"
+
+
+def is_done(scenario: Scenario, mode: Mode, directory: Path) -> bool:
+    """Whether `directory` has the result of just this run, with the same settings and seed, to its end.
+
+    What is no such file counts as none. Of a protocol that has changed it knows nothing.
+    """
+    file = run_file(directory, scenario.config, scenario.run_number, mode)
+    try:
+        result = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    expected = {"interrupted": False, "seed": scenario.seed, "settings_hash": scenario.settings_hash}
+    return (
+        isinstance(result, dict) and expected.items() <= {name: result.get(name) for name in expected}.items()
+    )
 
 
 def write_run_file(result: RunResult, directory: Path) -> Path:
@@ -15,7 +37,7 @@ def write_run_file(result: RunResult, directory: Path) -> Path:
     written.
     """
     directory.mkdir(parents=True, exist_ok=True)
-    path = directory / f"{result.config}-#{result.run}.{result.mode}.json"
+    path = run_file(directory, result.config, result.run, result.mode)
     unfinished = path.with_name(f"{path.name}.{os.getpid()}")
     try:
         unfinished.write_text(json.dumps(result.to_json_object(), indent=2) + "\n", encoding="utf-8")

@@ -87,6 +87,8 @@ class RunResult:
     """Number among the runs with the same values of iteration variables, from 0."""
     iterations: Mapping[str, str] = field(default_factory=dict)
     """{name of an iteration variable, `${x=1, 2}`: its value in this run, as a text}."""
+    settings_hash: str = ""
+    """Hash of what the .ini file and the command line say of this run, but for its seed."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the result as plain dicts, lists, text and numbers."""
@@ -105,4 +107,5 @@ class RunResult:
             "nodes": [node.to_json_object() for node in self.nodes],
             "repetition": self.repetition,
             "iterations": {name: plain_iteration(value) for name, value in self.iterations.items()},
+            "settings_hash": self.settings_hash,
         }

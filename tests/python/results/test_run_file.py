@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from gradysim.results.run_file import write_run_file
+from gradysim.results.run_file import is_done, write_run_file
 from gradysim.results.run_result import RunResult
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
@@ -51,3 +51,41 @@ def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):
     (tmp_path / "taken").write_text("")
     with pytest.raises(OSError, match="taken"):
         write_run_file(RESULT, tmp_path / "taken")
+
+
+@pytest.fixture
+def done(make_scenario, tmp_path):
+    """A scenario and a folder with its result."""
+    scenario = make_scenario()
+    result = dataclasses.replace(
+        RESULT,
+        config=scenario.config,
+        run=scenario.run_number,
+        seed=scenario.seed,
+        settings_hash=scenario.settings_hash,
+    )
+    return scenario, result, tmp_path / "results"
+
+
+def test_a_run_is_done_if_its_file_is_there(done):
+    scenario, result, folder = done
+    assert not is_done(scenario, "integrated", folder)
+    write_run_file(result, folder)
+    assert is_done(scenario, "integrated", folder)
+    assert not is_done(scenario, "prototype", folder)
+
+
+@pytest.mark.parametrize(
+    "change", [{"interrupted": True}, {"seed": 99}, {"settings_hash": "another"}, {"run": 1}]
+)
+def test_a_run_is_not_done_by_another_result(done, change):
+    scenario, result, folder = done
+    write_run_file(dataclasses.replace(result, **change), folder)
+    assert not is_done(scenario, "integrated", folder)
+
+
+@pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"run": ', b"\xff"])
+def test_a_file_of_something_else_is_no_result(done, content):
+    scenario, result, folder = done
+    write_run_file(result, folder).write_bytes(content)
+    assert not is_done(scenario, "integrated", folder)

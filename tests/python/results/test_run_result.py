@@ -20,6 +20,7 @@ def result_with(tracked_variables):
         nodes=(node,),
         repetition=1,
         iterations={"jitter": "10ms", "nodes": "5", "alpha": "2.5", "name": '"a"', "noise": "nan"},
+        settings_hash="0123",
     )
 
 
@@ -40,6 +41,7 @@ def test_keys_and_values_that_scripts_rely_on():
         ("fates", {"messages": {"broadcast": {"delivered": 3}}}),
         ("repetition", 1),
         ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
+        ("settings_hash", "0123"),
     ]
 
 

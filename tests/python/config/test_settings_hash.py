@@ -1,0 +1,38 @@
+from typing import Any
+
+import pytest
+
+from gradysim.config import load_scenarios
+
+
+def hash_of(folder: Any, added: str = "", *overrides: str) -> str:
+    text: str = folder.load(added, "General", *overrides).settings_hash
+    return text
+
+
+def test_it_is_that_of_the_same_settings(folder: Any) -> None:
+    assert hash_of(folder, "# a comment\n\n**.speed   =  3mps\n") == hash_of(folder, "**.speed = 3mps\n")
+
+
+@pytest.mark.parametrize(
+    "other", [[], ["**.speed=4mps"], ['**.label="3mps"'], ["sim-time-limit=5s", "**.speed=3mps"]]
+)
+def test_other_settings_have_another(folder: Any, other: list[str]) -> None:
+    assert hash_of(folder, "", *other) != hash_of(folder, "", "**.speed=3mps")
+
+
+@pytest.mark.parametrize(
+    "added", ["repeat = 3\n", "description = again\n", "*.visualizer.x = 3\n", "constraint = 1 < 2\n"]
+)
+def test_what_no_run_depends_on_does_not_count(folder: Any, added: str) -> None:
+    assert hash_of(folder, added) == hash_of(folder)
+
+
+def test_an_overridden_line_does_not_count(folder: Any) -> None:
+    assert hash_of(folder, "**.speed = 4mps\n", "**.speed=3mps") == hash_of(folder, "", "**.speed=3mps")
+
+
+def test_runs_of_different_values_have_different_ones(folder: Any) -> None:
+    folder.load("repeat = 2\n**.speed = ${3, 4}mps\n")
+    first, again, other, _ = (scenario.settings_hash for scenario in load_scenarios(folder.ini))
+    assert first == again != other
