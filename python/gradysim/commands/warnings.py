@@ -25,7 +25,9 @@ def warn_of_shadowed_lines(scenario: "Scenario") -> None:
     """Say on the error output which lines of its file have no effect, because of others above them."""
     from gradysim.config.shadowed_lines import shadowed_lines
 
-    for text in shadowed_lines(scenario.sections):
+    medium = scenario.medium.get("typename")
+    has_powers = medium is None or medium.value != "UnitDiskRadioMedium"
+    for text in shadowed_lines(scenario.sections, has_powers=has_powers):
         print(text, file=sys.stderr)
 
 

@@ -29,21 +29,36 @@ _INSTEAD: dict[str, tuple[str, ...]] = {
         f"lineStep{axis}": (f"initial{axis}",),
     }.items()
 }
-"""By the last part of a key those of other keys that set the same."""
+"""By the end of a key those of other keys that set the same."""
+
+_INSTEAD_WITH_POWERS = _INSTEAD | {
+    "transmitter.power": ("transmitter.communicationRange",),
+    "transmitter.communicationRange": ("transmitter.power",),
+    "communicationRange": ("transmitter.power",),
+}
+"""The same where a range stands for the power that it takes."""
+
+_NONE_BY_DEFAULT = ("transmitter.power", "communicationRange")
+"""Ends of keys whose default says nothing about the other."""
 
 
-def shadowed_lines(sections: Iterable[Section]) -> list[str]:
-    """Return one line of text for each, "FILE:LINE: warning: ...", of sections that make a valid scenario."""
-    return [text for section in sections for text in _of_section(section)]
+def shadowed_lines(sections: Iterable[Section], *, has_powers: bool = True) -> list[str]:
+    """Return one line of text for each, "FILE:LINE: warning: ...", of sections that make a valid scenario.
+
+    `has_powers` says whether its radio medium knows powers; on one that does not, a range is only a range.
+    """
+    instead = _INSTEAD_WITH_POWERS if has_powers else _INSTEAD
+    return [text for section in sections for text in _of_section(section, instead)]
 
 
-def _of_section(section: Section) -> Iterator[str]:
+def _of_section(section: Section, instead: Mapping[str, Sequence[str]]) -> Iterator[str]:
     same_key: dict[str, Entry] = {}
     general: list[tuple[Pattern, Entry]] = []
     for entry in section.entries:
         if is_ignored(entry):
             continue
-        above = _deprived_by(entry, same_key, general)
+        others = _instead_of(entry.key, instead)
+        above = _deprived_by(entry, others, same_key, general)
         if above is None:
             same_key.setdefault(entry.key, entry)
             pattern = compile_pattern(entry.key)
@@ -52,31 +67,40 @@ def _of_section(section: Section) -> Iterator[str]:
         elif above.source.file == entry.source.file:
             yield (
                 f"{entry.source}: warning: `{entry.key}` has no effect: line {above.source.line},"
-                f" `{above.key}`, {_why(entry, above)}"
+                f" `{above.key}`, {_why(entry, others, above)}"
             )
 
 
-def _why(entry: Entry, above: Entry) -> str:
-    if above.key in (entry.key, *_instead_of(entry.key)):
+def _why(entry: Entry, others: Sequence[str], above: Entry) -> str:
+    if above.key in (entry.key, *others):
         return "says the same thing and comes first; expected one of them"
     return "fits as well and comes first; expected the special line above the general one"
 
 
 def _deprived_by(
-    entry: Entry, same_key: Mapping[str, Entry], general: Sequence[tuple[Pattern, Entry]]
+    entry: Entry,
+    others: Sequence[str],
+    same_key: Mapping[str, Entry],
+    general: Sequence[tuple[Pattern, Entry]],
 ) -> Entry | None:
     """The line above that is in force instead, wherever this one fits, and that says something else."""
-    for key in (entry.key, *_instead_of(entry.key)):
+    for key in (entry.key, *others):
         above = same_key.get(key) or _first_that_covers(compile_pattern(key), general)
-        if above is not None and (key != entry.key or above.text != entry.text):
+        if above is None or (key == entry.key and above.text == entry.text):
+            continue
+        if key == entry.key or above.text != "default" or not key.endswith(_NONE_BY_DEFAULT):
             return above
     return None
 
 
-def _instead_of(key: str) -> list[str]:
+def _instead_of(key: str, instead: Mapping[str, Sequence[str]]) -> list[str]:
     """Keys of which the first one is in force, as they say the same thing in other words."""
-    start, dot, end = key.rpartition(".")
-    return [f"{start}{dot}{other}" for other in _INSTEAD.get(end, ())]
+    return [
+        key.removesuffix(end) + other
+        for end, others in instead.items()
+        if key.endswith(f".{end}")
+        for other in others
+    ]
 
 
 def _is_general(pattern: Pattern) -> bool:

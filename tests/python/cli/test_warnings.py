@@ -45,3 +45,14 @@ def test_a_line_below_one_that_fits_as_well_is_told_in_both_modes(
         file.write("**.mobility.speed = 3mps\n*.uavs[0].mobility.speed = 5mps\n")
     assert main(["run", ini, "--quiet", "--mode", mode, "--set", "repeat=2"]) == 0
     assert capsys.readouterr().err.count("warning: `*.uavs[0].mobility.speed` has no effect: line ") == 1
+
+
+@pytest.mark.parametrize(("medium", "told"), [("Ieee80211ScalarRadioMedium", 1), ("UnitDiskRadioMedium", 0)])
+def test_a_range_beside_a_power_is_told_where_it_stands_for_one(
+    ini: str, capsys: pytest.CaptureFixture[str], medium: str, told: int
+) -> None:
+    pytest.importorskip("gradysim._netsim")
+    with Path(ini).open("a", encoding="utf-8") as file:
+        file.write("**.transmitter.power = 20mW\n**.transmitter.communicationRange = 50m\n")
+    assert main(["run", ini, "--quiet", "--set", f"*.radioMedium.typename={medium}"]) == 0
+    assert capsys.readouterr().err.count("Range` has no effect: line") == told

@@ -38,6 +38,11 @@ def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
         ("*.uavs[*].mobility.lineStepY", "*.uavs[0].mobility.initialY"),
         ("*.uav.mobility.initialZ", "*.uav.mobility.lineStartZ"),
         ("**.radio.centerFrequency", "*.uavs[0].wlan[0].radio.channelNumber"),
+        ("*.uav.wlan[*].radio.transmitter.power", "*.uav.wlan[*].radio.transmitter.communicationRange"),
+        ("*.uav.wlan[*].radio.transmitter.communicationRange", "*.uav.wlan[0].radio.transmitter.power"),
+        ("**.transmitter.power", "*.uav.wlan[*].radio.transmitter.power"),
+        ("**.communicationRange", "**.transmitter.power"),
+        ("**.transmitter.power", "**.communicationRange"),
     ],
 )
 def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
@@ -58,6 +63,11 @@ def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
         ("*.uavs[*].mobility.lineStartX", "*.uavs[*].mobility.lineStepX"),
         ("*.uavs[*].mobility.initialX", "*.uavs[*].mobility.lineStepY"),
         ("*.uavs[0].mobility.initialX", "*.uavs[*].mobility.lineStepX"),
+        (
+            "*.uavs[0].wlan[*].radio.transmitter.power",
+            "*.uavs[*].wlan[*].radio.transmitter.communicationRange",
+        ),
+        ("**.communicationRange", "*.radioMedium.backgroundNoise.power"),
         ("cmdenv-status-frequency", "cmdenv-status-frequency"),
     ],
 )
@@ -95,3 +105,30 @@ def test_only_sections_of_the_configuration_are_looked_at(write_ini: Write) -> N
     file = write_ini("[Config A]\nrepeat = 2\n[Config B]\nrepeat = 2\nrepeat = 3\n")
     assert told(file, "A") == []
     assert len(told(file, "B")) == 1
+
+
+POWER_AND_RANGE = ["**.transmitter.power = {}\n", "**.transmitter.communicationRange = {}\n"]
+
+
+@pytest.mark.parametrize("lines", [POWER_AND_RANGE, POWER_AND_RANGE[::-1]])
+def test_a_range_deprives_no_power_where_there_are_none(write_ini: Write, lines: list[str]) -> None:
+    sections = search_order(read_ini(write_ini("".join(lines).format("1mW", "2m"))), "General")
+    assert shadowed_lines(sections, has_powers=False) == []
+
+
+@pytest.mark.parametrize("lines", [POWER_AND_RANGE, POWER_AND_RANGE[::-1]])
+def test_a_default_deprives_no_line_that_says_the_same_in_other_words(
+    write_ini: Write, lines: list[str]
+) -> None:
+    assert told(write_ini("".join(lines).format("default", "2"))) == []
+
+
+def test_a_default_deprives_the_same_key_of_its_effect(write_ini: Write) -> None:
+    power, _ = POWER_AND_RANGE
+    (text,) = told(write_ini(power.format("default") + power.format("1mW")))
+    assert "says the same thing" in text
+
+
+def test_a_range_in_another_section_overrides_a_power(write_ini: Write) -> None:
+    power, reach = (line.format("2") for line in POWER_AND_RANGE)
+    assert told(write_ini(f"[General]\n{power}[Config X]\n{reach}"), "X") == []
