@@ -73,15 +73,16 @@ def test_without_a_handler_an_order_is_dropped_with_a_warning(node, caplog, labe
     name, *arguments = order
     getattr(PythonProvider(node), name)(*arguments)
     assert [record.levelno for record in caplog.records] == [logging.WARNING]
-    assert label in caplog.text
+    assert f"Node 3 has no {label} handler: " in caplog.text
 
 
 def test_the_time_is_the_timers(node):
     assert PythonProvider(node, timer=Handler()).current_time() == 12.5
 
 
-def test_without_timers_the_time_is_zero(node):
+def test_without_timers_the_time_is_zero(node, caplog):
     assert PythonProvider(node).current_time() == 0
+    assert caplog.messages == ["Node 3 has no timer handler: the time is unknown"]
 
 
 def test_the_id_is_the_nodes(node):

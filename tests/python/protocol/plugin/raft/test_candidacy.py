@@ -3,6 +3,7 @@
 import pytest
 
 from gradysim.protocol.plugin.raft import RaftMode
+from gradysim.protocol.plugin.raft.node_timers import ELECTION_TIMER
 from gradysim.protocol.plugin.raft.term import owner_of
 from python.protocol.plugin.raft.modes import BOTH_MODES
 
@@ -13,6 +14,14 @@ def test_a_leader_is_elected(network_type, mode, known):
     network = network_type(5, 1, mode, known=known)
     leader = network.elect(within_s=1.0)
     assert owner_of(leader.persistent.current_term) == leader.node_id
+
+
+@BOTH_MODES
+def test_who_has_heard_all_members_stands_at_once(network_type, mode):
+    network = network_type(3, 1, mode)
+    network.nodes[0].handle_timer(ELECTION_TIMER)
+    # All rounds of looking round take 200 ms; two answers to a broadcast, 50 ms at most each.
+    assert network.run(0.1, until=lambda: network.leader is network.nodes[0])
 
 
 @BOTH_MODES

@@ -33,6 +33,10 @@ def test_only_the_electorate_counts():
     assert leadership_with({3: 1, 4: 1}).committable(log_of(3), {0, 1, 2}) == 0
 
 
+def test_the_votes_are_those_of_the_election():
+    assert Leadership(0, 3, 10.0, {0, 1, 2}).votes == 3
+
+
 def test_late_answers_take_nothing_back():
     leadership = leadership_with({1: 4})
     leadership.matches(1, 2)

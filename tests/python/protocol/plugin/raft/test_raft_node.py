@@ -1,6 +1,9 @@
 """Who belongs to a node's cluster, what it hears, and how it is turned off and on."""
 
+import pytest
+
 from gradysim.protocol.plugin.raft import RaftMode, RaftState
+from gradysim.protocol.plugin.raft.node_timers import ELECTION_TIMER
 from gradysim.protocol.plugin.raft.raft_message import AppendEntries
 
 
@@ -42,6 +45,16 @@ def test_who_plays_dead_is_silent(network_type):
     assert (network.sent, network.nodes[0].timers.pending) == (0, set())
 
 
+@pytest.mark.parametrize("leave", [lambda node: node.stop(), lambda node: node.set_active(False)])
+def test_who_is_stopped_or_plays_dead_is_deaf(network_type, leave):
+    network = network_type(3, 1)
+    leader = network.elect()
+    node = network.nodes[(leader.node_id + 1) % 3]
+    leave(node)
+    node.handle_message(AppendEntries(10**6, leader.node_id, {}, 0).to_json())
+    assert (node.persistent.current_term, node.leader_id) == (leader.persistent.current_term, None)
+
+
 def test_a_leader_that_plays_dead_gives_up_its_term(network_type):
     network = network_type(3, 1)
     leader = network.elect()
@@ -49,6 +62,13 @@ def test_a_leader_that_plays_dead_gives_up_its_term(network_type):
     leader.set_active(False)
     assert (leader.state, leader.persistent.current_term) == (RaftState.FOLLOWER, term + 1)
     assert not leader.propose("v", 1)
+
+
+def test_who_rises_again_waits_for_a_leader_and_then_stands(network_type):
+    node = network_type(3, 1).nodes[0]
+    node.set_active(False)
+    node.set_active(True)
+    assert node.timers.pending == {ELECTION_TIMER}
 
 
 def test_who_rises_again_takes_part(network_type):

@@ -59,7 +59,7 @@ class FailureState:
             return False
         if record.silent_since_s is None:
             record.silent_since_s = current_time
-        if (current_time - record.silent_since_s) * 1000 > timeout_ms:
+        if self.is_overdue(node_id, timeout_ms, current_time):
             record.consecutive_failures += 1
             record.consecutive_successes = 0
         return self.check_node_failure(node_id, failure_threshold)

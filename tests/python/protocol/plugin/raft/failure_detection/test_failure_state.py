@@ -22,6 +22,21 @@ def test_nothing_is_known_about_a_stranger():
     )
 
 
+@pytest.mark.parametrize(
+    "look_at",
+    [
+        lambda state: state.record_heartbeat_response(9, 1.0, True),
+        lambda state: state.mark_failed(9),
+        lambda state: state.reset_node(9),
+        lambda state: state.remove_node(9),
+    ],
+)
+def test_a_stranger_remains_one(look_at):
+    state = FailureState({1})
+    look_at(state)
+    assert state.get_all_nodes() == {1}
+
+
 def test_enough_failures_in_a_row_make_a_node_failed():
     state = FailureState({1})
     for _ in range(2):
