@@ -87,6 +87,11 @@ def test_ids_count_from_0():
     assert [encapsulator.provider.get_id() for encapsulator in Pair().encapsulators] == [0, 1]
 
 
+def test_made_without_the_other_nodes_it_does_not_know_where_they_are():
+    with pytest.raises(RuntimeError, match="positions of the nodes are unknown"):
+        Pair().encapsulators[0].provider.node_positions()
+
+
 def test_a_timer_is_due_at_its_time():
     def initialize(protocol):
         protocol.provider.schedule_timer("tick", 1.25)

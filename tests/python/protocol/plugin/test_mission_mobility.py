@@ -127,6 +127,15 @@ def test_a_stopped_mission_is_not_reversed_any_more(protocol):
     assert not plugin.is_reversed
 
 
+def test_after_a_stop_a_mission_is_flown_once_not_twice(protocol):
+    near = [(0, 0, 0), (0.1, 0, 0), (0.2, 0, 0), (9, 0, 0)]
+    plugin = mission(protocol, waypoints=near)
+    plugin.stop_mission()
+    plugin.start_mission(near)
+    protocol.handle_telemetry(Telemetry((0, 0, 0)))
+    assert plugin.current_waypoint == 1
+
+
 def test_stopping_when_idle_does_nothing(protocol):
     plugin = MissionMobilityPlugin(protocol)
     plugin.stop_mission()

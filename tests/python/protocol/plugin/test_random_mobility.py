@@ -119,12 +119,15 @@ def test_travelling_during_a_trip_changes_its_target(protocol):
     assert len(protocol.provider.targets) == 3
 
 
-@pytest.mark.parametrize(("distance", "waypoints"), [(2, 2), (2.01, 1)])
-def test_a_target_is_reached_within_the_tolerance(protocol, distance, waypoints):
-    plugin = RandomMobilityPlugin(protocol, RandomMobilityConfig(x_range=(0, 0), tolerance=2))
-    plugin.initiate_random_trip()
-    _, y, z = plugin.current_target
-    protocol.handle_telemetry(Telemetry((distance, y, z)))
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize(("distance", "waypoints"), [(2, 2), (-2, 2), (2.01, 1), (-2.01, 1)])
+def test_a_target_is_reached_within_the_tolerance(protocol, axis, distance, waypoints):
+    RandomMobilityPlugin(
+        protocol, RandomMobilityConfig(x_range=(5, 5), y_range=(6, 6), z_range=(7, 7), tolerance=2)
+    ).initiate_random_trip()
+    position = [5, 6, 7]
+    position[axis] += distance
+    protocol.handle_telemetry(Telemetry(tuple(position)))
     assert len(protocol.provider.targets) == waypoints
 
 

@@ -2,7 +2,7 @@ import gc
 import logging
 import weakref
 
-from simulated import build, timers
+from simulated import build, protocol, timers
 
 from gradysim.simulator import simulation
 from gradysim.simulator.simulation import PositionScheme
@@ -34,6 +34,18 @@ def test_lines_say_when_and_to_whom(capsys):
     tested.handle_timer = handle_timer
     build(tested).start_simulation()
     assert "INFO     [it=0 time=0:00:07.500000 | Tested 0 handle_timer] hello\n" in capsys.readouterr().err
+
+
+def test_lines_of_initialize_and_finish_say_to_whom(capsys):
+    def log(self):
+        logging.getLogger().info("hello")
+
+    build(protocol(initialize=log, finish=log)).start_simulation()
+    lines = [line for line in capsys.readouterr().err.splitlines() if line.endswith("hello")]
+    assert lines == [
+        f"INFO     [it=0 time=0:00:00 | Tested 0 {context}] hello"
+        for context in ("Initialization", "Finalization")
+    ]
 
 
 def test_lines_between_two_steps_belong_to_no_event(capsys):

@@ -20,7 +20,7 @@ class UpdateTimes:
 def _whole_frequency(update_rate_s: float) -> float | None:
     """Updates per second, if that is a whole number.
 
-    7 / 100 is the number written 0.07 and 7 * 0.01 is not: by division updates meet the timers of that time.
+    35 / 100 is the number written 0.35 and 35 * 0.01 is not: by division updates meet timers of that time.
     """
     if update_rate_s < 1e-9:
         return None

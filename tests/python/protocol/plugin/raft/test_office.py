@@ -29,6 +29,14 @@ def test_a_proposal_is_committed_everywhere(network_type, mode):
     assert network.run(0.2, until=lambda: network.agree_on("v", 42))
 
 
+def test_a_proposal_does_not_wait_for_the_next_heartbeat(network_type):
+    network = network_type(3, 1)
+    leader = network.elect()
+    before = network.sent
+    leader.propose("v", 42)
+    assert network.sent == before + 1
+
+
 def test_only_a_leader_takes_proposals(network_type):
     network = network_type(3, 1)
     leader = network.elect()

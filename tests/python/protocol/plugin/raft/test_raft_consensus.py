@@ -267,11 +267,12 @@ def test_active_is_a_bool(plugin):
 
 
 def test_clusters(plugin, protocol):
+    plugin.set_known_nodes(range(5))
     plugin.set_cluster_id(4)
     send(protocol, RequestVoteResponse(0, False, 1, cluster_id=4))
     send(protocol, RequestVoteResponse(0, False, 2, cluster_id=5))
-    same = [plugin.is_in_same_cluster(node_id) for node_id in (1, 2, 3, 99)]
-    assert (plugin.get_cluster_id(), same) == (4, [True, False, True, False])
+    same = {node_id for node_id in (1, 2, 3, 4, 99) if plugin.is_in_same_cluster(node_id)}
+    assert (plugin.get_cluster_id(), same) == (4, {1, 3, 4})
 
 
 @pytest.mark.parametrize("cluster_id", ["x", -1, True])

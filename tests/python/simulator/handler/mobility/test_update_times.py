@@ -10,7 +10,7 @@ def test_the_first_update_comes_after_one_interval(rate):
 
 def test_whole_frequencies_meet_the_timers_of_that_time():
     times = UpdateTimes(0.01)
-    assert [times.time_of(update) for update in (3, 7, 29, 58)] == [0.03, 0.07, 0.29, 0.58]
+    assert [times.time_of(update) for update in (35, 41, 57, 70)] == [0.35, 0.41, 0.57, 0.7]
 
 
 def test_rounding_does_not_add_up():

@@ -117,3 +117,11 @@ def test_the_metrics_count(watch):
     assert metrics["configuration"]["timeout_ms"] == 200
     assert metrics["node_histories"][2]["last_failure"] == pytest.approx(0.6)
     assert "time_since_last_failure" not in metrics["node_histories"][1]
+
+
+def test_the_rates_are_shares_of_the_answers(watch):
+    for success in (True, False, True, True):
+        watch.detector.record_heartbeat_response(1, success)
+    performance = watch.detector.get_detection_metrics()["performance"]
+    assert (performance["total_responses_received"], performance["total_failed_responses"]) == (4, 1)
+    assert (performance["success_rate_percent"], performance["failure_rate_percent"]) == (75.0, 25.0)
