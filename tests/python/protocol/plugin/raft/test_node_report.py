@@ -1,9 +1,9 @@
 import pytest
 
-from gradysim.protocol.plugin.raft import RaftMode, node_report
+from gradysim.protocol.plugin.raft import RaftMode, RaftState, node_report
+from gradysim.protocol.plugin.raft.node_timers import ELECTION_TIMER
 from gradysim.protocol.plugin.raft.raft_message import AppendEntries
-
-BOTH_MODES = pytest.mark.parametrize("mode", RaftMode)
+from python.protocol.plugin.raft.modes import BOTH_MODES
 
 
 @pytest.fixture
@@ -86,6 +86,14 @@ def test_the_majority_of_a_follower(network):
     assert (info["votes_received"], info["confirmed_nodes"]) == (0, 0)
     assert info["known_active_info"]["is_fresh"]
     assert info["known_active_info"]["known_active_count"] == 5
+
+
+def test_a_candidate_has_its_own_vote(network_type):
+    network = network_type(3, 1)
+    node = network.nodes[0]
+    node.handle_timer(ELECTION_TIMER)
+    assert network.run(1.0, until=lambda: node.state is RaftState.CANDIDATE)
+    assert node_report.votes_received(node) == 1
 
 
 @pytest.mark.parametrize("question", ["has_majority_votes", "has_majority_confirmation"])

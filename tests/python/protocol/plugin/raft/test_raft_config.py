@@ -48,6 +48,21 @@ def test_setters_chain():
     assert config.validate() == []
 
 
+def test_election_timeouts_are_those_that_were_set():
+    config = RaftConfig().set_election_timeout(200, 400)
+    assert (config.election_timeout_min_ms, config.election_timeout_max_ms) == (200, 400)
+
+
+def test_a_variable_can_be_removed():
+    config = RaftConfig().add_consensus_variable("v", int).add_consensus_variable("w", str)
+    assert config.remove_consensus_variable("w").get_consensus_variables() == {"v": int}
+
+
+def test_removing_a_variable_that_is_not_there_changes_nothing():
+    config = RaftConfig().add_consensus_variable("v", int)
+    assert config.remove_consensus_variable("w").get_consensus_variables() == {"v": int}
+
+
 def test_the_failure_detection_follows_the_heartbeat_interval():
     config = RaftConfig().set_heartbeat_interval(60)
     assert config.get_failure_config().get_timeout_ms() == 240

@@ -266,6 +266,12 @@ def test_active_is_a_bool(plugin):
         plugin.set_simulation_active(3, "no")
 
 
+@pytest.mark.parametrize("ask", ["is_node_failed", "is_communication_failed"])
+def test_a_node_is_failed_if_it_is_among_the_failed_ones(plugin, monkeypatch, ask):
+    monkeypatch.setattr(plugin, "get_failed_nodes", lambda: {2})
+    assert [getattr(plugin, ask)(node_id) for node_id in (1, 2)] == [False, True]
+
+
 def test_clusters(plugin, protocol):
     plugin.set_known_nodes(range(5))
     plugin.set_cluster_id(4)

@@ -64,6 +64,15 @@ def test_a_leader_that_plays_dead_gives_up_its_term(network_type):
     assert not leader.propose("v", 1)
 
 
+def test_a_follower_that_plays_dead_keeps_its_term(network_type):
+    network = network_type(3, 1)
+    leader = network.elect()
+    follower = network.nodes[(leader.node_id + 1) % 3]
+    for active in (False, True):
+        follower.set_active(active)
+    assert follower.persistent.current_term == leader.persistent.current_term
+
+
 def test_who_rises_again_waits_for_a_leader_and_then_stands(network_type):
     node = network_type(3, 1).nodes[0]
     node.set_active(False)

@@ -30,8 +30,20 @@ def test_an_absolute_timeout_needs_no_heartbeat_interval():
 
 
 def test_a_very_short_absolute_timeout_warns():
-    with pytest.warns(UserWarning, match="30 ms"):
-        FailureConfig().set_absolute_timeout(30)
+    with pytest.warns(UserWarning, match="49 ms"):
+        FailureConfig().set_absolute_timeout(49)
+
+
+@pytest.mark.filterwarnings("error")
+def test_from_50_ms_on_an_absolute_timeout_warns_no_more():
+    FailureConfig().set_absolute_timeout(50)
+
+
+def test_with_an_absolute_timeout_heartbeats_may_be_as_frequent_as_one_likes():
+    config = FailureConfig()
+    config.set_absolute_timeout(120)
+    config.set_heartbeat_interval_reference(1)
+    assert config.get_timeout_ms() == 120
 
 
 def test_a_multiple_replaces_an_absolute_timeout():

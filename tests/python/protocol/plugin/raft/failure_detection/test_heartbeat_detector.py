@@ -125,3 +125,8 @@ def test_the_rates_are_shares_of_the_answers(watch):
     performance = watch.detector.get_detection_metrics()["performance"]
     assert (performance["total_responses_received"], performance["total_failed_responses"]) == (4, 1)
     assert (performance["success_rate_percent"], performance["failure_rate_percent"]) == (75.0, 25.0)
+
+
+def test_before_the_first_heartbeat_there_is_nothing_to_tell(watch):
+    performance = watch.detector.get_detection_metrics()["performance"]
+    assert set(performance.values()) == {0}
