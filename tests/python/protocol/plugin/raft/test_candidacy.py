@@ -1,5 +1,7 @@
 """Who comes to lead, and who does not."""
 
+import json
+
 import pytest
 
 from gradysim.protocol.plugin.raft import RaftMode
@@ -59,6 +61,14 @@ def test_a_node_that_was_set_to_be_alone_leads(network_type, mode):
     network.rules.check = lambda node: None  # they look at entries before they are committed
     assert network.elect().propose("v", 42)
     assert network.agree_on("v", 42)
+
+
+def test_a_node_that_was_set_to_be_alone_asks_nobody_for_votes(network_type):
+    network = network_type(1, 1)
+    sent = []
+    network.transmit = lambda source, message, destination: sent.append(json.loads(message)["type"])
+    network.nodes[0].handle_timer(ELECTION_TIMER)
+    assert sent == ["AppendEntries"]
 
 
 @BOTH_MODES

@@ -78,6 +78,11 @@ def test_a_multiple_that_is_too_short_is_an_error():
         config.set_heartbeat_timeout(1)
 
 
+def test_an_interval_whose_multiple_is_too_short_is_an_error():
+    with pytest.raises(ValueError, match="20 ms are 80 ms"):
+        FailureConfig().set_heartbeat_interval_reference(20)
+
+
 @pytest.mark.parametrize(
     ("absolute_ms", "reference_ms", "timeout"),
     [(None, None, "4 heartbeat intervals"), (None, 50, "4x50ms=200ms"), (120, None, "120ms")],

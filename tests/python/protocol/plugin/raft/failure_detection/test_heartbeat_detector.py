@@ -78,6 +78,16 @@ def test_failures_can_be_recorded_without_a_clock():
     assert detector.get_failed_nodes() == {1}
 
 
+def test_nobody_need_be_told():
+    config = FailureConfig()
+    config.set_heartbeat_interval_reference(50)
+    detector = HeartbeatDetector(config, {1})
+    detector.mark_failed(1)
+    for _ in range(2):
+        detector.record_heartbeat_response(1, True)
+    assert detector.get_active_nodes() == {1}
+
+
 def test_strangers_are_ignored(watch):
     watch.detector.record_heartbeat_response(9, True)
     watch.detector.remove_node(9)
