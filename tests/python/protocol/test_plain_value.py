@@ -8,23 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.protocol.plain_value import plain_value
-
-anything = st.recursive(
-    st.none()
-    | st.booleans()
-    | st.integers()
-    | st.floats()
-    | st.text()
-    | st.binary()
-    | st.complex_numbers()
-    | st.sets(st.integers()),
-    lambda inner: (
-        st.lists(inner)
-        | st.tuples(inner, inner)
-        | st.dictionaries(st.text() | st.integers() | st.tuples(st.integers()), inner)
-    ),
-    max_leaves=20,
-)
+from python.any_value import anything
 
 
 @given(anything)
