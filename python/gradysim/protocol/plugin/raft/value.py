@@ -1,4 +1,9 @@
-"""Values of consensus variables: what JSON carries is what all nodes get, the proposing one too."""
+"""Values of consensus variables: what JSON carries is what all nodes get, the proposing one too.
+
+The type of the whole value stays what it is. Inside of lists, tuples and dicts a tuple becomes a list, a
+number of an enumeration a plain one, and a key of a dict its text in JSON: `{1: (2, 3)}` becomes
+`{"1": [2, 3]}`.
+"""
 
 import json
 from typing import Any

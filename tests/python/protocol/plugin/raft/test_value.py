@@ -19,6 +19,23 @@ def test_a_value_arrives_as_it_was(value):
     assert typed_value(kind, carried_value("v", kind, value)) == value
 
 
+@pytest.mark.parametrize(
+    ("value", "arrives"),
+    [
+        ((1, (2, 3)), (1, [2, 3])),
+        ([(1, 2)], [[1, 2]]),
+        ([Colour.RED], [1]),
+        ({1: (2, 3)}, {"1": [2, 3]}),
+        ({True: 1, None: 2, 1.5: 3}, {"true": 1, "null": 2, "1.5": 3}),
+    ],
+    ids=repr,
+)
+def test_what_is_inside_arrives_as_json_has_it(value, arrives):
+    kind = type(value)
+    shown = typed_value(kind, carried_value("v", kind, value))
+    assert (type(shown), repr(shown)) == (kind, repr(arrives))
+
+
 @given(st.recursive(st.integers() | st.text() | st.floats(allow_nan=False), lambda inner: st.lists(inner)))
 def test_any_value_that_json_has_arrives_as_it_was(value):
     assert typed_value(object, carried_value("v", object, value)) == value
