@@ -40,6 +40,10 @@ def test_a_key_of_a_shrunk_group_still_has_to_name_a_parameter(folder: Any) -> N
     )
 
 
+def test_a_module_of_omnetpp_is_no_parameter(folder: Any) -> None:
+    assert folder.error("*.visualizer = 3\n").startswith("test.ini:6: `*.visualizer` matches no node")
+
+
 def test_sections_that_are_not_run_are_not_checked(folder: Any) -> None:
     assert folder.load("[Other]\n*.boats[*].mobility.speed = 1mps\n")
 

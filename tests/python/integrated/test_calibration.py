@@ -127,6 +127,13 @@ def test_two_rays_that_cancel_are_why_no_power_reaches_a_range() -> None:
         calibrate(link(TWO_RAYS, "*.sender.mobility.initialZ = 0m"), range_m=50.0)
 
 
+def test_rays_that_do_not_cancel_are_not_why_no_power_reaches_a_range() -> None:
+    deaf = '**.antenna.typename = "ConstantGainAntenna"', "**.antenna.gain = -300dB"
+    with pytest.raises(ConfigError, match="no power") as error:
+        calibrate(link(TWO_RAYS, *deaf), range_m=50.0)
+    assert "ground" not in str(error.value)
+
+
 @pytest.mark.parametrize(
     ("options", "text"),
     [

@@ -51,6 +51,24 @@ def test_a_part_of_a_name_is_no_name():
     assert told == "wlan[*].radio.transmitter.power = 1000mW (its default): wrong"
 
 
+def test_where_nothing_else_was_set_the_number_of_interfaces_is_the_cause():
+    told = error_of(
+        "radio.tx_power_w = 1 W: wrong", {"node.num_wlan_interfaces": setting(2, "numWlanInterfaces")}
+    )
+    assert told == (
+        "a.ini:7: numWlanInterfaces = 2: wlan[*].radio.transmitter.power = 1000mW (its default): wrong"
+    )
+
+
+def test_two_interfaces_on_one_channel_by_default_are_too_many_not_of_the_wrong_kind():
+    settings = {
+        "interface.typename": setting("Ieee802154NarrowbandInterface", "typename"),
+        "node.num_wlan_interfaces": setting(2, "numWlanInterfaces"),
+    }
+    told = error_of("radio.carrier_hz = 2450000000 Hz: expected another channel", settings)
+    assert told.startswith("a.ini:7: numWlanInterfaces = 2: ")
+
+
 def test_what_was_calculated_is_told():
     settings = {"mac.mtu_bytes": Setting(10, Source(Path("a.ini"), 7, "mtu", "2 * 5B"))}
     told = error_of("mac.mtu_bytes = 10 B: expected at least 29 B", settings)

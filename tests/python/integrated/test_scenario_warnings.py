@@ -147,6 +147,13 @@ def test_nodes_on_the_ground_under_two_rays(warnings: Callable[..., list[str]], 
     (text,) = warnings(chosen, "*.uavs[0].mobility.initialZ=2m")
     assert "uavs[1] starts at z = 0m" in text
     assert warnings(chosen, "*.uavs[*].mobility.initialZ=2m") == []
+    assert warnings("*.uavs[*].mobility.initialZ=0m") == []
+
+
+def test_where_there_are_no_rays_none_cancel(warnings: Callable[..., list[str]]) -> None:
+    two_rays = '*.radioMedium.pathLoss.typename="TwoRayInterference"'
+    (text,) = warnings(two_rays, '*.radioMedium.typename="UnitDiskRadioMedium"')
+    assert "nothing reads `*.radioMedium.pathLoss.typename`" in text
 
 
 @pytest.mark.parametrize(("file", "config"), EXAMPLES, ids=lambda part: getattr(part, "stem", part))
