@@ -2,8 +2,9 @@
 
 import contextlib
 import json
+import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TextIO
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from gradysim.report.interrupt import StopOnInterrupt
     from gradysim.report.supervised_run import Outcome, Run
     from gradysim.results.run_result import RunResult
+
+    CarryOut = Callable[[Scenario, StopOnInterrupt, TextIO], int]
 
 PcapOption = Annotated[
     tuple[str, ...],
@@ -64,6 +67,9 @@ def run(
             help="Leave out runs whose file in --result-dir is complete and of the same settings and seed.",
         ),
     ] = False,
+    jobs: Annotated[
+        int, Parameter(alias="-j", help="How many runs at once, each in a process of its own.")
+    ] = 1,
     pcap: PcapOption = (),
     as_json: Annotated[
         bool,
@@ -74,7 +80,6 @@ def run(
     """Run the runs of a configuration and say what came out."""
     from gradysim.config.error import ConfigError
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.report.interrupt import StopOnInterrupt
     from gradysim.report.waiting import waiting
 
     output = sys.stdout
@@ -98,25 +103,65 @@ def run(
                     check(scenario)
             if mode == "integrated":
                 warn_of_what_is_seldom_meant(scenarios)
-            with StopOnInterrupt() as interrupt:
-                for done, scenario in enumerate(scenarios):
-                    if interrupt.should_stop():  # pressed between two runs
-                        say_unfinished(scenarios, done)
-                        return INTERRUPTED
-                    try:
-                        outcome = run_one(build, scenario, interrupt, bar=bar)
-                    except KeyboardInterrupt:  # while it was built
-                        say_unfinished(scenarios, done)
-                        return INTERRUPTED
-                    code = report(outcome, output, result_dir, as_json=as_json)
-                    if pcap and outcome.result is not None:
-                        for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
-                            print(f"captured in {capture}")
-                    if code != OK:
-                        say_unfinished(scenarios, done, "failed" if code == FAILED else "was interrupted")
-                        return code
+
+            def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
+                outcome = run_one(build, scenario, interrupt, bar=bar and jobs == 1)
+                code = report(outcome, output, result_dir, as_json=as_json)
+                if pcap and outcome.result is not None:
+                    for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
+                        print(f"captured in {capture}")
+                return code
+
+            if jobs == 1:
+                return one_after_the_other(scenarios, carry_out, output)
+            return several_at_once(scenarios, carry_out, output, jobs)
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
+
+
+def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO) -> int:
+    """Carry out runs up to the first that fails or is interrupted; return the exit code of the command."""
+    from gradysim.report.interrupt import StopOnInterrupt
+
+    with StopOnInterrupt() as interrupt:
+        for done, scenario in enumerate(scenarios):
+            if interrupt.should_stop():  # pressed between two runs
+                say_unfinished(scenarios, dict.fromkeys(range(done), OK))
+                return INTERRUPTED
+            try:
+                code = carry_out(scenario, interrupt, output)
+            except KeyboardInterrupt:  # while it was built
+                say_unfinished(scenarios, dict.fromkeys(range(done), OK))
+                return INTERRUPTED
+            if code != OK:
+                say_unfinished(scenarios, {**dict.fromkeys(range(done), OK), done: code})
+                return code
+    return OK
+
+
+def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO, jobs: int) -> int:
+    """Carry out runs in `jobs` processes; return the exit code of the command."""
+    from gradysim.config.error import ConfigError
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+
+    if jobs < 1:
+        raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
+    if not hasattr(os, "fork"):
+        raise ConfigError(f"--jobs {jobs}: this system cannot divide a process into two; expected --jobs 1")
+    from gradysim.commands.processes import in_processes
+
+    def work(index: int, interrupt: "StopOnInterrupt", output: TextIO) -> int:
+        try:
+            return carry_out(scenarios[index], interrupt, output)
+        except KeyboardInterrupt:  # while it was built
+            return INTERRUPTED
+        except (ConfigError, CompiledPartMissingError, OSError) as mistake:
+            return say_mistake(mistake)
+
+    codes = in_processes(work, len(scenarios), jobs, output)
+    if len(codes) < len(scenarios) or any(codes.values()):
+        say_unfinished(scenarios, codes)
+        return next((code for code in codes.values() if code not in (OK, INTERRUPTED)), INTERRUPTED)
     return OK
 
 
@@ -187,13 +232,20 @@ def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_js
     return INTERRUPTED if outcome.interrupted else OK
 
 
-def say_unfinished(scenarios: "Sequence[Scenario]", done: int, how: str = "") -> None:
-    """Say on the error output which of several runs are not there."""
+def say_unfinished(scenarios: "Sequence[Scenario]", codes: Mapping[int, int]) -> None:
+    """Say on the error output which of several runs are not there; `codes` are those of the runs begun."""
     from gradysim.report.unfinished_runs import text_of_unfinished
 
     if len(scenarios) > 1:
         numbers = [scenario.run_number for scenario in scenarios]
-        print(text_of_unfinished(scenarios[0].config, numbers, done, how), file=sys.stderr)
+        done = [number for index, number in enumerate(numbers) if codes.get(index) == OK]
+        left = [number for index, number in enumerate(numbers) if index not in codes]
+        ended = {
+            numbers[index]: "was interrupted" if code == INTERRUPTED else "failed"
+            for index, code in sorted(codes.items())
+            if code != OK
+        }
+        print(text_of_unfinished(scenarios[0].config, done, ended, left), file=sys.stderr)
 
 
 def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:

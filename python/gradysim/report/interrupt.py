@@ -18,10 +18,12 @@ _ERROR_OUTPUT = 2  # the file descriptor
 class StopOnInterrupt:
     """While inside the `with` block, SIGINT sets the flag that `should_stop()` reads, and says so.
 
-    Outside the main thread, where Python allows no signal handlers, the flag is never set.
+    Outside the main thread, where Python allows no signal handlers, the flag is never set. One that is
+    `silent` says nothing.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, silent: bool = False) -> None:
+        self._silent = silent
         self._pressed = False
         self._at_once = False
 
@@ -54,5 +56,7 @@ class StopOnInterrupt:
         if self._pressed or self._at_once:
             raise KeyboardInterrupt
         self._pressed = True
+        if self._silent:
+            return
         with contextlib.suppress(OSError):  # not by sys.stderr, which may be in the middle of a line
             os.write(_ERROR_OUTPUT, b"\nstopping after this step; Ctrl-C once more stops at once\n")

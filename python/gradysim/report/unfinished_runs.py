@@ -1,19 +1,20 @@
 """What a command that ends early has left undone: one line, for whoever counts on all runs being there."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from gradysim.config.run_numbers import text_of_runs
 
 
-def text_of_unfinished(config: str, numbers: Sequence[int], done: int, how: str = "") -> str:
-    """Say which runs there are and are not, after `done` of these runs of `config` have come to their end.
+def text_of_unfinished(
+    config: str, done: Sequence[int], ended: Mapping[int, str], left: Sequence[int]
+) -> str:
+    """Say which runs of `config` are done, which `ended` otherwise and how, and which are `left`.
 
-    `how` the next one ended, "failed" or "was interrupted"; "" if it was not begun.
+    The numbers of each increase; how a run ended is "failed" or "was interrupted".
     """
-    begun = done + bool(how)
-    which = [f"run {numbers[done]} {how}"] if how else []
-    which.append(f"{done} of {len(numbers)} runs {'is' if done == 1 else 'are'} done{_these(numbers[:done])}")
-    left = numbers[begun:]
+    which = [f"run {number} {how}" for number, how in ended.items()]
+    count = len(done) + len(ended) + len(left)
+    which.append(f"{len(done)} of {count} runs {'is' if len(done) == 1 else 'are'} done{_these(done)}")
     if left:
         which.append(f"{len(left)} {'was' if len(left) == 1 else 'were'} not begun{_these(left)}")
     return f"{config}: {', '.join(which)}"

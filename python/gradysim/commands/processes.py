@@ -1,0 +1,161 @@
+"""Several runs at once, each in a process of its own, which is forked when its turn comes.
+
+A forked process has all that was read and checked, so nothing has to be passed to it. What it prints goes to
+files, and from there to the outputs of this process when it has ended, in the order of the runs.
+"""
+
+import contextlib
+import multiprocessing
+import os
+import shutil
+import signal
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from multiprocessing.connection import wait
+from multiprocessing.context import ForkProcess
+from types import FrameType
+from typing import IO, TextIO
+
+from gradysim.commands.exit_code import FAILED, OK
+from gradysim.report.interrupt import StopOnInterrupt
+
+Work = Callable[[int, StopOnInterrupt, TextIO], int]
+"""Carries out the run with an index, prints to the output it is given, and returns an exit code."""
+
+
+@dataclass
+class _Running:
+    """A run under way."""
+
+    index: int
+    process: ForkProcess
+    output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
+    error_output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
+
+
+class _PassedOn(StopOnInterrupt):
+    """Passes each press of Ctrl-C on to the processes under way; the third one raises KeyboardInterrupt."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.running: list[_Running] = []
+        self._pressed_twice = False
+
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        for run in self.running:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(run.process.pid or os.getpid(), signal.SIGINT)
+        if self._pressed_twice:
+            raise KeyboardInterrupt
+        if self.should_stop():
+            self._pressed_twice = True
+        else:
+            super()._on_signal(number, frame)
+
+
+class _InAProcess(StopOnInterrupt):
+    """Stops also when the process that began this one is gone; says nothing, as that one has said it."""
+
+    def __init__(self) -> None:
+        super().__init__(silent=True)
+        self._parent = os.getppid()
+
+    def should_stop(self) -> bool:
+        return super().should_stop() or os.getppid() != self._parent
+
+
+def in_processes(work: Work, count: int, jobs: int, output: TextIO) -> dict[int, int]:
+    """Call `work` for the indices 0 to `count` - 1, `jobs` at a time; return {index: exit code} of those.
+
+    After one that does not end with OK, and after Ctrl-C, none is begun: those have no exit code.
+    """
+    codes: dict[int, int] = {}
+    ended: dict[int, _Running] = {}
+    with _PassedOn() as interrupt:
+        try:
+            begun = 0
+            while True:
+                while begun < count and len(interrupt.running) < jobs and not any(codes.values()):
+                    if interrupt.should_stop():
+                        break
+                    with _held_back(signal.SIGINT):
+                        interrupt.running.append(_begin(work, begun, output))
+                    begun += 1
+                if not interrupt.running:
+                    return codes
+                wait([run.process.sentinel for run in interrupt.running])
+                for run in [run for run in interrupt.running if not run.process.is_alive()]:
+                    interrupt.running.remove(run)
+                    codes[run.index] = _exit_code(run)
+                    ended[run.index] = run
+                _show(ended, interrupt.running, output)
+        finally:
+            for run in interrupt.running:
+                run.process.kill()
+
+
+def _begin(work: Work, index: int, output: TextIO) -> _Running:
+    running = _Running(index, multiprocessing.get_context("fork").Process())
+    width = str(shutil.get_terminal_size().columns) if output.isatty() else None
+    errors_only = sys.stdout is sys.stderr
+
+    def in_the_process() -> None:
+        os.setpgid(0, 0)  # or a terminal would tell it of Ctrl-C, too
+        if width is not None:
+            os.environ["COLUMNS"] = width
+        theirs, sys.stderr = _stream(running.output, 1), _stream(running.error_output, 2)
+        sys.stdout = sys.stderr if errors_only else theirs
+        with _InAProcess() as interrupt:
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+            code = work(index, interrupt, theirs)
+        theirs.flush()
+        sys.stderr.flush()
+        os._exit(code)
+
+    running.process.run = in_the_process  # type: ignore[method-assign]
+    output.flush()
+    sys.stderr.flush()
+    running.process.start()
+    return running
+
+
+def _stream(file: IO[bytes], descriptor: int) -> TextIO:
+    """A text stream into that file, which takes what is written to the descriptor, too."""
+    os.dup2(file.fileno(), descriptor)
+    return open(descriptor, "w", encoding="utf-8", errors="backslashreplace", closefd=False)
+
+
+@contextlib.contextmanager
+def _held_back(number: signal.Signals) -> Iterator[None]:
+    """Inside, the signal waits: a process that is just forked is not yet ready for it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [number])
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _exit_code(run: _Running) -> int:
+    code = run.process.exitcode or OK
+    if code >= 0:
+        return code
+    run.error_output.seek(0, os.SEEK_END)
+    name = signal.Signals(-code).name if -code in set(signal.Signals) else str(-code)
+    run.error_output.write(f"its process was ended by {name}\n".encode())
+    return FAILED
+
+
+def _show(ended: dict[int, _Running], running: list[_Running], output: TextIO) -> None:
+    """Show what the runs before the first one under way have printed."""
+    first = min((run.index for run in running), default=None)
+    for index in sorted(ended):
+        if first is not None and index > first:
+            return
+        run = ended.pop(index)
+        for file, stream in ((run.error_output, sys.stderr), (run.output, output)):
+            file.seek(0)
+            stream.write(file.read().decode("utf-8", errors="replace"))
+            stream.flush()
+            file.close()

@@ -1,0 +1,139 @@
+"""`gradysim run --jobs`: several runs at once."""
+
+import os
+import select
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from python.cli.command import both_modes, environment, objects
+
+COSTS = ("wall_s", "cpu_s")
+
+TELLS = """
+import os
+
+from protocol import Talker
+
+
+class Endless(Talker):
+    def initialize(self):
+        super().initialize()
+        if self.provider.get_id() == 0:
+            self.pipe = os.open("pipe", os.O_WRONLY)
+            os.write(self.pipe, b"ready\\n")
+
+
+class Killed(Talker):
+    def handle_timer(self, timer):
+        print("in the end", flush=True)
+        os.kill(os.getpid(), 9)
+"""
+
+
+def without_costs(output):
+    return [{key: value for key, value in run.items() if key not in COSTS} for run in objects(output)]
+
+
+@both_modes
+def test_results_are_those_of_runs_in_turn_and_in_their_order(gradysim, mode):
+    arguments = ("run", "test.ini", "--mode", mode, "--json", "--set", "repeat=5")
+    in_turn, at_once = gradysim(*arguments), gradysim(*arguments, "--jobs", "3")
+    assert at_once.returncode == 0
+    assert without_costs(at_once.stdout) == without_costs(in_turn.stdout)
+    assert at_once.stderr.count("printed by a protocol") == 2 * 5
+
+
+def test_files_of_results_are_written(gradysim, folder):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-j", "2", "--result-dir", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(list((folder / "out").iterdir())) == 3
+    shown = [line.split()[2] for line in done.stdout.splitlines() if line.startswith("General run")]
+    assert shown == ["0", "1", "2"]
+
+
+def test_after_a_failure_no_run_is_begun(gradysim):
+    done = gradysim("run", "test.ini", "-c", "Failing", "--mode", "prototype", "--quiet", "-j", "2")
+    assert done.returncode == 1
+    assert "RuntimeError: spoilt" in done.stderr
+    last = done.stderr.splitlines()[-1]
+    assert last == "Failing: run 0 failed, run 1 failed, 0 of 3 runs are done, 1 was not begun (2)"
+
+
+def test_a_mistake_that_only_a_run_shows_is_told(gradysim, folder):
+    (folder / "out").mkdir()
+    (folder / "out" / "General-#0.prototype.json").mkdir()
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-j", "2", "--result-dir", "out")
+    assert done.returncode == 2
+    assert "General-#0.prototype.json" in done.stderr
+    assert "General: run 0 failed" in done.stderr
+
+
+def test_an_interrupted_process_ends_all(gradysim):
+    done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", "prototype", "--json", "-j", "2")
+    assert done.returncode == 130
+    assert [run["interrupted"] for run in objects(done.stdout)] == [True, True]
+    last = done.stderr.splitlines()[-1]
+    assert last.startswith("Stuck: run 0 was interrupted, run 1 was interrupted, 0 of 3 runs are done")
+
+
+def test_a_process_that_is_killed_is_told(gradysim, folder):
+    (folder / "tells.py").write_text(TELLS)
+    name = '*.uavs[*].protocol.class="tells.py:Killed"'
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-j", "2", "-r", "0,1", "--set", name)
+    assert done.returncode == 1
+    assert done.stderr.count("its process was ended by SIGKILL\n") == 2
+    assert "General: run 0 failed, run 1 failed, 0 of 2 runs are done\n" in done.stderr
+
+
+@pytest.mark.parametrize("jobs", ["0", "-1"])
+def test_there_is_a_job_at_least(gradysim, jobs):
+    done = gradysim("run", "test.ini", "--mode", "prototype", f"--jobs={jobs}")
+    assert done.returncode == 2
+    assert done.stderr == f"--jobs {jobs}: it is out of range; expected 1 or more\n"
+
+
+@pytest.fixture
+def two_endless_runs(folder):
+    """The command with two processes that have begun, and what ends when they do."""
+    (folder / "tells.py").write_text(TELLS)
+    os.mkfifo(folder / "pipe")
+    arguments = ["test.ini", "-c", "Endless", "--mode", "prototype", "--json", "-j", "2"]
+    setting = ["--set", '*.uavs[*].protocol.class="tells.py:Endless"']
+    with subprocess.Popen(
+        [sys.executable, "-m", "gradysim", "run", *arguments, *setting],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        with (folder / "pipe").open("rb", buffering=0) as pipe:
+            text = b""
+            while text.count(b"ready") < 2:
+                more = pipe.read(100)
+                assert more, "they ended before they were ready"
+                text += more
+            yield process, pipe
+        process.kill()
+
+
+def test_ctrl_c_ends_all_runs_under_way(two_endless_runs):
+    process, _ = two_endless_runs
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert [(run["run"], run["interrupted"]) for run in objects(out)] == [(0, True), (1, True)]
+    assert err.count("stopping after this step") == 1
+    assert err.splitlines()[-1] == (
+        "Endless: run 0 was interrupted, run 1 was interrupted, 0 of 3 runs are done, 1 was not begun (2)"
+    )
+
+
+def test_who_is_killed_leaves_nobody_behind(two_endless_runs):
+    process, pipe = two_endless_runs
+    process.kill()
+    readable, _, _ = select.select([pipe], [], [], 20)
+    assert (readable, pipe.read(100)) == ([pipe], b"")
