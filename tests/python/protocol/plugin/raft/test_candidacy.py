@@ -26,6 +26,12 @@ def test_who_has_heard_all_members_stands_at_once(network_type, mode):
     assert network.run(0.1, until=lambda: network.leader is network.nodes[0])
 
 
+def test_a_leader_heeds_no_election_timeout(network_type):
+    leader = network_type(3, 1).elect()
+    leader.handle_timer(ELECTION_TIMER)
+    assert leader.leader_id == leader.node_id
+
+
 @BOTH_MODES
 def test_after_the_leader_crashes_there_is_another(network_type, mode):
     network = network_type(5, 1, mode)
