@@ -104,8 +104,8 @@ class RaftConsensusPlugin:
 
         Args:
             variable_name: A configured variable.
-            value: Of its type. All nodes get what comes out of JSON: inside of lists, tuples and dicts, tuples
-                become lists, and keys of dicts become texts.
+            value: Of its type. All nodes get what comes out of JSON: inside of it, tuples become lists,
+                and keys of dicts become texts.
 
         Returns:
             False if this node is not the leader: then nothing happens. True if the value is in the leader's
