@@ -16,6 +16,7 @@ from gradysim.commands.scenarios import load
 from gradysim.commands.simulators import captures, capturing_simulator, files_written, simulator
 from gradysim.commands.warnings import (
     warn_of_equal_seeds,
+    warn_of_metres_for_times,
     warn_of_shadowed_lines,
     warn_of_what_is_seldom_meant,
 )
@@ -98,6 +99,7 @@ def run(
                 if not scenarios:
                     return OK
             warn_of_shadowed_lines(scenarios[0])
+            warn_of_metres_for_times(scenarios)
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
                     check(scenario)

@@ -31,6 +31,15 @@ def warn_of_shadowed_lines(scenario: "Scenario") -> None:
         print(text, file=sys.stderr)
 
 
+def warn_of_metres_for_times(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which times of protocols are given in metres."""
+    from gradysim.config.metres_for_times import metres_for_times
+
+    networks = {id(scenario.nodes): scenario.nodes for scenario in scenarios}
+    for text in dict.fromkeys(text for nodes in networks.values() for text in metres_for_times(nodes)):
+        print(text, file=sys.stderr)
+
+
 def warn_of_what_is_seldom_meant(scenarios: "Sequence[Scenario]") -> None:
     """Say on the error output, once for all runs, which lines nothing reads, and the like."""
     from gradysim.integrated.scenario_warnings import scenario_warnings

@@ -56,3 +56,13 @@ def test_a_range_beside_a_power_is_told_where_it_stands_for_one(
         file.write("**.transmitter.power = 20mW\n**.transmitter.communicationRange = 50m\n")
     assert main(["run", ini, "--quiet", "--set", f"*.radioMedium.typename={medium}"]) == 0
     assert capsys.readouterr().err.count("Range` has no effect: line") == told
+
+
+def test_a_time_in_metres_is_told_once_for_all_runs(
+    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    make_scenario("class Tested(Talker): interval = 1.0")
+    interval = "*.uavs[*].protocol.interval=5m"
+    arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", interval, "--quiet"]
+    assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
+    assert capsys.readouterr().err.count("`interval` is given in metres, `m`; a minute is `min`") == 1

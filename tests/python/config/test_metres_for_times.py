@@ -1,0 +1,57 @@
+from typing import Any
+
+import pytest
+
+from gradysim.config.metres_for_times import metres_for_times
+
+PROTOCOLS = """
+from typing import Annotated
+from protocols import Sensor
+
+
+class Timed(Sensor):
+    interval = 1.0
+    heartbeatTimeout = 1.0
+    spacing = 1.0
+    lawn_interval: Annotated[float, "m"] = 1.0
+    beacon_period: Annotated[float, "s"] = 1.0
+    retries = 3
+    label = ""
+"""
+
+
+def told(folder: Any, line: str) -> list[str]:
+    folder.write("timed.py", PROTOCOLS)
+    chosen = '[X]\n*.uavs[*].protocol.class = "timed.py:Timed"\n'
+    return list(metres_for_times(folder.load(f"{chosen}{line}\n", "X").nodes))
+
+
+def test_a_time_in_metres_is_told_once_with_its_line(folder: Any) -> None:
+    (text,) = told(folder, "*.uavs[*].protocol.interval = 5m")
+    assert text == (
+        f"{folder.ini}:8: warning: `interval` is given in metres, `m`; a minute is `min`"
+        ' (in Timed, `interval: Annotated[float, "m"]` says that metres are meant)'
+    )
+
+
+def test_different_lines_are_told_each(folder: Any) -> None:
+    lines = "*.uavs[0].protocol.interval = 5m\n*.uavs[1].protocol.heartbeatTimeout = 2 * 5m"
+    assert len(told(folder, lines)) == 2
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "interval = 5min",
+        "interval = 5",
+        "interval = 5km",
+        "interval = ${runnumber}m",
+        "spacing = 5m",
+        "lawn_interval = 5m",
+        "beacon_period = 5",
+        'label = "5m"',
+        "retries = 5",
+    ],
+)
+def test_anything_else_is_not_doubted(folder: Any, line: str) -> None:
+    assert told(folder, f"*.uavs[*].protocol.{line}") == []
