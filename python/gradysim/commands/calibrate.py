@@ -26,9 +26,13 @@ def calibrate_power(
     message: Annotated[
         str, Parameter(allow_leading_hyphen=True, help="Length of the message in a frame.")
     ] = "50B",
-    sender: Annotated[str | None, Parameter(help="Node that sends; by default the first one.")] = None,
+    sender: Annotated[
+        str | None,
+        Parameter(help="Node that sends, or its interface (relay.wlan[1]); by default the first one."),
+    ] = None,
     receiver: Annotated[
-        str | None, Parameter(help="Node that receives; by default another one like the sender.")
+        str | None,
+        Parameter(help="Node that receives, or its interface; by default another one like the sender."),
     ] = None,
     picture: Annotated[
         Path | None, Parameter(help="Draw reception over distance into this file (.png, .svg, .pdf).")

@@ -32,7 +32,7 @@ class ProtocolLoader:
         if place.endswith(".py") or "/" in place or "\\" in place:
             module = self._from_file(place, folder)
         else:
-            module = _from_name(place)
+            module = _from_name(place, folder, class_name)
         return _protocol_in(module, class_name, place)
 
     def _from_file(self, place: str, folder: Path) -> ModuleType:
@@ -51,13 +51,15 @@ class ProtocolLoader:
             raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
 
 
-def _from_name(name: str) -> ModuleType:
+def _from_name(name: str, folder: Path, class_name: str) -> ModuleType:
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
-        raise BadValue(f"this Python finds no module `{error.name}`") from error
+        file = f"{name.replace('.', '/')}.py"
+        hint = f"; did you mean `{file}:{class_name}`?" if (folder / file).is_file() else ""
+        raise BadValue(f"this Python finds no module `{error.name}`", hint) from error
     except (Exception, SystemExit) as error:
         raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
 

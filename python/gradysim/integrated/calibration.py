@@ -1,8 +1,9 @@
 """From a wanted range to the transmitter power, under the models of a scenario."""
 
+import re
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
@@ -28,9 +29,10 @@ class Calibration:
     """The power for a range, and what it means.
 
     Attributes:
-        sender: Name of the node that sends, by its wlan[0].
-        sender_interfaces: How many it has.
-        receiver: Name of the node that receives; the sender's, if another one like it does.
+        sender: Name of the node that sends.
+        sender_interfaces: How many interfaces it has.
+        receiver: Name of the node that receives; the sender's, if another one like it does. With that of its
+            interface, `relay.wlan[1]`, unless it is the first one.
         range_m: The wanted range.
         ratio: Share of broadcast frames that are received at the range, more than 0 and less than 1.
         message_bytes: Length of the message in each frame.
@@ -40,6 +42,7 @@ class Calibration:
         snr_at_range: Mean received power over noise at the range, a linear ratio.
         deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise, or None.
         curve: Distances in m with the share received there, from 0 to 1.
+        sender_interface: Index of the interface that sends.
     """
 
     sender: str
@@ -54,6 +57,7 @@ class Calibration:
     snr_at_range: float
     deciding_sensitivity_w: float | None
     curve: tuple[tuple[float, float], ...]
+    sender_interface: int = 0
 
 
 def calibrate(
@@ -67,35 +71,48 @@ def calibrate(
 ) -> Calibration:
     """Find the transmitter power with which the share `ratio` of broadcast frames is received at `range_m`.
 
-    It goes from wlan[0] to wlan[0]. Nobody else sends meanwhile; antennas look at each other, nothing is in
-    between. `sender` and `receiver` are names of nodes; by default the first node sends, to another one of
-    its kind.
+    Nobody else sends meanwhile; antennas look at each other, nothing is in between. `sender` and `receiver`
+    are names of nodes, or of their interfaces, `relay.wlan[1]`, by default wlan[0]; without them the first
+    node sends, to another one of its kind.
 
     Raises:
         ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.
     """
-    from_node = _node_named(scenario.nodes, sender)
-    to_node = from_node if receiver is None else _node_named(scenario.nodes, receiver)
-    if receiver is not None and to_node is from_node:
+    whole_sender, from_index = _interface_named(scenario.nodes, sender)
+    from_node = to_node = _with_one_interface(whole_sender, from_index)
+    to_name = whole_sender.name
+    of_several = [whole_sender.name] if len(whole_sender.wlan) > 1 else []
+    if receiver is not None:
+        whole_receiver, to_index = _interface_named(scenario.nodes, receiver)
+        to_node = _with_one_interface(whole_receiver, to_index)
+        to_name = f"{to_node.name}.wlan[{to_index}]" if to_index else to_node.name
+        of_several += [whole_receiver.name] if len(whole_receiver.wlan) > 1 else []
+    if receiver is not None and to_node.id == from_node.id:
         raise ConfigError(
             f"`{receiver}` would be sender and receiver; expected two nodes, or no receiver for one like the"
             " sender"
         )
-    budget = link_budget(scenario, from_node, to_node, message_bytes)
+    try:
+        budget = link_budget(scenario, from_node, to_node, message_bytes)
+    except ConfigError as error:
+        if of_several and "does not receive the channel" in error.message:
+            expected = f"; expected interfaces of one channel, such as {of_several[0]}.wlan[1]"
+            raise ConfigError(error.message + expected, error.source) from error
+        raise
     try:
         power_w = budget.tx_power_w_for(range_m, ratio)
     except ValueError as error:
         text = str(error)
         if text.startswith("no power"):
-            nodes = [from_node] if to_node is from_node else [from_node, to_node]
+            nodes = [from_node] if to_node.id == from_node.id else [from_node, to_node]
             hint = ground_hint(medium_config(scenario), nodes)
             text = in_ini_terms(text) + (f"; {hint}" if hint else "")
         raise ConfigError(text) from error
     distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
     return Calibration(
         sender=from_node.name,
-        sender_interfaces=len(from_node.wlan),
-        receiver=to_node.name,
+        sender_interfaces=len(whole_sender.wlan),
+        receiver=to_name,
         range_m=range_m,
         ratio=ratio,
         message_bytes=message_bytes,
@@ -107,6 +124,7 @@ def calibrate(
             scenario, from_node, to_node, message_bytes, range_m, ratio, power_w
         ),
         curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
+        sender_interface=from_index,
     )
 
 
@@ -135,6 +153,22 @@ def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, messag
             medium_config(scenario), node_config(sender), node_config(receiver), message_bytes
         )
     return budget
+
+
+def _interface_named(nodes: Sequence[NodeSpec], name: str | None) -> tuple[NodeSpec, int]:
+    """The node and the index of its interface: `relay` is `relay.wlan[0]`."""
+    match = re.fullmatch(r"(.*)\.wlan\[(\d{1,3})\]", name or "", re.ASCII)
+    if match is None:
+        return _node_named(nodes, name), 0
+    node, index = _node_named(nodes, match[1]), int(match[2])
+    if index >= len(node.wlan):
+        has = "wlan[0]" if len(node.wlan) == 1 else f"wlan[0] to wlan[{len(node.wlan) - 1}]"
+        raise ConfigError(f"there is no interface `{name}`; expected one of those of {node.name}, {has}")
+    return node, index
+
+
+def _with_one_interface(node: NodeSpec, index: int) -> NodeSpec:
+    return node if len(node.wlan) == 1 else replace(node, wlan=(node.wlan[index],))
 
 
 def _node_named(nodes: Sequence[NodeSpec], name: str | None) -> NodeSpec:

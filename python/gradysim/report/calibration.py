@@ -18,9 +18,10 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
     power_dbm = 10 * math.log10(c.tx_power_w * 1000)
     snr_db = 10 * math.log10(c.snr_at_range)
     to = "another one like it" if c.receiver == c.sender else c.receiver
-    wlan = "wlan[*]" if c.sender_interfaces == 1 else "wlan[0]"
+    wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
+    sender = f"{c.sender}.{wlan}" if c.sender_interface else c.sender
     lines = [
-        f"{c.sender} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
+        f"{sender} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
         f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
         f" {c.bitrate_bps / 1e6:g} Mbps;",
         f"{snr_db:.2f} dB above the noise), with a power of {power_dbm:.3f} dBm:",

@@ -73,6 +73,10 @@ def test_loads_from_a_module(folder: Any, monkeypatch: pytest.MonkeyPatch) -> No
             "this Python finds no module `no_such_package`",
         ),
         ("json.no_such:Mobile", "this Python finds no module `json.no_such`"),
+        (
+            "protocols:Mobile",
+            "this Python finds no module `protocols`; did you mean `protocols.py:Mobile`?",
+        ),
     ],
 )
 def test_errors(error_of: Any, reference: str, message: str) -> None:

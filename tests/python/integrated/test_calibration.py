@@ -134,9 +134,30 @@ def test_rays_that_do_not_cancel_are_not_why_no_power_reaches_a_range() -> None:
     assert "ground" not in str(error.value)
 
 
+TWO_INTERFACES = ("*.sender.numWlanInterfaces = 2", "*.sender.wlan[0].radio.channelNumber = 6")
+
+
+def test_an_interface_may_be_named() -> None:
+    one, two = link(), link(*TWO_INTERFACES)
+    receiver = one.nodes[-1].name
+    of_one = calibrate(one, 50, sender="sender", receiver=receiver)
+    of_two = calibrate(two, 50, sender="sender.wlan[1]", receiver=f"{receiver}.wlan[0]")
+    assert of_two == replace(of_one, sender_interfaces=2, sender_interface=1)
+    back = calibrate(two, 50, sender=receiver, receiver="sender.wlan[1]")
+    assert (back.sender_interface, back.receiver) == (0, "sender.wlan[1]")
+
+
+def test_interfaces_of_different_channels_are_told_with_one_to_try() -> None:
+    scenario = link(*TWO_INTERFACES)
+    text = r"the channel of sender; expected interfaces of one channel, such as sender\.wlan\[1\]"
+    with pytest.raises(ConfigError, match=text):
+        calibrate(scenario, 50, sender="sender", receiver=scenario.nodes[-1].name)
+
+
 @pytest.mark.parametrize(
     ("options", "text"),
     [
+        ({"sender": "sender.wlan[1]"}, r"no interface `sender.wlan\[1\]`; expected .* of sender, wlan\[0\]$"),
         ({"sender": "reciever"}, "did you mean `receivers"),
         ({"receiver": "sender"}, "`sender` would be sender and receiver; expected two nodes"),
         ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` would be sender"),

@@ -34,6 +34,12 @@ def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: i
     assert f"    *.relay.{wlan}.radio.transmitter.power = 1mW" in lines
 
 
+def test_an_interface_that_is_not_the_first_is_named() -> None:
+    lines = text(replace(calibration(2), sender_interface=1, receiver="base.wlan[1]")).splitlines()
+    assert lines[0].startswith("relay.wlan[1] to base.wlan[1]: 0.5 of")
+    assert "    *.relay.wlan[1].radio.transmitter.power = 1mW" in lines
+
+
 def test_a_sensitivity_that_decides_is_told() -> None:
     assert "sensitivity of -90 dBm decides" in text(calibration(deciding_sensitivity_w=1e-12))
     assert "sensitivity" not in text(calibration())
