@@ -171,3 +171,8 @@ def test_the_consequences_of_a_failed_callback_are_dropped():
     with pytest.raises(LookupError):
         encapsulator.initialize()
     assert encapsulator.finish() == []
+
+
+def test_the_stream_goes_on_from_draw_to_draw():
+    provider = InteropEncapsulator().provider
+    assert provider.random is provider.random

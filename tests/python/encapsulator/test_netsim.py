@@ -255,6 +255,16 @@ def test_the_methods_of_the_class_do_the_same():
     assert [call[1:] for call in pair.calls(1)][1:-1] == [("handle_packet", "a")]
 
 
+def test_a_failing_constructor_gets_a_note(monkeypatch):
+    def fail(protocol):
+        raise ArithmeticError
+
+    monkeypatch.setattr(Recorder, "__init__", fail)
+    with pytest.raises(ArithmeticError) as failure:
+        Pair()
+    assert failure.value.__notes__ == ["in __init__ of node 0 (Scripted 0) at 0 s of simulated time"]
+
+
 def test_an_interrupt_gets_no_note():
     def initialize(protocol):
         raise KeyboardInterrupt

@@ -144,3 +144,8 @@ def test_a_callback_replaced_later_is_the_one_called(node):
     encapsulator.protocol.handle_timer = seen.append
     encapsulator.handle_timer("tick")
     assert seen == ["tick"]
+
+
+def test_the_stream_goes_on_from_draw_to_draw():
+    provider = PythonProvider(SimpleNamespace(id=3))
+    assert provider.random is provider.random

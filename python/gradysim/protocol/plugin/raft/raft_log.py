@@ -111,11 +111,7 @@ class RaftLog:
             self.values, self.entries = dict(leader.values), list(leader.entries)
             return
         for index, entry in enumerate(leader.entries, start=leader.base_index + 1):
-            if index <= self.base_index:
-                continue
-            if index > self.last_index:
-                self.entries.append(entry)
-            elif self.term_at(index) != entry.term:
+            if index > self.base_index and self.term_at(index) != entry.term:  # another one, or none yet
                 del self.entries[index - self.base_index - 1 :]
                 self.entries.append(entry)
         self.commit(leader.base_index)

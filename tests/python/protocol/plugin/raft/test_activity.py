@@ -28,6 +28,12 @@ def test_a_new_leader_takes_those_for_active_that_it_saw(activity):
     assert activity.detected() == {0, 2}
 
 
+def test_a_new_leader_forgets_the_failures_that_it_knew_of(activity):
+    activity.begin_to_lead({0})
+    activity.begin_to_lead({0, 2})
+    assert activity.detected() == {0, 2}
+
+
 def test_members_that_come_and_go_are_watched(activity, membership):
     membership.fix([2, 7])
     activity.watch_members()

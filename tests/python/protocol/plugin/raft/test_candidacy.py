@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from gradysim.protocol.plugin.raft import RaftMode
+from gradysim.protocol.plugin.raft import RaftMode, RaftState
 from gradysim.protocol.plugin.raft.node_timers import ELECTION_TIMER
 from gradysim.protocol.plugin.raft.term import owner_of
 from python.protocol.plugin.raft.modes import BOTH_MODES
@@ -24,6 +24,21 @@ def test_who_has_heard_all_members_stands_at_once(network_type, mode):
     network.nodes[0].handle_timer(ELECTION_TIMER)
     # All rounds of looking round take 200 ms; two answers to a broadcast, 50 ms at most each.
     assert network.run(0.1, until=lambda: network.leader is network.nodes[0])
+
+
+def test_a_candidate_without_votes_does_not_lead(network_type):
+    network = network_type(3, 1)
+    transmit = network.transmit
+    network.transmit = lambda source, message, destination: (
+        None if '"RequestVote"' in message else transmit(source, message, destination)
+    )
+    assert network.run(1.0, until=lambda: any(map(is_candidate, network.nodes.values())))
+    network.run(2.0)
+    assert network.leaders == []
+
+
+def is_candidate(node):
+    return node.state is RaftState.CANDIDATE
 
 
 def test_a_leader_heeds_no_election_timeout(network_type):

@@ -139,3 +139,23 @@ def test_the_factory_takes_more_types(factory):
 def test_the_factory_takes_no_type_that_cannot_be_read(factory):
     with pytest.raises(ValueError, match="one with from_json, got 5"):
         factory.register_message_type("Rumour", 5)
+
+
+@pytest.mark.parametrize(
+    ("content", "defaults"),
+    [
+        ({"type": "RequestVote", "term": 1, "candidate_id": 2}, {"last_log_index": 0, "last_log_term": 0}),
+        ({"type": "DiscoveryHeartbeatResponse", "term": 1, "responder_id": 2}, {"would_vote": True}),
+        (
+            {"type": "AppendEntries", "term": 1, "leader_id": 2, "consensus_values": {}, "term_number": 0},
+            {"commit_index": 0, "commit_term": 0, "entries": []},
+        ),
+        (
+            {"type": "DiscoveryHeartbeat", "term": 1, "discoverer_id": 2},
+            {"last_log_index": 0, "last_log_term": 0, "answered": []},
+        ),
+    ],
+)
+def test_what_nodes_of_the_published_package_leave_out(content, defaults):
+    message = parse_message(json.dumps(content))
+    assert {name: getattr(message, name) for name in defaults} == defaults

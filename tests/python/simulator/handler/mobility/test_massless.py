@@ -52,6 +52,16 @@ def test_the_first_update_is_scheduled_at_injection(world, handler):
     assert (len(world.loop), world.loop.peek_event().timestamp) == (1, 0.5)
 
 
+def test_in_a_second_simulation_the_nodes_of_the_first_one_are_forgotten(world, new_world, handler):
+    old = world.node(0, handler=handler)
+    handler.handle_command(GotoCoordsMobilityCommand(9, 9, 9), old)
+    second = new_world()
+    handler.inject(second.loop)
+    new = second.node(0, handler=handler)
+    second.run(until=0.5)
+    assert (telemetry(old), old.position, telemetry(new)) == ([], (0, 0, 0), [(0.5, (0, 0, 0))])
+
+
 def test_an_update_and_each_telemetry_are_events_of_their_own(world, handler):
     nodes = [world.node(number, handler=handler) for number in range(3)]
     world.loop.pop_event().callback()

@@ -106,3 +106,16 @@ def test_nobody_is_paused_at_first(server):
 def test_the_library_is_imported_only_by_who_starts_a_server():
     program = "import sys; sys.modules['websockets'] = None; import gradysim.simulator.handler.visualization"
     subprocess.run([sys.executable, "-c", program], check=True, env={"PYTHONPATH": ":".join(sys.path)})
+
+
+def test_a_failure_of_the_server_ends_a_pause_and_is_told(commands, monkeypatch, caplog):
+    async def fail():
+        server._started.set_result(0)
+        raise ArithmeticError
+
+    server = VisualizationServer(VisualizationConfiguration(), "hello", commands)
+    monkeypatch.setattr(server, "_serve", fail)
+    server._running.clear()
+    server._run()
+    assert (server.is_paused, len(caplog.messages)) == (False, 1)
+    assert "the simulation goes on without it" in caplog.text

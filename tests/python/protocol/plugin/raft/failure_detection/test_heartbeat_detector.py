@@ -67,6 +67,15 @@ def test_who_answers_again_recovers(watch):
     assert (before, watch.news) == (True, [("failed", 2), ("recovered", 2)])
 
 
+def test_when_it_failed_and_recovered_is_told(watch):
+    watch.beat(14, 1)
+    watch.beat(2, 1, 2)
+    watch.time_s += 1.0
+    history = watch.detector.get_detection_metrics()["node_histories"][2]
+    assert history["last_recovery"] == pytest.approx(0.8)
+    assert history["time_since_last_recovery"] == pytest.approx(1000.0)
+
+
 def test_failures_can_be_recorded_without_a_clock():
     config = FailureConfig()
     config.set_absolute_timeout(100)

@@ -43,6 +43,19 @@ def test_its_label():
     assert DynamicVelocityMobilityHandler.get_label() == "mobility"
 
 
+def test_in_a_second_simulation_the_nodes_of_the_first_one_are_forgotten(new_world, hangar):
+    place = hangar()
+    place.fly(1, 0, 0)
+    world = new_world()
+    place.handler.inject(world.loop)
+    new = world.node(0, handler=place.handler)
+    place.handler.initialize()
+    seen = []
+    new.protocol_encapsulator.handle_telemetry = seen.append
+    world.run(until=0.1)
+    assert (place.telemetry, [told.current_velocity for told in seen]) == ([], [(0, 0, 0)])
+
+
 def test_velocity_grows_with_the_acceleration_and_then_the_position(world, hangar):
     place = hangar()
     place.fly(3, 0, 1)
