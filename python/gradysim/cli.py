@@ -2,6 +2,7 @@
 
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim runs FILE.ini [-c CONFIG]
+    gradysim means DIR [--csv]
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -20,6 +21,7 @@ from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 from gradysim.commands.calibrate import calibrate_power
 from gradysim.commands.exit_code import INTERRUPTED, MISTAKE, OK
 from gradysim.commands.keys import list_keys
+from gradysim.commands.means import print_means
 from gradysim.commands.run import run
 from gradysim.commands.runs import list_runs
 
@@ -56,6 +58,7 @@ app = App(
 )
 app.command(run)
 app.command(list_runs, name="runs")
+app.command(print_means, name="means")
 app.command(list_keys, name="keys")
 app.command(calibrate_power, name="calibrate")
 

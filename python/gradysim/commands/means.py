@@ -1,0 +1,41 @@
+"""`gradysim means`: what many runs have in common."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from gradysim.commands.exit_code import OK, say_mistake
+
+
+def print_means(
+    directory: Annotated[Path, Parameter(name="DIR", help="The folder of `run --result-dir`.")],
+    /,
+    *,
+    as_csv: Annotated[
+        bool, Parameter(name="--csv", negative="", help="As CSV, with all digits, for other programs.")
+    ] = False,
+) -> int:
+    """Print means of tracked variables and deliveries over all runs, with 95 % confidence intervals."""
+    from rich.console import Console
+
+    from gradysim.config.error import ConfigError
+    from gradysim.report.means_table import means_table, write_csv
+    from gradysim.results.means import means, read_results
+
+    try:
+        results = read_results(directory)
+        if not results:
+            raise ConfigError(
+                f"{directory}: it has no results of runs that came to their end; expected those of"
+                f" `gradysim run FILE --result-dir {directory}`"
+            )
+    except (ConfigError, OSError) as mistake:
+        return say_mistake(mistake)
+    found = means(results)
+    if as_csv:
+        write_csv(found, sys.stdout)
+    else:
+        Console().print(means_table(found))
+    return OK

@@ -1,0 +1,50 @@
+"""Mean values of many runs, as a table for people and as CSV."""
+
+import csv
+from collections.abc import Iterator, Sequence
+from typing import TextIO
+
+from rich import box
+from rich.table import Table
+
+from gradysim.results.means import Mean
+
+
+def means_table(means: Sequence[Mean]) -> Table:
+    """Return a row for each mean; what is the same in all of them is the title."""
+    config, mode = {mean.config for mean in means}, {mean.mode for mean in means}
+    title = [*(config if len(config) == 1 else ()), *(f"{m} mode" for m in mode if len(mode) == 1)]
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title=", ".join(title) or None)
+    table.title_justify = "left"
+    variables = _variables(means)
+    headings = [*(["config"] if len(config) > 1 else []), *(["mode"] if len(mode) > 1 else [])]
+    for heading in [*headings, *(f"${name}" for name in variables), "quantity"]:
+        table.add_column(heading)
+    for heading in ("runs", "mean", "± (95 %)"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for mean in means:
+        cells = [mean.config] if len(config) > 1 else []
+        cells += [mean.mode] if len(mode) > 1 else []
+        cells += [str(mean.iterations.get(name, "")) for name in variables]
+        half_width = "" if mean.half_width is None else f"{mean.half_width:.3g}"
+        table.add_row(*cells, mean.quantity, str(mean.runs), f"{mean.mean:.6g}", half_width)
+    return table
+
+
+def write_csv(means: Sequence[Mean], output: TextIO) -> None:
+    """Write a heading and a line for each mean, with all digits."""
+    writer = csv.writer(output, lineterminator="\n")
+    variables = _variables(means)
+    writer.writerow(["config", "mode", *variables, "quantity", "runs", "mean", "half_width"])
+    writer.writerows(_rows(means, variables))
+
+
+def _rows(means: Sequence[Mean], variables: Sequence[str]) -> Iterator[list[object]]:
+    for mean in means:
+        values = [mean.iterations.get(name, "") for name in variables]
+        half_width = "" if mean.half_width is None else mean.half_width
+        yield [mean.config, mean.mode, *values, mean.quantity, mean.runs, mean.mean, half_width]
+
+
+def _variables(means: Sequence[Mean]) -> list[str]:
+    return list(dict.fromkeys(name for mean in means for name in mean.iterations))

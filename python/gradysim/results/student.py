@@ -1,0 +1,49 @@
+"""Confidence intervals of a mean, by Student's t distribution."""
+
+import math
+from collections.abc import Sequence
+from statistics import fmean, stdev
+
+CONFIDENCE = 0.95
+"""Share of such intervals that hold the true mean."""
+
+_LARGEST = 1000.0
+"""More than any quantile: that of one degree of freedom is 12.7."""
+
+
+def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
+    """Return the mean and half the width of its confidence interval, None for a single value.
+
+    The values are taken to be independent and normally distributed.
+    """
+    if len(values) < 2:
+        return fmean(values), None
+    return fmean(values), _quantile(len(values) - 1) * stdev(values) / math.sqrt(len(values))
+
+
+def _quantile(freedom: int) -> float:
+    """The t that is exceeded in absolute value with probability 1 - CONFIDENCE; `freedom` is 1 or more."""
+    low, high = 0.0, _LARGEST
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        if _probability_within(middle, freedom) < CONFIDENCE:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def _probability_within(t: float, freedom: int) -> float:
+    """Probability of -t to t.
+
+    Source: M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, 1964, 26.7.3 and 26.7.4.
+    """
+    theta = math.atan(t / math.sqrt(freedom))
+    sine, cosine = math.sin(theta), math.cos(theta)
+    odd = freedom % 2 == 1
+    term = cosine if odd else 1.0
+    total = term if freedom > 1 else 0.0
+    for step in range(3 if odd else 2, freedom - 1, 2):
+        term *= cosine * cosine * ((step - 1) / step)
+        total += term
+    return (theta + sine * total) * 2 / math.pi if odd else sine * total

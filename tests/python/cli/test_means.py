@@ -1,0 +1,32 @@
+"""`gradysim means`: from the files of `run --result-dir`."""
+
+
+def test_means_of_runs(gradysim):
+    study = ("--set", "sim-time-limit=${limit=3, 5}.5s", "--result-dir", "out", "--quiet")
+    gradysim("run", "test.ini", "--mode", "prototype", *study)
+    done = gradysim("means", "out")
+    assert (done.returncode, done.stderr) == (0, "")
+    title, _, _, *rows = [line.split() for line in done.stdout.splitlines()]
+    assert title == ["General,", "prototype", "mode"]
+    assert [row for row in rows if "said" in row] == [
+        ["3", "uavs[*]", "said", "3", "3", "0"],
+        ["5", "uavs[*]", "said", "3", "5", "0"],
+    ]
+    in_csv = gradysim("means", "out", "--csv").stdout.splitlines()
+    assert in_csv[0] == "config,mode,limit,quantity,runs,mean,half_width"
+    assert "General,prototype,3,uavs[*] said,3,3.0,0.0" in in_csv
+
+
+def test_a_folder_without_results(gradysim, folder):
+    done = gradysim("means", ".")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        ".: it has no results of runs that came to their end; expected those of"
+        " `gradysim run FILE --result-dir .`\n"
+    )
+
+
+def test_a_folder_that_is_not_there(gradysim):
+    done = gradysim("means", "nowhere")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "nowhere" in done.stderr

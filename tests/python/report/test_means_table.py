@@ -1,0 +1,39 @@
+from io import StringIO
+
+from rich.console import Console
+
+from gradysim.report.means_table import means_table, write_csv
+from gradysim.results.means import Mean
+
+FAST = Mean("Study", "integrated", {"jitter": 10, "0": "a"}, "uavs[*] heard", 10, 1234.5678, 0.12345)
+SLOW = Mean("Study", "prototype", {"jitter": 20}, "uavs[*] heard", 1, 2.0, None)
+
+
+def printed(*means: Mean) -> list[list[str]]:
+    text = StringIO()
+    Console(file=text, width=120).print(means_table(means))
+    return [line.split() for line in text.getvalue().splitlines()]
+
+
+def test_what_all_have_in_common_is_the_title() -> None:
+    title, heading, _, row = printed(FAST)
+    assert title == ["Study,", "integrated", "mode"]
+    assert heading == ["$jitter", "$0", "quantity", "runs", "mean", "±", "(95", "%)"]
+    assert row == ["10", "a", "uavs[*]", "heard", "10", "1234.57", "0.123"]
+
+
+def test_modes_that_differ_are_a_column() -> None:
+    title, heading, _, *rows = printed(FAST, SLOW)
+    assert title == ["Study"]
+    assert heading[:2] == ["mode", "$jitter"]
+    assert rows[1] == ["prototype", "20", "uavs[*]", "heard", "1", "2"]
+
+
+def test_csv_has_all_digits() -> None:
+    text = StringIO()
+    write_csv([FAST, SLOW], text)
+    assert text.getvalue().splitlines() == [
+        "config,mode,jitter,0,quantity,runs,mean,half_width",
+        "Study,integrated,10,a,uavs[*] heard,10,1234.5678,0.12345",
+        "Study,prototype,20,,uavs[*] heard,1,2.0,",
+    ]
