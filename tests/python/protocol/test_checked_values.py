@@ -30,6 +30,11 @@ def test_numbers_of_numpy_are_numbers():
     assert positive(numpy.float32(2)) == positive(numpy.int64(2)) == 2
 
 
+def test_what_is_returned_is_a_plain_number():
+    numpy = pytest.importorskip("numpy")
+    assert type(positive(numpy.float32(2))) is float
+
+
 @pytest.mark.parametrize("point", [(1, 2, 3), [1.0, 2.0, 3.0], range(1, 4)])
 def test_three_finite_numbers_are_a_point(point):
     assert checked_point("home", point, WrongError) == (1.0, 2.0, 3.0)

@@ -92,3 +92,10 @@ def test_a_medium_that_a_script_got_wrong_is_refused(make_scenario):
     scenario = replace(make_scenario(), communication_medium=CommunicationMediumSpec(failure_rate=2.0))
     with pytest.raises(ConfigError, match=r"test\.ini: \*\.communicationMedium: failure_rate .* got 2\.0"):
         build_simulation(scenario)
+
+
+def test_a_native_protocol_is_refused_with_its_node(make_scenario):
+    pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+    scenario = make_scenario("class Tested(Quiet): pass", "*.uavs[1].protocol.typename = BeaconProtocol")
+    with pytest.raises(ConfigError, match=r"uavs\[1\]: .*prototype mode"):
+        build_simulation(scenario)

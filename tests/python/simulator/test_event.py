@@ -237,6 +237,11 @@ def test_the_clock_cannot_be_set_back_nor_past_an_event(timestamp):
         loop.advance_to(timestamp)
 
 
+def test_the_clock_cannot_be_set_to_the_end_of_all_times():
+    with pytest.raises(EventLoopException, match="cannot set the clock to inf s"):
+        EventLoop().advance_to(math.inf)
+
+
 class AgainstASortedList(RuleBasedStateMachine):
     """Whatever is done to a loop, it behaves as a list sorted by (time, order of scheduling)."""
 

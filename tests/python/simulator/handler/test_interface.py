@@ -22,6 +22,10 @@ def test_the_rest_is_optional():
     handler.finalize()
 
 
+def test_a_handler_holds_nothing_up_unless_it_says_so():
+    assert Minimal().held_up_s == 0.0
+
+
 @pytest.mark.parametrize("missing", ["get_label", "inject", "register_node"])
 def test_three_methods_are_needed(missing):
     methods = {name: method for name, method in vars(Minimal).items() if name[0] != "_" and name != missing}

@@ -76,6 +76,20 @@ def test_the_log_can_be_turned_off(capsys):
     assert capsys.readouterr().err == ""
 
 
+def test_a_quiet_simulation_stays_quiet_beside_another(capsys):
+    def handle_timer(self, timer):
+        logging.getLogger().info("hello")
+
+    tested = timers(1, 2)
+    tested.handle_timer = handle_timer
+    simulators = [build(timers(1, 2)), build(tested, execution_logging=False)]
+    for simulator in simulators:
+        simulator.step_simulation()
+    for simulator in simulators:
+        simulator.finalize()
+    assert "hello" not in capsys.readouterr().err
+
+
 def test_the_log_goes_to_a_file_too(tmp_path):
     build(timers(1), log_file=tmp_path / "run.log").start_simulation()
     assert "Simulation finished" in (tmp_path / "run.log").read_text()

@@ -266,6 +266,11 @@ def test_active_is_a_bool(plugin):
         plugin.set_simulation_active(3, "no")
 
 
+@pytest.mark.parametrize("ask", ["get_failed_nodes", "get_communication_failed_nodes"])
+def test_in_classic_mode_no_node_is_failed(plugin, ask):
+    assert getattr(plugin, ask)() == set()
+
+
 @pytest.mark.parametrize("ask", ["is_node_failed", "is_communication_failed"])
 def test_a_node_is_failed_if_it_is_among_the_failed_ones(plugin, monkeypatch, ask):
     monkeypatch.setattr(plugin, "get_failed_nodes", lambda: {2})
