@@ -1,7 +1,7 @@
 """A camera that sees other nodes."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypedDict
 
 from gradysim.encapsulator.node_positions import NodePositions
@@ -88,9 +88,8 @@ class CameraHardware(Extension):
 
     def change_facing(self, facing_elevation: float, facing_rotation: float) -> None:
         """Turn the camera; degrees, as in `CameraConfiguration`. ValueError if one is not finite."""
-        old = self._configuration
-        self._configuration = CameraConfiguration(
-            old.camera_reach, old.camera_theta, facing_elevation, facing_rotation
+        self._configuration = replace(
+            self._configuration, facing_elevation=facing_elevation, facing_rotation=facing_rotation
         )
         self._axis = _axis(self._configuration)
 

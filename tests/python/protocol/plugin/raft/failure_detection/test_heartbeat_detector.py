@@ -127,6 +127,14 @@ def test_the_summary_counts(watch):
     assert summary["node_details"][1]["recent_response_times"] == [3.0] * 5
 
 
+def test_the_latest_response_times_are_remembered(watch):
+    for response_time_ms in range(12):
+        watch.detector.record_heartbeat_response(1, True, response_time_ms)
+    metrics = watch.detector.get_detection_metrics()
+    assert metrics["performance"]["average_response_time_ms"] == 6.5  # of the last ten
+    assert metrics["node_histories"][1]["recent_response_times"] == [7, 8, 9, 10, 11]
+
+
 def test_the_metrics_count(watch):
     watch.beat(14, 1)
     metrics = watch.detector.get_detection_metrics()
