@@ -66,6 +66,15 @@ def test_a_run_in_which_finish_fails_is_not_complete(make_scenario):
     assert failing.result().interrupted
 
 
+def test_a_run_that_ctrl_c_ended_is_not_complete_but_finished(make_scenario):
+    ended = PrototypeRun(
+        make_scenario("class Tested(Talker):\n    def handle_timer(self, timer): raise KeyboardInterrupt")
+    )
+    ended.execute()
+    assert ended.result().interrupted
+    assert [node.tracked_variables["finished"] for node in ended.result().nodes] == [True, True]
+
+
 def test_without_a_word_a_run_does_not_wait(make_scenario, wall_clock):
     PrototypeRun(make_scenario()).execute()
     assert wall_clock.sleeps == []

@@ -24,10 +24,11 @@ def test_between_turns_the_loop_stands(turns):
     assert not turns.asyncio_loop.is_running()
 
 
-def test_a_longer_turn_runs_what_becomes_ready(turns):
+@pytest.mark.parametrize("duration_s", [0.5, 60])
+def test_a_longer_turn_runs_what_becomes_ready(turns, duration_s):
     calls = []
     turns.asyncio_loop.call_later(0.001, lambda: (calls.append("called"), turns.wake()))
-    turns.take(60)
+    turns.take(duration_s)
     assert calls == ["called"]
 
 

@@ -56,6 +56,12 @@ def test_starting_goes_to_the_first_waypoint(protocol):
     assert (plugin.is_idle, plugin.current_waypoint) == (False, 0)
 
 
+def test_speed_and_tolerance_may_be_nothing(protocol):
+    plugin = mission(protocol, speed=0, tolerance=0)
+    arrive(protocol, plugin)
+    assert (protocol.provider.speeds, plugin.current_waypoint) == ([0], 1)
+
+
 def test_starting_sets_the_speed(protocol):
     mission(protocol, speed=7)
     assert protocol.provider.speeds == [7]
