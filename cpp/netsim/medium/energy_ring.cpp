@@ -2,12 +2,22 @@
 
 namespace netsim {
 
-void EnergyRing::clear() {
+void EnergyRing::begin(double level_w, double first_reach_m, double outer_reach_m) {
+    level_w_ = level_w;
+    others_ = 0;
+    outer_reach_m_ = outer_reach_m;
+    outside_w_ = 0;
+    zones_.assign(1, Zone{first_zone_w(level_w), first_reach_m, 0});
+    zones_watched_ = 1;
+    watched_.clear();
+}
+
+void EnergyRing::begin_without_zones() {
+    level_w_ = 0;
     others_ = 0;
     zones_.clear();
     zones_watched_ = 0;
     watched_.clear();
-    first_zone_.clear();
 }
 
 std::size_t EnergyRing::zones_needed() const {

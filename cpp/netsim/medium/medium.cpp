@@ -57,8 +57,10 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
     audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
     audience->most_antenna_gain = std::max(audience->most_antenna_gain, antenna.max_gain());
     audience->reach = {};
-    audience->first_zone_reach = {};
+    audience->ring_reach = {};
+    audience->outer_reach = {};
     audience->members.add(radio, *receiver.trajectory);
+    audience_of_.push_back(static_cast<std::uint32_t>(audience - audiences_.begin()));
     return radio;
 }
 
@@ -95,10 +97,13 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.heard.clear();
     entry.places.clear();
     entry.told = {};
-    entry.rings.resize(audiences_.size());
-    for (EnergyRing& ring : entry.rings) {
-        ring.clear();
+    entry.heard_is_complete = false;
+    entry.told_apart.clear();
+    entry.shares.clear();
+    for (const Audience& audience : audiences_) {
+        entry.shares.push_back(entry.transmission.band.share_in(audience.band));
     }
+    entry.rings.resize(audiences_.size());
     return entry;
 }
 
@@ -106,14 +111,15 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
 void Medium::tell_everybody(OnAir& entry) {
     const Transmission& sent = entry.transmission;
     entry.others_w = std::numeric_limits<double>::infinity();
+    entry.heard_is_complete = true;  // nobody: each is told apart
     CopyCount addressed;
     CopyCount overheard;
     for (RadioId radio = 0; radio < static_cast<RadioId>(attached_.size()); ++radio) {
         const Receiver& receiver = receivers_[radio];
-        if (radio == sent.radio || sent.band.share_in(receiver.band) == 0) {
+        if (radio == sent.radio || share_at(entry, radio) == 0) {
             continue;
         }
-        const Arrival arrival = arrival_at(sent, radio);
+        const Arrival arrival = arrival_at(entry, radio);
         if (can_decode(receiver, sent)) {
             CopyCount& count = sent.label.is_for(attached_[radio].interface.node) ? addressed : overheard;
             ++count.made;
@@ -138,12 +144,12 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     double farthest_m = 0;
     for (std::size_t index = 0; index < audiences_.size(); ++index) {
         Audience& audience = audiences_[index];
-        const double share = sent.band.share_in(audience.band);
+        const double share = entry.shares[index];
         if (share == 0) {
             continue;
         }
-        std::vector<EnergyRing::Near>& first_zone = entry.rings[index].first_zone();
-        const double first_zone_w = EnergyRing::first_zone_w(noticed_energy_w(audience));
+        EnergyRing& ring = entry.rings[index];
+        begin_ring(ring, audience, sent);
         const bool is_decodable = can_decode(audience, sent);
         copies += is_decodable ? audience.members.size() : 0;
         const double within_m = reach_m(audience, sent);
@@ -151,7 +157,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         entry.reach_m = std::max(entry.reach_m, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
         candidates_.clear();
-        const double search_m = std::max(within_m, first_zone_reach_m(audience, sent));
+        const double search_m = std::max(within_m, ring.radius_m());
         audience.members.visit(sent.origin, search_m, [&](RadioId radio, const Position& place) {
             const double squared_m2 = squared_distance(sent.origin, place);
             if (squared_m2 <= search_m * search_m && radio != sent.radio) {
@@ -175,22 +181,23 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
                     {now + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
                 entry.places.push_back(place);
             }
-            if (received_w >= first_zone_w && !is_surely_loud(there, received_w)) {
-                first_zone.push_back({radio, place, received_w});
+            if (received_w >= ring.least_power_w() && !is_surely_loud(there, received_w)) {
+                netsim::fetch(outlook_of_[radio]);
+                ring.watched().push_back({radio, place, missing_beside_w(there, received_w)});
             }
         }
     }
     --copies;  // the sender hears its band, but not itself
     entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
-    schedule_arrivals(entry);
     if (!beside_.empty()) {
         bound_interference(entry);
         for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
-            if (sent.band.share_in(audiences_[audience].band) > 0) {
+            if (entry.shares[audience] > 0) {
                 tell_where_energy_adds_up(entry, audience);
             }
         }
     }
+    schedule_arrivals(entry);
     CopyCount all{copies, copies - noticed_copies};
     CopyCount addressed;
     if (sent.label.destination == broadcast_id) {
@@ -235,9 +242,15 @@ double Medium::reach_m(Audience& audience, const Transmission& transmission) con
     return known_reach_m(audience.reach, transmission, audience, least_w);
 }
 
-double Medium::first_zone_reach_m(Audience& audience, const Transmission& transmission) const {
-    const double least_w = EnergyRing::first_zone_w(noticed_energy_w(audience));
-    return least_w > 0 ? known_reach_m(audience.first_zone_reach, transmission, audience, least_w) : 0;
+void Medium::begin_ring(EnergyRing& ring, Audience& audience, const Transmission& transmission) const {
+    const double level_w = noticed_energy_w(audience);
+    if (level_w <= 0) {
+        ring.begin_without_zones();
+        return;
+    }
+    ring.begin(level_w,
+               known_reach_m(audience.ring_reach, transmission, audience, EnergyRing::first_zone_w(level_w)),
+               known_reach_m(audience.outer_reach, transmission, audience, EnergyRing::outer_w(level_w)));
 }
 
 double Medium::known_reach_m(KnownReach& known, const Transmission& transmission, const Audience& audience,
@@ -262,6 +275,7 @@ double Medium::reach_of_power_m(const Transmission& transmission, const Audience
 // course of a run does not depend on when, or whether, a radio is told. So of all arrivals of a transmission only the
 // next one to start and the next one to end need to be in the queue.
 void Medium::schedule_arrivals(OnAir& entry) {
+    entry.heard_is_complete = true;
     if (entry.heard.empty()) {
         return;
     }
@@ -313,24 +327,33 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
     schedule_next(entry, edge);
 }
 
-void Medium::tell(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
+void Medium::tell(RadioId radio, OnAir& on_air, const Arrival& arrival) {
+    if (!on_air.heard_is_complete) {
+        const auto place_index = static_cast<std::uint32_t>(on_air.places.size());
+        on_air.heard.push_back({arrival.start, arrival.power_w, radio, place_index, arrival.lockable});
+        on_air.places.push_back(arrival.place);
+        return;
+    }
+    const std::size_t apart = on_air.told_apart.size();
+    on_air.told_apart.push_back(arrival);
     if (arrival.start < simulator_.now()) {
         // It came to matter after it had begun: nothing that the radio could have noticed happened in
         // between.
-        begin(radio, on_air, arrival);
+        begin(radio, on_air, apart);
         return;
     }
-    simulator_.schedule_at_place(
-        arrival.start, on_air.first_place + 2 * static_cast<Place>(radio),
-        [this, radio, &on_air] { begin(radio, on_air, arrival_at(on_air.transmission, radio)); });
+    simulator_.schedule_at_place(arrival.start, on_air.first_place + 2 * static_cast<Place>(radio),
+                                 [this, radio, &on_air, apart] { begin(radio, on_air, apart); });
 }
 
-void Medium::begin(RadioId radio, const OnAir& on_air, const Arrival& arrival) {
+void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
+    const Arrival arrival = on_air.told_apart[apart];  // a copy: others may be told meanwhile
     attached_[radio].listener->arrival_started(arrival);
-    simulator_.schedule_at_place(
-        arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1, [this, radio, &on_air] {
-            attached_[radio].listener->arrival_ended(arrival_at(on_air.transmission, radio));
-        });
+    simulator_.schedule_at_place(arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1,
+                                 [this, radio, &on_air, apart] {
+                                     const Arrival ended = on_air.told_apart[apart];
+                                     attached_[radio].listener->arrival_ended(ended);
+                                 });
 }
 
 InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arrival, SimTime start,
@@ -339,14 +362,13 @@ InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arri
     if (on_air_.size() <= 1) {
         return interference_;
     }
-    const Receiver& here = receivers_[receiver];
     for (const std::unique_ptr<OnAir>& other : on_air_) {
         const Transmission& sent = other->transmission;
         if (&sent == arrival.transmission || sent.radio == receiver || other->last_end <= start ||
-            sent.start >= end || sent.band.share_in(here.band) == 0) {
+            sent.start >= end || share_at(*other, receiver) == 0) {
             continue;
         }
-        interference_.add(arrival_at(sent, receiver, arrival.place));
+        interference_.add(arrival_at(*other, receiver, arrival.place));
     }
     return interference_;
 }

@@ -133,7 +133,8 @@ private:
         double most_energy_w = 0;   // from that on, the noise or one transmission is enough for all of them
         double most_antenna_gain = 0;
         KnownReach reach{};
-        KnownReach first_zone_reach{};
+        KnownReach ring_reach{};
+        KnownReach outer_reach{};
         Neighbours members;
     };
     // What a radio is told of an arrival; at one time, in this order.
@@ -157,14 +158,17 @@ private:
         double odometer_m = 0;              // at its start
         double reach_m = 0;                 // nobody locks on to it farther away
         double others_w = 0;                // within that, at most, of all that are on the air beside it
-        std::vector<Heard> heard;           // by those that notice it alone, in the order of their events
+        std::vector<Heard> heard;           // by those known when it began, in the order of their events
+        bool heard_is_complete = false;     // who comes to notice it later is told apart
         std::vector<Position> places;       // of theirs, at its start
         std::array<std::size_t, 2> told{};  // [edge]: so many of `heard`
+        std::vector<Arrival> told_apart;    // by the others
+        std::vector<double> shares;         // [audience]: of its power, in their band
         std::vector<EnergyRing> rings;      // [audience]
     };
     // What a transmission can bring to any of the receivers that are to be watched.
     struct Bound {
-        const Transmission* transmission = nullptr;
+        const OnAir* from = nullptr;
         double most_w = 0;
         double rest_w = 0;  // with those after it
     };
@@ -178,25 +182,24 @@ private:
 
     OnAir& put_on_air(Transmission transmission);
     // In the header, as sums over all that is on the air call it for each.
-    Arrival arrival_at(const Transmission& transmission, RadioId radio) const {
-        return arrival_at_place(transmission, radio,
-                                receivers_[radio].trajectory->position_at(transmission.start));
+    Arrival arrival_at(const OnAir& on_air, RadioId radio) const {
+        return arrival_at_place(on_air, radio,
+                                receivers_[radio].trajectory->position_at(on_air.transmission.start));
     }
     // The same, mostly with less to look up. `place`: where the radio was when any of those on the air began.
-    Arrival arrival_at(const Transmission& transmission, RadioId radio, const Position& place) const {
-        return nobody_moved() ? arrival_at_place(transmission, radio, place)
-                              : arrival_at(transmission, radio);
+    Arrival arrival_at(const OnAir& on_air, RadioId radio, const Position& place) const {
+        return nobody_moved() ? arrival_at_place(on_air, radio, place) : arrival_at(on_air, radio);
     }
     // With the radio at `place` when the transmission starts.
-    Arrival arrival_at_place(const Transmission& transmission, RadioId radio, const Position& place) const {
-        const Receiver& receiver = receivers_[radio];
+    Arrival arrival_at_place(const OnAir& on_air, RadioId radio, const Position& place) const {
+        const Transmission& transmission = on_air.transmission;
         const double distance_m = distance(transmission.origin, place);
         const SimTime start = transmission.start + propagation_delay(distance_m);
-        const double received_w =
-            power_w(transmission, transmission.band.share_in(receiver.band), radio, place, distance_m);
+        const double received_w = power_w(transmission, share_at(on_air, radio), radio, place, distance_m);
         return Arrival{&transmission, start, start + transmission.duration,
-                       received_w,    place, can_lock_on(receiver, transmission, received_w)};
+                       received_w,    place, can_lock_on(radio, transmission, received_w)};
     }
+    double share_at(const OnAir& on_air, RadioId radio) const { return on_air.shares[audience_of_[radio]]; }
     // Since the first of those on the air began.
     bool nobody_moved() const {
         return odometer_.all_stand() && odometer_.reading_m(simulator_.now()) == on_air_.front()->odometer_m;
@@ -229,8 +232,8 @@ private:
     static double noticed_energy_w(const Audience& audience) {
         return audience.least_energy_w * (1 - margin);
     }
-    // How far its power reaches the first zone of its rings (energy_ring.hpp); 0 if they have none.
-    double first_zone_reach_m(Audience& audience, const Transmission& transmission) const;
+    // Begins the ring of the transmission (energy_ring.hpp).
+    void begin_ring(EnergyRing& ring, Audience& audience, const Transmission& transmission) const;
     double known_reach_m(KnownReach& known, const Transmission& transmission, const Audience& audience,
                          double power_w) const;
     // Beyond that, nobody of the audience gets that power.
@@ -241,49 +244,50 @@ private:
     static Due next_due(const OnAir& entry, Edge edge);
     void schedule_next(OnAir& entry, Edge edge);
     void tell_next(OnAir& entry, Edge edge);
-    void tell(RadioId radio, const OnAir& on_air, const Arrival& arrival);
-    void begin(RadioId radio, const OnAir& on_air, const Arrival& arrival);
+    // Of an arrival that it does not notice alone.
+    void tell(RadioId radio, OnAir& on_air, const Arrival& arrival);
+    void begin(RadioId radio, const OnAir& on_air, std::size_t apart);
     // Sums of energy: medium_energy.cpp.
     // Collects in `beside_` the others that are not over everywhere.
     void find_those_beside(const OnAir& newest);
     // Adds to what the others can bring to the receivers of each.
     void bound_interference(OnAir& newest);
     void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
-    void add_to_ring(OnAir& here, OnAir& newest, std::size_t audience);
+    // Those whom the ring of `here` watches miss less by what `there` brings. One of the two is the newest.
+    void add_to_ring(OnAir& here, const OnAir& there, const OnAir& newest, std::size_t audience);
     // Adds up anew what the others can bring, and watches whoever that calls for.
-    void widen_ring(OnAir& here, OnAir& newest, std::size_t index);
+    void widen_ring(OnAir& here, const OnAir& newest, std::size_t index);
     // A function of the radius: the most that `there`, sent with at most that power, antennas included, brings to
     // receivers within the radius of where `here` began.
     auto most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const;
-    double brought_w(const Transmission& sent, RadioId radio, const Position& place) {
+    double brought_w(const OnAir& on_air, RadioId radio, const Position& place) {
         ++energy_looks_;
-        return sent.radio == radio ? 0 : arrival_at(sent, radio, place).power_w;
+        return on_air.transmission.radio == radio ? 0 : arrival_at(on_air, radio, place).power_w;
     }
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
     // Tells the radio of as many as it takes to find its channel busy when it is. Returns what more there must be until
     // there is somewhat to tell. What is worked out once for a radio is kept in its outlook, as the rings of several
     // transmissions ask for it, and again for each new one.
     double missing_at(RadioId radio, const Position& place, const OnAir& newest);
-    void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const Transmission& sent);
+    void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air);
     Outlook& outlook_of(RadioId radio, const OnAir& newest);
     void take_back_outlooks(SimTime now);
     template <typename ReceiverOrAudience>
     static bool can_decode(const ReceiverOrAudience& receiver, const Transmission& sent) {
         return sent.can_be_decoded(receiver.band, receiver.formats);
     }
-    static bool can_lock_on(const Receiver& receiver, const Transmission& sent, double power_w) {
-        return power_w >= receiver.sensitivity_w && can_decode(receiver, sent);
+    bool can_lock_on(RadioId radio, const Transmission& sent, double power_w) const {
+        return power_w >= attached_[radio].sensitivity_w && can_decode(audiences_[audience_of_[radio]], sent);
     }
-    static bool is_told_alone(const Receiver& receiver, const Transmission& sent, double power_w) {
-        return can_lock_on(receiver, sent, power_w) || is_loud(receiver, power_w);
-    }
-    template <typename ReceiverOrAttached>
-    static bool is_loud(const ReceiverOrAttached& receiver, double power_w) {
+    static bool is_loud(const Attached& receiver, double power_w) {
         return receiver.noise_w + power_w >= receiver.energy_detection_w;
     }
+    // Of what its channel needs to be busy, beside one transmission of that power.
+    static double missing_beside_w(const Attached& receiver, double power_w) {
+        return receiver.energy_detection_w * (1 - margin) - (receiver.noise_w + power_w);
+    }
     // However sums are rounded.
-    template <typename ReceiverOrAttached>
-    static bool is_surely_loud(const ReceiverOrAttached& receiver, double power_w) {
+    static bool is_surely_loud(const Attached& receiver, double power_w) {
         return is_loud(receiver, power_w * (1 - margin));
     }
     void forget_the_past();
@@ -295,8 +299,9 @@ private:
     Antennas antennas_;
     BackgroundNoise background_noise_;
     Hearing hearing_;
-    std::vector<Attached> attached_;   // [radio]
-    std::vector<Receiver> receivers_;  // [radio]
+    std::vector<Attached> attached_;          // [radio]
+    std::vector<Receiver> receivers_;         // [radio]
+    std::vector<std::uint32_t> audience_of_;  // [radio]
     std::vector<Candidate> candidates_;
     std::vector<RadioId> first_radio_;  // [node]; its others come after it
     std::deque<Audience> audiences_;

@@ -46,22 +46,23 @@ void Medium::bound_interference(OnAir& newest) {
 }
 
 void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {
-    bool is_alone = true;
     for (OnAir* other : beside_) {
-        if (other->transmission.band.share_in(audiences_[audience].band) > 0) {
-            is_alone = false;
-            add_to_ring(*other, newest, audience);
+        if (other->shares[audience] > 0) {
+            add_to_ring(*other, newest, newest, audience);
+            if (other->rings[audience].is_too_narrow()) {
+                widen_ring(*other, newest, audience);
+            }
+            add_to_ring(newest, *other, newest, audience);
         }
     }
-    if (!is_alone) {
+    if (newest.rings[audience].is_too_narrow()) {
         widen_ring(newest, newest, audience);
     }
 }
 
-void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
+void Medium::add_to_ring(OnAir& here, const OnAir& there, const OnAir& newest, std::size_t audience) {
     EnergyRing& ring = here.rings[audience];
-    const auto bound_w =
-        most_brought_w(newest, here, most_power_w(newest.transmission, audiences_[audience]));
+    const auto bound_w = most_brought_w(there, here, most_power_w(there.transmission, audiences_[audience]));
     const double most_w = bound_w(ring.radius_m());
     for (EnergyRing::Watched& watched : ring.watched()) {
         if (watched.missing_w > most_w) {
@@ -70,7 +71,7 @@ void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
         }
         // The bound does not tell, perhaps the power does.
         if (outlook_of_[watched.radio] == no_outlook) {
-            watched.missing_w -= brought_w(newest.transmission, watched.radio, watched.place);
+            watched.missing_w -= brought_w(there, watched.radio, watched.place);
             if (watched.missing_w > 0) {
                 continue;
             }
@@ -78,12 +79,9 @@ void Medium::add_to_ring(OnAir& here, OnAir& newest, std::size_t audience) {
         watched.missing_w = missing_at(watched.radio, watched.place, newest);
     }
     ring.add(bound_w);
-    if (ring.is_too_narrow()) {
-        widen_ring(here, newest, audience);
-    }
 }
 
-void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
+void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
     const Audience& audience = audiences_[index];
     const Transmission& sent = here.transmission;
     EnergyRing& ring = here.rings[index];
@@ -92,12 +90,12 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
             visitor(newest);
         }
         for (const OnAir* other : beside_) {
-            if (other != &here && other->transmission.band.share_in(audience.band) > 0) {
+            if (other != &here && other->shares[index] > 0) {
                 visitor(*other);
             }
         }
     };
-    ring.forget_others(beside_.size(), noticed_energy_w(audience),
+    ring.forget_others(beside_.size(),
                        [&](double power_w) { return reach_of_power_m(sent, audience, power_w); });
     visit_others([&](const OnAir& other) {
         ring.add(most_brought_w(other, here, most_power_w(other.transmission, audience)));
@@ -111,7 +109,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
     bounds_.clear();
     visit_others([&](const OnAir& other) {
         const double most_sent_w = most_power_w(other.transmission, audience);
-        bounds_.push_back({&other.transmission, most_brought_w(other, here, most_sent_w)(radius_m)});
+        bounds_.push_back({&other, most_brought_w(other, here, most_sent_w)(radius_m)});
     });
     // The largest bounds are those of the nearest, and the farthest from the truth.
     std::ranges::sort(bounds_, std::greater(), &Bound::most_w);
@@ -129,19 +127,13 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
         const double level_w = receiver.energy_detection_w * (1 - margin);
         auto bound = bounds_.begin();
         for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
-            known_w += brought_w(*bound->transmission, radio, place);
+            known_w += brought_w(*bound->from, radio, place);
         }
         const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
         ring.watched().push_back(
             {radio, place, missing_w > 0 ? missing_w : missing_at(radio, place, newest)});
     };
-    if (ring.is_first_zone_enough()) {
-        for (const EnergyRing::Near& near : ring.first_zone()) {
-            watch(near.radio, near.place, near.received_w);
-        }
-        return;
-    }
-    const double share = sent.band.share_in(audience.band);
+    const double share = here.shares[index];
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
     audience.members.visit(sent.origin, radius_m + moved_m, [&](RadioId radio, const Position& place) {
@@ -150,7 +142,7 @@ void Medium::widen_ring(OnAir& here, OnAir& newest, std::size_t index) {
         }
         ++energy_looks_;
         const double received_w = moved_m > 0 || !odometer_.all_stand()
-                                      ? arrival_at(sent, radio).power_w
+                                      ? arrival_at(here, radio).power_w
                                       : power_w(sent, share, radio, place, distance(sent.origin, place));
         if (received_w >= ring.least_power_w() && received_w < watched_before_w &&
             !is_surely_loud(attached_[radio], received_w)) {
@@ -181,34 +173,36 @@ double Medium::missing_at(RadioId radio, const Position& place, const OnAir& new
     for (std::uint64_t id = std::max(outlook.next_id, first_id); id <= newest.transmission.id; ++id) {
         const OnAir& other = *on_air_[id - first_id];
         if (other.last_end > now) {
-            foresee(outlook.forecast, radio, place, other.transmission);
+            foresee(outlook.forecast, radio, place, other);
         }
     }
     outlook.next_id = newest.transmission.id + 1;
     outlook.missing_w = outlook.forecast.settle(
         receivers_[radio].energy_detection_w, [&](const EnergyForecast::Coming& coming) {
-            const OnAir& other = *on_air_[coming.transmission - first_id];
-            tell(radio, other, Arrival{&other.transmission, coming.start, coming.end, coming.power_w});
+            OnAir& other = *on_air_[coming.transmission - first_id];
+            // The place is not quite that of a radio that moves: only what can be locked on is asked for it.
+            tell(radio, other,
+                 Arrival{&other.transmission, coming.start, coming.end, coming.power_w, place, false});
         });
     return outlook.missing_w;
 }
 
-void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Position& place,
-                     const Transmission& sent) {
-    const Receiver& receiver = receivers_[radio];
-    if (sent.radio == radio || sent.band.share_in(receiver.band) == 0) {
+void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air) {
+    const Transmission& sent = on_air.transmission;
+    if (sent.radio == radio || share_at(on_air, radio) == 0) {
         return;
     }
     ++energy_looks_;
-    const Arrival arrival = arrival_at(sent, radio, place);
+    const Arrival arrival = arrival_at(on_air, radio, place);
     if (arrival.end <= simulator_.now()) {
         return;
     }
     const EnergyForecast::Coming coming{sent.id, arrival.start, arrival.end, arrival.power_w};
-    if (is_told_alone(receiver, sent, arrival.power_w)) {
-        const bool may_be_detected = can_lock_on(receiver, sent, arrival.power_w);
-        forecast.add_told(coming, may_be_detected ? arrival.start + receiver.detection_time : arrival.start,
-                          is_loud(receiver, arrival.power_w));
+    const bool is_loud_alone = is_loud(attached_[radio], arrival.power_w);
+    if (arrival.lockable || is_loud_alone) {
+        forecast.add_told(coming,
+                          arrival.lockable ? arrival.start + receivers_[radio].detection_time : arrival.start,
+                          is_loud_alone);
     } else {
         forecast.add_untold(coming);
     }

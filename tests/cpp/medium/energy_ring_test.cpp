@@ -21,21 +21,37 @@ auto from_distance(double between_m) {
     };
 }
 
-EnergyRing ring_beside(double between_m, std::size_t count = 1) {
+EnergyRing ring_alone() {
     EnergyRing ring;
-    ring.forget_others(count, level_w, reach_m);
-    for (std::size_t i = 0; i < count; ++i) {
-        ring.add(from_distance(between_m));
-    }
-    ring.widen();
+    ring.begin(level_w, reach_m(EnergyRing::first_zone_w(level_w)), reach_m(EnergyRing::outer_w(level_w)));
     return ring;
 }
 
-TEST(EnergyRing, NeedsNobodyBeforeItIsWidened) {
-    EnergyRing ring;
-    EXPECT_EQ(ring.radius_m(), 0);
-    EXPECT_EQ(ring.least_power_w(), std::numeric_limits<double>::infinity());
-    EXPECT_TRUE(ring.is_too_narrow());
+// As the medium does it: zone by zone only if one number does not tell that the first is enough.
+EnergyRing ring_beside(double between_m, std::size_t count = 1) {
+    EnergyRing ring = ring_alone();
+    for (std::size_t i = 0; i < count; ++i) {
+        ring.add(from_distance(between_m));
+    }
+    if (ring.is_too_narrow()) {
+        ring.forget_others(count, reach_m);
+        for (std::size_t i = 0; i < count; ++i) {
+            ring.add(from_distance(between_m));
+        }
+        ring.widen();
+    }
+    return ring;
+}
+
+bool is_first_zone(const EnergyRing& ring) {
+    return ring.least_power_w() == EnergyRing::first_zone_w(level_w);
+}
+
+TEST(EnergyRing, WatchesTheFirstZoneFromTheBeginning) {
+    const EnergyRing ring = ring_alone();
+    EXPECT_TRUE(is_first_zone(ring));
+    EXPECT_EQ(ring.radius_m(), reach_m(EnergyRing::first_zone_w(level_w)));
+    EXPECT_FALSE(ring.is_too_narrow());
 }
 
 TEST(EnergyRing, IsThinIfTheOthersAreFarAway) {
@@ -46,21 +62,23 @@ TEST(EnergyRing, IsThinIfTheOthersAreFarAway) {
 }
 
 TEST(EnergyRing, IsNoMoreThanTheFirstZoneThen) {
-    const EnergyRing ring = ring_beside(10'000);
-    EXPECT_TRUE(ring.is_first_zone_enough());
-    EXPECT_EQ(ring.least_power_w(), EnergyRing::first_zone_w(level_w));
+    EXPECT_TRUE(is_first_zone(ring_beside(10'000)));
 }
 
 TEST(EnergyRing, TheFirstZoneIsNotEnoughIfOneOfThemIsNear) {
-    EXPECT_FALSE(ring_beside(300).is_first_zone_enough());
+    EXPECT_FALSE(is_first_zone(ring_beside(300)));
 }
 
-TEST(EnergyRing, HasNoFirstZoneIfAnythingIsNoticed) {
+TEST(EnergyRing, OfVeryManyFarAwayTheFirstZoneIsEnoughIfZonesAreToldApart) {
+    EXPECT_TRUE(is_first_zone(ring_beside(10'000, 100)));
+}
+
+TEST(EnergyRing, WatchesNobodyBeforeThereAreOthersIfAnythingIsNoticed) {
     EnergyRing ring;
-    ring.forget_others(1, 0, reach_m);
-    ring.add(from_distance(300));
-    ring.widen();
-    EXPECT_FALSE(ring.is_first_zone_enough());
+    ring.begin_without_zones();
+    EXPECT_EQ(ring.radius_m(), 0);
+    EXPECT_EQ(ring.least_power_w(), std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(ring.is_too_narrow());
 }
 
 TEST(EnergyRing, ReachesWhereTwoEqualPowersMakeTheLevel) {
@@ -70,8 +88,8 @@ TEST(EnergyRing, ReachesWhereTwoEqualPowersMakeTheLevel) {
 
 // Whatever the sum of all reaches the level is within the ring of the strongest.
 TEST(EnergyRing, LeavesOutNobodyWithTheLevel) {
-    for (const double between_m : {50.0, 150.0, 220.0, 250.0, 280.0, 300.0, 500.0, 1500.0}) {
-        for (const std::size_t count : {1U, 2U, 5U, 20U, 300U}) {
+    for (const double between_m : {50.0, 150.0, 220.0, 250.0, 280.0, 300.0, 500.0, 600.0, 750.0, 1500.0}) {
+        for (const std::size_t count : {1U, 2U, 4U, 5U, 20U, 300U}) {
             const EnergyRing ring = ring_beside(between_m, count);
             for (int step = 0; step <= 856; ++step) {
                 const double x_m = std::pow(1.01, step);  // from 1 to 5000
@@ -86,6 +104,18 @@ TEST(EnergyRing, LeavesOutNobodyWithTheLevel) {
     }
 }
 
+// Far out, where it is weak, very many may add up, of which none is stronger than it.
+TEST(EnergyRing, BesideManyTheFirstZoneAloneTellsNothing) {
+    EnergyRing ring = ring_alone();
+    const auto nothing_near = [](double radius_m) { return radius_m < 300 ? 0 : level_w / 10; };
+    for (int others = 1; others <= 4; ++others) {
+        ring.add(nothing_near);
+        EXPECT_FALSE(ring.is_too_narrow()) << others;
+    }
+    ring.add(nothing_near);
+    EXPECT_TRUE(ring.is_too_narrow());
+}
+
 TEST(EnergyRing, BecomesTooNarrowWhenAnotherOneComesNear) {
     EnergyRing ring = ring_beside(10'000);
     ring.add(from_distance(15'000));
@@ -97,7 +127,7 @@ TEST(EnergyRing, BecomesTooNarrowWhenAnotherOneComesNear) {
 TEST(EnergyRing, DoesNotShrinkWhenOthersAreOver) {
     EnergyRing ring = ring_beside(250);
     const double radius_m = ring.radius_m();
-    ring.forget_others(1, level_w, reach_m);
+    ring.forget_others(1, reach_m);
     ring.add(from_distance(20'000));
     EXPECT_FALSE(ring.is_too_narrow());
     ring.widen();
@@ -106,7 +136,8 @@ TEST(EnergyRing, DoesNotShrinkWhenOthersAreOver) {
 
 TEST(EnergyRing, WatchesEverybodyIfNoEnergyIsTooSmall) {
     EnergyRing ring;
-    ring.forget_others(1, 0, reach_m);
+    ring.begin_without_zones();
+    ring.forget_others(1, reach_m);
     ring.add(from_distance(1000));
     ring.widen();
     EXPECT_EQ(ring.least_power_w(), 0);
@@ -114,10 +145,19 @@ TEST(EnergyRing, WatchesEverybodyIfNoEnergyIsTooSmall) {
     EXPECT_FALSE(ring.is_too_narrow());
 }
 
-TEST(EnergyRing, IsEmptyWhenCleared) {
+TEST(EnergyRing, ForgetsAllWhenItBeginsAgain) {
     EnergyRing ring = ring_beside(250);
-    ring.watched().push_back({3, 0});
-    ring.clear();
+    ring.watched().push_back({3, {}, 0});
+    ring.begin(level_w, 105, 224);
+    EXPECT_TRUE(ring.watched().empty());
+    EXPECT_EQ(ring.radius_m(), 105);
+    EXPECT_FALSE(ring.is_too_narrow());
+}
+
+TEST(EnergyRing, ForgetsAllWhenItBeginsAgainWithoutZones) {
+    EnergyRing ring = ring_beside(250);
+    ring.watched().push_back({3, {}, 0});
+    ring.begin_without_zones();
     EXPECT_TRUE(ring.watched().empty());
     EXPECT_EQ(ring.radius_m(), 0);
     EXPECT_TRUE(ring.is_too_narrow());
