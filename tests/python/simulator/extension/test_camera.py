@@ -83,6 +83,12 @@ def test_what_is_known_of_a_node(protocols):
     assert camera.take_picture() == [{"position": (0, 0, 1), "type": "node"}]
 
 
+@pytest.mark.parametrize(("distance", "seen"), [(10, 1), (10.001, 0)])
+def test_it_sees_as_far_as_its_reach(protocols, distance, seen):
+    protocol, *_ = protocols([(0, 0, 0), (0, 0, distance)], MobilityHandler())
+    assert len(CameraHardware(protocol, CameraConfiguration(10, 30, 0, 0)).take_picture()) == seen
+
+
 def test_it_can_be_turned(protocols):
     protocol, *_ = protocols(POINTS.values(), MobilityHandler())
     camera = CameraHardware(protocol, CameraConfiguration(10, 30, 0, 0))

@@ -202,6 +202,8 @@ def test_a_step_is_speed_times_update_rate_along_the_line(new_world, start, targ
         (SetSpeedMobilityCommand(math.inf), "speed inf"),
         (SetSpeedMobilityCommand(None), "speed None"),
         (SetVelocityMobilityCommand(1, 2, 3), "velocity.*massless"),
+        (SetVelocityMobilityCommand(1, 2, None), "velocity.*massless"),
+        (SetVelocityMobilityCommand(1, None, 3), "velocity.*massless"),
         ("land", "a MobilityCommand, was given 'land'"),
         (BroadcastMessageCommand("hi"), "a MobilityCommand, was given BroadcastMessageCommand"),
         (MobilityCommand(9), "unknown mobility command: 9"),

@@ -6,7 +6,7 @@ from websockets.sync.client import connect
 
 from gradysim.simulator.handler.visualization import VisualizationConfiguration
 from gradysim.simulator.handler.visualization.command_queue import CommandQueue
-from gradysim.simulator.handler.visualization.server import VisualizationServer
+from gradysim.simulator.handler.visualization.server import VisualizationServer, _Viewer
 
 
 @pytest.fixture
@@ -34,12 +34,17 @@ def test_a_viewer_is_greeted_and_told_the_news(server):
         assert (greeting, viewer.recv(timeout=30)) == ("hello", "news")
 
 
-def test_the_same_news_is_told_once(server):
-    with connect(url(server)) as viewer:
-        server.publish("news")
-        viewer.recv(timeout=30), viewer.recv(timeout=30)
-        server.publish("later news")
-        assert viewer.recv(timeout=30) == "later news"
+def test_the_same_news_is_told_once(commands):
+    server = VisualizationServer(VisualizationConfiguration(), "hello", commands)
+    viewer = _Viewer(connection=None)
+    server._viewers[viewer] = None
+    server.publish("news")
+    told = []
+    for _ in range(2):
+        server._update()
+        told.append(viewer.snapshot)
+        viewer.snapshot = None
+    assert told == ["news", None]
 
 
 def test_who_comes_later_is_told_the_last_news(server):
