@@ -52,7 +52,7 @@ def calibrate_power(
             calibration.check_picture(picture)
         found = calibrate(
             scenario,
-            range_m=float(option_value("--range", range_text, quantity("m", at_least=0))),
+            range_m=float(option_value("--range", range_text, quantity("m", above=0))),
             ratio=ratio,
             message_bytes=int(option_value("--message", message, whole_bytes())),
             sender=sender,

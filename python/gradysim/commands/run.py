@@ -174,7 +174,7 @@ def make_result_dir(directory: Path) -> None:
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        reason = "it is a file" if directory.is_file() else error.strerror or str(error)
+        reason = "it is no folder" if os.path.lexists(directory) else error.strerror or str(error)
         raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
 
 

@@ -41,7 +41,7 @@ def read_results(directory: Path) -> list[dict[str, Any]]:
         if file.suffix == ".json" and file.is_file():
             try:
                 result = json.loads(file.read_text(encoding="utf-8"))
-            except ValueError:
+            except (ValueError, RecursionError):  # no JSON, or too deep
                 continue
             if isinstance(result, dict) and result.keys() >= _FIELDS and not result["interrupted"]:
                 results.append(result)

@@ -21,7 +21,7 @@ def is_done(scenario: Scenario, mode: Mode, directory: Path) -> bool:
     file = run_file(directory, scenario.config, scenario.run_number, mode)
     try:
         result = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):  # none, no JSON, or too deep
         return False
     expected = {"interrupted": False, "seed": scenario.seed, "settings_hash": scenario.settings_hash}
     return (
@@ -44,7 +44,7 @@ def write_run_file(result: RunResult, directory: Path) -> Path:
         unfinished.replace(path)
     except BaseException as error:
         unfinished.unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            error.filename = str(path)  # which a full disk does not say
+        if isinstance(error, OSError):  # a full disk does not say which file it is about
+            raise OSError(error.errno, error.strerror, str(path)) from error
         raise
     return path

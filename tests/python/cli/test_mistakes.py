@@ -75,7 +75,11 @@ def test_an_argument_that_nothing_takes_is_named_with_what_is_missing(gradysim, 
 @pytest.mark.parametrize(
     ("arguments", "refusal"),
     [
-        (["--range", "-5m"], "--range -5m: it is out of range; expected a length such as 50m, at least 0m"),
+        (
+            ["--range", "-5m"],
+            "--range -5m: it is out of range; expected a length such as 50m, greater than 0m",
+        ),
+        (["--range", "0m"], "--range 0m: it is out of range; expected a length such as 50m, greater than 0m"),
         (
             ["--range", "50m", "--message", "-5B"],
             "--message -5B: it is out of range; expected a size such as 100B, at least 0B",
@@ -86,7 +90,7 @@ def test_an_argument_that_nothing_takes_is_named_with_what_is_missing(gradysim, 
         ),
         (
             ["--range", "5s"],
-            "--range 5s: `s` is the unit of a time; expected a length such as 50m, at least 0m",
+            "--range 5s: `s` is the unit of a time; expected a length such as 50m, greater than 0m",
         ),
     ],
 )

@@ -136,9 +136,14 @@ def test_the_result_directory(gradysim, folder):
     assert json.loads((folder / "out" / "here" / "General-#2.prototype.json").read_text())["run"] == 2
 
 
-def test_a_result_directory_that_is_a_file_is_named_with_its_option(gradysim):
-    done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", "test.ini")
-    expected = "--result-dir test.ini: it is a file; expected a folder, or a new name"
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [("test.ini", "it is no folder"), ("dangling", "it is no folder"), ("d" * 300, "File name too long")],
+)
+def test_a_result_directory_that_cannot_be_is_named_with_its_option(folder, gradysim, name, reason):
+    (folder / "dangling").symlink_to("nowhere/at/all")
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", name)
+    expected = f"--result-dir {name}: {reason}; expected a folder, or a new name"
     assert (done.returncode, done.stderr.strip()) == (2, expected)
 
 

@@ -89,6 +89,7 @@ def test_other_files_and_interrupted_runs_are_left_out(tmp_path: Path) -> None:
     (tmp_path / "interrupted.json").write_text(json.dumps(result(interrupted=True)))
     (tmp_path / "half.json").write_text('{"config": ')
     (tmp_path / "list.json").write_text("[1]")
+    (tmp_path / "deep.json").write_text("[" * 99_999)
     (tmp_path / "other.json").write_text('{"config": "Study"}')
     (tmp_path / "notes.txt").write_text(json.dumps(result()))
     (tmp_path / "binary.json").write_bytes(b"\xff\xfe")

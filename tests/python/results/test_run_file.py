@@ -84,8 +84,17 @@ def test_a_run_is_not_done_by_another_result(done, change):
     assert not is_done(scenario, "integrated", folder)
 
 
-@pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"run": ', b"\xff"])
+@pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"run": ', b"\xff", b"[" * 99_999])
 def test_a_file_of_something_else_is_no_result(done, content):
     scenario, result, folder = done
     write_run_file(result, folder).write_bytes(content)
     assert not is_done(scenario, "integrated", folder)
+
+
+def test_a_folder_in_the_place_of_the_file_is_named_once(tmp_path):
+    taken = write_run_file(RESULT, tmp_path)
+    taken.unlink()
+    taken.mkdir()
+    with pytest.raises(IsADirectoryError) as raised:
+        write_run_file(RESULT, tmp_path)
+    assert str(raised.value).endswith(f"Is a directory: '{taken}'")
