@@ -147,6 +147,13 @@ def test_a_bad_range_is_refused(protocol, name, value):
         RandomMobilityPlugin(protocol, RandomMobilityConfig(**{name: value}))
 
 
+def test_without_tolerance_a_target_is_reached_at_its_very_point(protocol):
+    plugin = RandomMobilityPlugin(protocol, RandomMobilityConfig(tolerance=0))
+    plugin.initiate_random_trip()
+    arrive(protocol, plugin)
+    assert len(protocol.provider.targets) == 2
+
+
 @pytest.mark.parametrize("tolerance", [-1, math.nan, math.inf, "1"])
 def test_a_bad_tolerance_is_refused(protocol, tolerance):
     with pytest.raises(ValueError, match="tolerance must be finite and >= 0 m"):
