@@ -26,6 +26,9 @@ _LIKE_AN_ENTRY = re.compile(r"""[^\s"'=]*[.-][^\s"'=]*\s*=(?!=)""")
 
 _HEADING = re.compile(r"\[\s*(?:Config\s+)?([^\s\[\]]+)\s*\]")
 
+_DEEPEST = 100
+"""Files that include each other in a row; Python's stack has such a limit, too."""
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -91,6 +94,8 @@ class _Reader:
         resolved = file.resolve()
         if resolved in including:
             raise ConfigError(f"{file} includes itself; expected another file", asked_by)
+        if len(including) > _DEEPEST:
+            raise ConfigError(f"more than {_DEEPEST} files in a row include each other", asked_by)
         for number, line in _logical_lines(file, text):
             source = Source(file, number)
             if line.startswith("["):
@@ -127,12 +132,14 @@ class _Reader:
 def _text_of(file: Path, asked_by: Source | None) -> str:
     try:
         data = file.read_bytes()
-    except (OSError, ValueError) as error:  # a ValueError if there is a zero byte in its name
+    except OSError as error:
         hint = did_you_mean(file.name, names_beside(file, "*.ini"))
-        reason = error.strerror if isinstance(error, OSError) else None
-        if isinstance(error, FileNotFoundError):
-            reason = "no such file"
-        raise ConfigError(f"{file}: {reason or error}; expected an .ini file{hint}", asked_by) from error
+        reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
+        raise ConfigError(f"{file}: {reason}; expected an .ini file{hint}", asked_by) from error
+    zero = data.find(b"\0")  # of UTF-16, say; no name of a file has one
+    if zero >= 0:
+        line = data.count(b"\n", 0, zero) + 1
+        raise ConfigError("this line has a zero byte; expected UTF-8", Source(file, line))
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -5,6 +5,9 @@ from gradysim.config.nearest import did_you_mean
 from gradysim.config.reader import GENERAL, Entry, IniFile, Section
 from gradysim.config.source import Source
 
+_DEEPEST = 100
+"""Sections that extend each other in a row; Python's stack has such a limit, too."""
+
 
 def search_order(ini: IniFile, config: str) -> list[Section]:
     """The configuration's own section, then its bases by C3 linearisation, [General] last.
@@ -62,6 +65,10 @@ def _linearise(ini: IniFile, name: str, heirs: tuple[str, ...]) -> list[str]:
     bases = _bases(ini, extends)
     if cycle := [base for base in bases if base == name or base in heirs]:
         raise ConfigError(f"`{name}` extends itself through `{cycle[0]}`; expected no circle", extends.source)
+    if len(heirs) == _DEEPEST:
+        raise ConfigError(
+            f"more than {_DEEPEST} sections in a row extend each other; expected fewer", extends.source
+        )
     chains = [_linearise(ini, base, (*heirs, name)) for base in bases]
     merged = _merge([*chains, bases])
     if merged is None:

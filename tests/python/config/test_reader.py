@@ -196,6 +196,16 @@ def test_a_circle_of_includes_is_an_error(write_ini: Write) -> None:
     )
 
 
+def test_a_row_of_includes_may_be_so_long(write_ini: Write) -> None:
+    for number in range(1, 102):
+        write_ini(f"include inc{number + 1}.ini\n", f"inc{number}.ini")
+    write_ini("", "inc101.ini")
+    whole = write_ini("include inc2.ini\n")
+    assert read_ini(whole)
+    write_ini("include inc1.ini\n")
+    assert error_of(whole) == "inc100.ini:1: more than 100 files in a row include each other"
+
+
 def test_a_file_that_includes_itself_by_another_name_is_found_out(write_ini: Write, tmp_path: Path) -> None:
     (tmp_path / "sub").mkdir()
     assert error_of(write_ini("include sub/../test.ini\n")).endswith(
@@ -203,12 +213,19 @@ def test_a_file_that_includes_itself_by_another_name_is_found_out(write_ini: Wri
     )
 
 
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_a_zero_byte_is_no_text(tmp_path: Path, encoding: str) -> None:
+    file = tmp_path / "test.ini"
+    file.write_bytes(b"a = 1\n" + "b = 2\n".encode(encoding))
+    assert error_of(file) == "test.ini:2: this line has a zero byte; expected UTF-8"
+
+
 def test_a_link_that_leads_to_itself_is_no_file(write_ini: Write, tmp_path: Path) -> None:
     (tmp_path / "loop.ini").symlink_to("loop.ini")
     assert error_of(write_ini("include loop.ini\n")).startswith("test.ini:1: loop.ini: Too many levels")
 
 
-@pytest.mark.parametrize("name", ["more\0.ini", "m" * 5000, "m" * 5000 + "/more.ini"])
+@pytest.mark.parametrize("name", ["m" * 300, "m" * 5000, "m" * 5000 + "/more.ini"])
 def test_a_name_that_no_file_has_is_an_error(write_ini: Write, name: str) -> None:
     text = error_of(write_ini(f"include {name}\n"))
     assert text.startswith(f"test.ini:1: {name}: ")

@@ -32,6 +32,18 @@ def test_own_section_then_bases_then_general(write_ini: Write) -> None:
     assert order_of(file, "C") == ["C", "B", "A", "General"]
 
 
+@pytest.mark.parametrize(
+    ("sections", "expected"), [(100, None), (101, "test.ini:202: more than 100 sections")]
+)
+def test_a_row_of_bases_may_be_so_long(write_ini: Write, sections: int, expected: str | None) -> None:
+    chain = "".join(f"[C{index}]\nextends = C{index + 1}\n" for index in range(sections))
+    file = write_ini(f"{chain}[C{sections}]\n")
+    if expected is None:
+        assert len(order_of(file, "C0")) == sections + 2
+    else:
+        assert error_of(file, "C0").startswith(expected)
+
+
 def test_bases_are_linearised_by_c3(write_ini: Write) -> None:
     file = write_ini("[O]\n[A]\nextends=O\n[B]\nextends=O\n[C]\nextends = A, B\n")
     assert order_of(file, "C") == ["C", "A", "B", "O", "General"]
