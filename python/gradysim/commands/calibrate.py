@@ -41,6 +41,7 @@ def calibrate_power(
 ) -> int:
     """Find the transmitter power for a wanted range under the models of a configuration."""
     from gradysim.config.error import ConfigError
+    from gradysim.config.iterations import text_of_iterations
     from gradysim.config.kinds import quantity, whole_bytes
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
@@ -58,6 +59,8 @@ def calibrate_power(
             sender=sender,
             receiver=receiver,
         )
+        if scenario.iterations:
+            print(f"of the runs of {config} this is run 0, {text_of_iterations(scenario.iterations)}")
         print(calibration.text(found, sys.stdout.encoding or "utf-8"))
         if picture is not None:
             calibration.draw(found, picture)

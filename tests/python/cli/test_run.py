@@ -217,6 +217,13 @@ def test_reception_over_distance_is_drawn_in_ascii_if_that_is_all_there_is(folde
 
 
 @compiled
+def test_calibrate_says_which_run_of_a_study_it_is_about(gradysim):
+    study = ("--set", "**.wlan[*].bitrate=${rate=6, 54}Mbps")
+    done = gradysim("calibrate", "test.ini", "--range", "50m", *study)
+    assert done.stdout.startswith("of the runs of General this is run 0, $rate=6\n")
+
+
+@compiled
 def test_the_command_can_be_called_from_python(folder):
     output = io.StringIO()  # which has no encoding
     with contextlib.redirect_stdout(output):
