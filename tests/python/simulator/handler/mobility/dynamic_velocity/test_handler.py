@@ -56,6 +56,12 @@ def test_in_a_second_simulation_the_nodes_of_the_first_one_are_forgotten(new_wor
     assert (place.telemetry, [told.current_velocity for told in seen]) == ([], [(0, 0, 0)])
 
 
+def test_a_handler_injected_later_counts_from_then(world, hangar):
+    world.loop.advance_to(5)
+    hangar(update_rate=0.5)
+    assert world.loop.peek_event().timestamp == 5.5
+
+
 def test_velocity_grows_with_the_acceleration_and_then_the_position(world, hangar):
     place = hangar()
     place.fly(3, 0, 1)
