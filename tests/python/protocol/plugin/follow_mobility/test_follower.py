@@ -236,3 +236,9 @@ def test_a_wrong_relative_position_is_refused(protocol, position):
 def test_a_wrong_configuration_is_refused(protocol, name, value):
     with pytest.raises(FollowMobilityException, match=f"{name} must be .*{value!r}"):
         follow(protocol, **{name: value})
+
+
+def test_a_leader_may_be_waited_for_for_ever_but_not_the_next_look(protocol):
+    follow(protocol, leader_timeout=math.inf)
+    with pytest.raises(FollowMobilityException, match="scanning_interval must be finite"):
+        follow(protocol, scanning_interval=math.inf)
