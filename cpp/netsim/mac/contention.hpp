@@ -13,6 +13,7 @@
 // neither can have sensed the other by then. A grant is the last event of its instant, so that it knows all of it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "netsim/config/mac_config.hpp"
@@ -50,6 +51,10 @@ public:
 
     // The channel became busy (by the radio's word or the NAV's) or free. Told in every state, at changes only.
     void channel_busy_changed(bool busy);
+    // While nobody watched it, the channel was busy until then.
+    void channel_was_busy_until(SimTime time) { free_since_ = std::max(free_since_, time); }
+    // Between the two below.
+    bool awaits_end_of_broken_frame() const { return broken_frame_; }
     // A frame was received broken (reported while the radio still finds the channel busy with it) …
     void frame_corrupted() { broken_frame_ = true; }
     // … and now it finds it free, told before the above: EIFS from here on, whatever the NAV says, takes the place of

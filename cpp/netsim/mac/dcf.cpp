@@ -44,6 +44,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       rts_threshold_bytes_(config.rts_threshold_bytes),
       mtu_bytes_(config.mtu_bytes),
       skip_backoff_if_idle_(config.skip_backoff_if_idle),
+      longest_wait_(timing_.difs + timing_.slot * cw_min(config, modes_)),
       rate_control_(make_rate_control(config, seed, radio.interface())),
       has_adaptive_rate_(!config.rate_control.empty()),
       frames_by_mode_(has_adaptive_rate_ ? modes_.modes().size() : 0),
@@ -51,6 +52,8 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint6
       data_mode_(&initial_mode(config)),
       retry_(retry_limits_, {cw_min(config, modes_), cw_max(config, modes_)}) {
     radio_.set_listener(*this);
+    radio_.stop_watching_channel();
+    radio_.remember_channel(longest_wait_);
 }
 
 const Mode& Dcf::broadcast_mode(const MacConfig& config) {
@@ -97,6 +100,7 @@ void Dcf::send(NodeId destination, Payload payload) {
         fates_.book(kind, MessageFate::queue_overflow);
         return;
     }
+    watch_channel(simulator_.now() - longest_wait_);
     if (exchange_ == Exchange::none) {
         if (skip_backoff_if_idle_ && !contention_.in_progress()) {
             contention_.start_without_backoff_if_free(retry_.contention_window());
@@ -294,6 +298,7 @@ void Dcf::finish(MessageFate fate) {
     attempts_ = 0;
     exchange_ = Exchange::none;
     contend_for_next();
+    stop_watching_channel();
 }
 
 std::map<std::int64_t, std::uint64_t> Dcf::frames_by_bitrate() const {
@@ -325,9 +330,31 @@ void Dcf::set_nav(SimTime duration) {
 
 void Dcf::channel_busy_changed(bool busy) {
     if (!busy) {
+        if (contention_.awaits_end_of_broken_frame() && !watches_channel_ && !radio_.are_others_weak()) {
+            watch_channel(simulator_.now());
+            if (radio_.is_channel_busy()) {
+                return;
+            }
+        }
         contention_.radio_finds_it_free();
+        stop_watching_channel();
     }
     update_contention();
+}
+
+// What it was not told of meanwhile may have made the channel busy.
+void Dcf::watch_channel(SimTime since) {
+    if (!watches_channel_) {
+        watches_channel_ = true;
+        contention_.channel_was_busy_until(radio_.watch_channel(since));
+    }
+}
+
+void Dcf::stop_watching_channel() {
+    if (watches_channel_ && !in_progress_ && queue_.empty()) {
+        watches_channel_ = false;
+        radio_.stop_watching_channel();
+    }
 }
 
 void Dcf::update_contention() {

@@ -101,6 +101,10 @@ private:
     void own_frame_ended(const Frame& frame);
     void set_nav(SimTime duration);
     void update_contention();
+    // Counts what made it busy from `since` on.
+    void watch_channel(SimTime since);
+    // Unless there is something to send.
+    void stop_watching_channel();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 
     // First what every frame that is heard touches: two cache lines, which the medium fetches ahead.
@@ -109,6 +113,7 @@ private:
     LinkListener& listener_;
     SimTime nav_end_ = SimTime::long_ago();
     bool contention_sees_busy_ = false;
+    bool watches_channel_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     bool own_frames_set_nav_;
@@ -124,6 +129,7 @@ private:
     int rts_threshold_bytes_;
     int mtu_bytes_;
     bool skip_backoff_if_idle_;
+    SimTime longest_wait_;  // for a channel that is free: what counts of the time before
     std::unique_ptr<RateControl> rate_control_;
     bool has_adaptive_rate_;
     std::vector<std::uint64_t>

@@ -29,6 +29,7 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
                                  .noise_w = receiver.noise_w,
                                  .interface = interface});
     outlook_of_.push_back(no_outlook);
+    watches_.push_back(1);
     antennas_.add(antenna, *receiver.trajectory);
     if (first_radio_.empty() || attached_[first_radio_.back()].interface.node != interface.node) {
         NETSIM_ASSERT(interface.node == static_cast<NodeId>(first_radio_.size()));
@@ -160,7 +161,8 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         const double search_m = std::max(within_m, ring.radius_m());
         audience.members.visit(sent.origin, search_m, [&](RadioId radio, const Position& place) {
             const double squared_m2 = squared_distance(sent.origin, place);
-            if (squared_m2 <= search_m * search_m && radio != sent.radio) {
+            if (squared_m2 <= search_m * search_m && radio != sent.radio &&
+                (squared_m2 <= within_m * within_m || watches_[radio] != 0)) {
                 __builtin_prefetch(&attached_[radio]);
                 candidates_.push_back(Candidate{radio, place, squared_m2});
             }
@@ -181,8 +183,8 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
                     {now + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
                 entry.places.push_back(place);
             }
-            if (received_w >= ring.least_power_w() && !is_surely_loud(there, received_w)) {
-                netsim::fetch(outlook_of_[radio]);
+            if (watches_[radio] != 0 && received_w >= ring.least_power_w() &&
+                !is_surely_loud(there, received_w)) {
                 ring.watched().push_back({radio, place, missing_beside_w(there, received_w)});
             }
         }
@@ -377,7 +379,8 @@ void Medium::forget_the_past() {
     const SimTime now = simulator_.now();
     const auto active = std::find_if(on_air_.begin(), on_air_.end(),
                                      [now](const auto& entry) { return entry->last_end >= now; });
-    const SimTime needed_from = active == on_air_.end() ? now : (*active)->transmission.start;
+    const SimTime needed_from =
+        std::min(now - remembered_, active == on_air_.end() ? now : (*active)->transmission.start);
     while (!on_air_.empty() && on_air_.front()->last_end < needed_from) {
         on_air_.front()->transmission.frame.reset();
         spare_.push_back(std::move(on_air_.front()));

@@ -1,7 +1,7 @@
 // The air between the radios of one network: propagation, path loss, noise and interference.
 //
-// A radio is told only of arrivals that can matter to it: those that it could lock on to or that make its
-// channel busy, alone or together with others on the air at the same time. All other transmissions are
+// A radio is told only of arrivals that can matter to it: those that it could lock on to or that make its channel busy;
+// together with others on the air at the same time only as long as it watches for that. All other transmissions are
 // remembered for as long as they can interfere with a reception, and summed when one ends. The result is that
 // of the plain model, in which every radio hears of everything; the cost is that of the radios near by.
 #pragma once
@@ -75,6 +75,14 @@ public:
         attached.upper_layer = upper_layer;
         attached.protocol = protocol;
     }
+
+    // A radio watches its energy from the start: it has to find its channel busy where frames only add up to that. It may
+    // stop and begin again; then it learns until when frames made its channel busy together for the last time, if that is
+    // over and was after `since`: long ago, if not. `since` may lie as far back as was asked to `remember`.
+    SimTime watch_energy(RadioId radio, SimTime since);
+    void stop_watching_energy(RadioId radio) { watches_[radio] = 0; }
+    // Transmissions after their end, for so long.
+    void remember(SimTime duration) { remembered_ = std::max(remembered_, duration); }
 
     // Puts a frame on the air now, at the sender's present position, and sees to its arrivals.
     // `transmission`'s id, start and origin are filled in here.
@@ -172,6 +180,11 @@ private:
         double most_w = 0;
         double rest_w = 0;  // with those after it
     };
+    // One that is or was on the air, at one receiver.
+    struct Passing {
+        OnAir* on_air = nullptr;
+        Arrival arrival;
+    };
     // Of a receiver for which bounds did not tell that its channel stays idle.
     struct Outlook {
         RadioId radio = 0;
@@ -254,7 +267,7 @@ private:
     void bound_interference(OnAir& newest);
     void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
     // Those whom the ring of `here` watches miss less by what `there` brings. One of the two is the newest.
-    void add_to_ring(OnAir& here, const OnAir& there, const OnAir& newest, std::size_t audience);
+    void add_to_ring(OnAir& here, const OnAir& there, std::size_t audience);
     // Adds up anew what the others can bring, and watches whoever that calls for.
     void widen_ring(OnAir& here, const OnAir& newest, std::size_t index);
     // A function of the radius: the most that `there`, sent with at most that power, antennas included, brings to
@@ -268,10 +281,12 @@ private:
     // Tells the radio of as many as it takes to find its channel busy when it is. Returns what more there must be until
     // there is somewhat to tell. What is worked out once for a radio is kept in its outlook, as the rings of several
     // transmissions ask for it, and again for each new one.
-    double missing_at(RadioId radio, const Position& place, const OnAir& newest);
+    double missing_at(RadioId radio, const Position& place);
     void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air);
-    Outlook& outlook_of(RadioId radio, const OnAir& newest);
+    Outlook& outlook_of(RadioId radio);
     void take_back_outlooks(SimTime now);
+    // When those in `passing_` were enough for the last time, as the radio itself would have it.
+    SimTime energy_over_at(RadioId radio);
     template <typename ReceiverOrAudience>
     static bool can_decode(const ReceiverOrAudience& receiver, const Transmission& sent) {
         return sent.can_be_decoded(receiver.band, receiver.formats);
@@ -302,6 +317,7 @@ private:
     std::vector<Attached> attached_;          // [radio]
     std::vector<Receiver> receivers_;         // [radio]
     std::vector<std::uint32_t> audience_of_;  // [radio]
+    std::vector<std::uint8_t> watches_;       // [radio]: its energy
     std::vector<Candidate> candidates_;
     std::vector<RadioId> first_radio_;  // [node]; its others come after it
     std::deque<Audience> audiences_;
@@ -309,9 +325,11 @@ private:
     std::deque<std::unique_ptr<OnAir>> on_air_;  // by start
     std::vector<std::unique_ptr<OnAir>> spare_;  // forgotten ones, of use again
     std::uint64_t next_id_ = 0;
+    SimTime remembered_;            // after their end
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
     std::vector<Bound> bounds_;
+    std::vector<Passing> passing_;
     static constexpr std::uint32_t no_outlook = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> outlook_of_;  // [radio], an index of `outlooks_`, or no_outlook
     std::deque<Outlook> outlooks_;

@@ -1,5 +1,5 @@
 // The part of the medium that finds the radios at which several transmissions, none of which matters alone, make the
-// channel busy together.
+// channel busy together. Only those that watch their channels are looked for; who begins to is told what it has to know.
 //
 // Each transmission has rings of receivers that it has to watch (energy_ring.hpp), one for each audience. At each of
 // them, as long as the transmission lasts there, one of two things holds at any moment: the radio was told of enough to
@@ -48,11 +48,11 @@ void Medium::bound_interference(OnAir& newest) {
 void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {
     for (OnAir* other : beside_) {
         if (other->shares[audience] > 0) {
-            add_to_ring(*other, newest, newest, audience);
+            add_to_ring(*other, newest, audience);
             if (other->rings[audience].is_too_narrow()) {
                 widen_ring(*other, newest, audience);
             }
-            add_to_ring(newest, *other, newest, audience);
+            add_to_ring(newest, *other, audience);
         }
     }
     if (newest.rings[audience].is_too_narrow()) {
@@ -60,10 +60,12 @@ void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {
     }
 }
 
-void Medium::add_to_ring(OnAir& here, const OnAir& there, const OnAir& newest, std::size_t audience) {
+void Medium::add_to_ring(OnAir& here, const OnAir& there, std::size_t audience) {
     EnergyRing& ring = here.rings[audience];
     const auto bound_w = most_brought_w(there, here, most_power_w(there.transmission, audiences_[audience]));
     const double most_w = bound_w(ring.radius_m());
+    std::erase_if(ring.watched(),
+                  [this](const EnergyRing::Watched& watched) { return watches_[watched.radio] == 0; });
     for (EnergyRing::Watched& watched : ring.watched()) {
         if (watched.missing_w > most_w) {
             watched.missing_w -= most_w;
@@ -76,7 +78,7 @@ void Medium::add_to_ring(OnAir& here, const OnAir& there, const OnAir& newest, s
                 continue;
             }
         }
-        watched.missing_w = missing_at(watched.radio, watched.place, newest);
+        watched.missing_w = missing_at(watched.radio, watched.place);
     }
     ring.add(bound_w);
 }
@@ -118,7 +120,7 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
                   [&](Bound& bound) { rest_w = bound.rest_w = rest_w + bound.most_w; });
     const auto watch = [&](RadioId radio, const Position& place, double received_w) {
         if (outlook_of_[radio] != no_outlook) {
-            ring.watched().push_back({radio, place, missing_at(radio, place, newest)});
+            ring.watched().push_back({radio, place, missing_at(radio, place)});
             return;
         }
         // Bounds give way to powers, one after the other, until it is known that something is missing.
@@ -130,14 +132,14 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
             known_w += brought_w(*bound->from, radio, place);
         }
         const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
-        ring.watched().push_back(
-            {radio, place, missing_w > 0 ? missing_w : missing_at(radio, place, newest)});
+        ring.watched().push_back({radio, place, missing_w > 0 ? missing_w : missing_at(radio, place)});
     };
     const double share = here.shares[index];
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
     audience.members.visit(sent.origin, radius_m + moved_m, [&](RadioId radio, const Position& place) {
-        if (squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || radio == sent.radio) {
+        if (watches_[radio] == 0 || squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m ||
+            radio == sent.radio) {
             return;
         }
         ++energy_looks_;
@@ -162,21 +164,21 @@ double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience
            more;
 }
 
-double Medium::missing_at(RadioId radio, const Position& place, const OnAir& newest) {
-    Outlook& outlook = outlook_of(radio, newest);
-    if (outlook.next_id > newest.transmission.id) {
+double Medium::missing_at(RadioId radio, const Position& place) {
+    Outlook& outlook = outlook_of(radio);
+    if (outlook.next_id == next_id_) {
         return outlook.missing_w;
     }
-    const SimTime now = newest.transmission.start;
+    const SimTime now = simulator_.now();
     outlook.forecast.begin_at(now);
     const std::uint64_t first_id = on_air_.front()->transmission.id;
-    for (std::uint64_t id = std::max(outlook.next_id, first_id); id <= newest.transmission.id; ++id) {
+    for (std::uint64_t id = std::max(outlook.next_id, first_id); id < next_id_; ++id) {
         const OnAir& other = *on_air_[id - first_id];
         if (other.last_end > now) {
             foresee(outlook.forecast, radio, place, other);
         }
     }
-    outlook.next_id = newest.transmission.id + 1;
+    outlook.next_id = next_id_;
     outlook.missing_w = outlook.forecast.settle(
         receivers_[radio].energy_detection_w, [&](const EnergyForecast::Coming& coming) {
             OnAir& other = *on_air_[coming.transmission - first_id];
@@ -185,6 +187,94 @@ double Medium::missing_at(RadioId radio, const Position& place, const OnAir& new
                  Arrival{&other.transmission, coming.start, coming.end, coming.power_w, place, false});
         });
     return outlook.missing_w;
+}
+
+SimTime Medium::watch_energy(RadioId radio, SimTime since) {
+    watches_[radio] = 1;
+    passing_.clear();
+    if (hearing_ == Hearing::everything || on_air_.empty()) {
+        return SimTime::long_ago();
+    }
+    const SimTime now = simulator_.now();
+    const Position place = receivers_[radio].trajectory->position_at(now);
+    const Attached& here = attached_[radio];
+    const std::size_t audience = audience_of_[radio];
+    double all_w = 0;
+    bool is_in_a_ring = false;
+    for (const std::unique_ptr<OnAir>& on_air : on_air_) {
+        if (on_air->last_end > since && on_air->shares[audience] > 0) {
+            const double received_w = brought_w(*on_air, radio, place);
+            passing_.push_back({on_air.get(), {}});
+            all_w += received_w;
+            is_in_a_ring |= received_w >= on_air->rings[audience].least_power_w();
+        }
+    }
+    if (!is_in_a_ring && missing_beside_w(here, all_w) > 0) {
+        return SimTime::long_ago();  // mostly: they are far away
+    }
+    double present_w = 0;
+    std::erase_if(passing_, [&](Passing& passing) {
+        passing.arrival = arrival_at(*passing.on_air, radio, place);
+        const bool is_its_own = passing.on_air->transmission.radio == radio;
+        present_w += !is_its_own && passing.arrival.end > now ? passing.arrival.power_w : 0;
+        return is_its_own || passing.arrival.end <= since;
+    });
+    double missing_w = missing_beside_w(here, present_w);
+    if (missing_w <= 0) {
+        missing_w = missing_at(radio, place);
+    }
+    for (const Passing& passing : passing_) {
+        EnergyRing& ring = passing.on_air->rings[audience];
+        const double received_w = passing.arrival.power_w;
+        if (passing.arrival.end > now && received_w >= ring.least_power_w() &&
+            !is_surely_loud(here, received_w)) {
+            ring.watched().push_back({radio, passing.arrival.place, missing_w});
+        }
+    }
+    return missing_beside_w(here, all_w) > 0 ? SimTime::long_ago() : energy_over_at(radio);
+}
+
+// Adds up in the order in which they began.
+SimTime Medium::energy_over_at(RadioId radio) {
+    const Attached& here = attached_[radio];
+    SimTime over = SimTime::long_ago();
+    struct Change {
+        SimTime time;
+        Place place = 0;
+        const Passing* passing = nullptr;
+        Edge edge = Edge::begins;
+    };
+    std::vector<Change> changes;
+    for (const Passing& passing : passing_) {
+        const Place place = passing.on_air->first_place + 2 * static_cast<Place>(radio);
+        changes.push_back({passing.arrival.start, place, &passing, Edge::begins});
+        changes.push_back({passing.arrival.end, place + 1, &passing, Edge::ends});
+    }
+    std::ranges::sort(changes, [](const Change& a, const Change& b) {
+        return a.time != b.time ? a.time < b.time : a.place < b.place;
+    });
+    std::vector<const Passing*> present;
+    bool was_loud = false;
+    for (const Change& change : changes) {
+        if (change.time > simulator_.now()) {
+            break;
+        }
+        if (change.edge == Edge::begins) {
+            present.push_back(change.passing);
+        } else {
+            std::erase(present, change.passing);
+        }
+        double energy_w = here.noise_w;
+        for (const Passing* passing : present) {
+            energy_w += passing->arrival.power_w;
+        }
+        const bool loud = !present.empty() && energy_w >= here.energy_detection_w;
+        if (was_loud && !loud) {
+            over = change.time;
+        }
+        was_loud = loud;
+    }
+    return over;
 }
 
 void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air) {
@@ -208,10 +298,10 @@ void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Position& pl
     }
 }
 
-Medium::Outlook& Medium::outlook_of(RadioId radio, const OnAir& newest) {
+Medium::Outlook& Medium::outlook_of(RadioId radio) {
     if (outlook_of_[radio] == no_outlook) {
         if (spare_outlooks_.empty()) {
-            take_back_outlooks(newest.transmission.start);
+            take_back_outlooks(simulator_.now());
         }
         outlook_of_[radio] = spare_outlooks_.back();
         spare_outlooks_.pop_back();

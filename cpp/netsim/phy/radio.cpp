@@ -181,6 +181,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
         book(*arrival.transmission, FrameFate::preamble_undetected);
     }
     update_busy();
+    others_are_weak_ = false;
 }
 
 void Radio::end_reception(const Arrival& arrival) {
@@ -200,6 +201,8 @@ void Radio::end_reception(const Arrival& arrival) {
     if (decoded) {
         listener_->frame_received(transmission);
     } else {
+        others_are_weak_ =
+            reception_.noise_w + medium_.most_interference_w(arrival) < energy_detection_w_ * (1 - 1e-6);
         listener_->frame_corrupted();
     }
 }

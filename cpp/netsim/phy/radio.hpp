@@ -79,6 +79,23 @@ public:
     void transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                   SimTime duration);
 
+    // A radio watches its channel from the start: what it says of it includes frames that only together make it busy. A MAC that
+    // need not know that for a while saves most of the cost of a large network by telling it to stop; beside that, it is told
+    // of what the radio notices anyway. When it begins again, it learns when frames made the channel busy together for the
+    // last time, if that is over: not before `since`, long ago if they did not.
+    SimTime watch_channel(SimTime since) {
+        return detects_preambles_ ? SimTime::long_ago() : medium_.watch_energy(id_, since);
+    }
+    void stop_watching_channel() {
+        if (!detects_preambles_) {  // such a radio leaves out what the medium cannot know: it always watches
+            medium_.stop_watching_energy(id_);
+        }
+    }
+    // How far back watch_channel may ask.
+    void remember_channel(SimTime duration) { medium_.remember(duration); }
+    // When a frame that was received broken ends: that no others can make the channel busy together.
+    bool are_others_weak() const { return others_are_weak_; }
+
     bool is_transmitting() const { return transmitting_; }
     bool is_receiving() const { return locked_ != nullptr; }
     // Transmitting, locked on a frame, or noise and all arrivals together reach the energy detection level.
@@ -129,6 +146,7 @@ private:
     bool detects_preambles_ : 1 = false;  // as preamble_detection_ says, which lies farther away
     bool captures_frames_ : 1 = false;    // as frame_capture_ says
     bool is_observed_ : 1 = false;
+    bool others_are_weak_ : 1 = false;
     RadioId id_ = 0;
     RadioListener* listener_ = nullptr;
     Medium& medium_;

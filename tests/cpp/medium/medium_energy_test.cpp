@@ -1,0 +1,190 @@
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "support/air.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Air;
+using test::BareRadio;
+using test::light_microsecond_m;
+using test::RadioEvent;
+using test::RadioWord;
+using test::Station;
+using test::us;
+
+RadioConfig deaf_but_sensing() {
+    RadioConfig config;
+    config.sensitivity_w = 1e-9;
+    config.energy_detection_w = 1e-10;
+    return config;
+}
+
+// Two frames that together make the channel of a receiver busy from 62 µs to 111 µs, the second lasts until 162 µs.
+class WatchedEnergy : public testing::Test {
+protected:
+    WatchedEnergy() {
+        receiver.stop_watching_channel();
+        air.medium.remember(us(500));
+        send_at(us(10));
+        send_at(us(60));
+    }
+    void send_at(SimTime start) {
+        const double away_m = ++senders * light_microsecond_m;
+        BareRadio& sender =
+            air.add_radio({away_m, 0, 0}, test::radio_of_power(test::power_for(6e-11, away_m)));
+        air.at(start, [&sender] { sender.send(us(100)); });
+    }
+    void begins_to_watch_at(SimTime time, SimTime since) {
+        air.at(time, [this, since] { busy_until = receiver.watch_channel(since); });
+    }
+
+    Air air;
+    BareRadio& bare = air.add_radio({0, 0, 0}, deaf_but_sensing());
+    Radio& receiver = bare.radio;
+    int senders = 0;
+    SimTime busy_until = SimTime::from_ps(-1);
+};
+
+const std::vector<RadioEvent> busy_while_both_last{{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}};
+
+TEST_F(WatchedEnergy, IsNotToldToWhoDoesNotWatch) {
+    air.run();
+    EXPECT_TRUE(bare.log.events.empty());
+}
+
+TEST_F(WatchedEnergy, IsToldToWhoBeganBeforeIt) {
+    begins_to_watch_at(us(5), us(5));
+    air.run();
+    EXPECT_EQ(bare.log.events, busy_while_both_last);
+}
+
+TEST_F(WatchedEnergy, IsToldToWhoBeganBesideTheFirstFrame) {
+    begins_to_watch_at(us(30), us(30));
+    air.run();
+    EXPECT_EQ(bare.log.events, busy_while_both_last);
+}
+
+TEST_F(WatchedEnergy, IsToldToWhoBeganBeforeTheSecondFrameCame) {
+    begins_to_watch_at(us(61), us(61));
+    air.run();
+    EXPECT_EQ(bare.log.events, busy_while_both_last);
+}
+
+TEST_F(WatchedEnergy, MakesTheChannelBusyOfWhoBeginsMeanwhile) {
+    begins_to_watch_at(us(80), us(80));
+    air.run();
+    EXPECT_EQ(bare.log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(80)}, {RadioWord::free, us(111)}}));
+}
+
+TEST_F(WatchedEnergy, IsNotToldToWhoHasStopped) {
+    begins_to_watch_at(us(5), us(5));
+    air.at(us(30), [this] { receiver.stop_watching_channel(); });
+    air.run();
+    EXPECT_TRUE(bare.log.events.empty());
+}
+
+TEST_F(WatchedEnergy, IsToldToWhoStoppedAndBeganAgain) {
+    begins_to_watch_at(us(5), us(5));
+    air.at(us(30), [this] { receiver.stop_watching_channel(); });
+    begins_to_watch_at(us(40), us(40));
+    air.run();
+    EXPECT_EQ(bare.log.events, busy_while_both_last);
+}
+
+TEST_F(WatchedEnergy, AfterwardsItIsKnownWhenItWasOver) {
+    begins_to_watch_at(us(150), us(100));
+    air.run();
+    EXPECT_EQ(busy_until, us(111));
+}
+
+TEST_F(WatchedEnergy, IsRememberedBeyondTheEndOfAllFrames) {
+    send_at(us(300));
+    begins_to_watch_at(us(450), us(0));
+    air.run();
+    EXPECT_EQ(busy_until, us(111));
+}
+
+TEST_F(WatchedEnergy, WhatWasOverBeforeIsNotAskedFor) {
+    begins_to_watch_at(us(150), us(120));
+    air.run();
+    EXPECT_EQ(busy_until, SimTime::long_ago());
+}
+
+TEST_F(WatchedEnergy, OfWhatDidNotSufficeNothingIsKnown) {
+    begins_to_watch_at(us(50), us(0));
+    air.run();
+    EXPECT_EQ(busy_until, SimTime::long_ago());
+}
+
+// A station does not watch as long as it has nothing to send, and finds its channel all the same as if it did.
+class StationBesideEnergy : public testing::TestWithParam<Hearing> {
+protected:
+    BareRadio& add_sender(double received_w) {
+        return air.add_radio({light_microsecond_m, 0, 0},
+                             test::radio_of_power(test::power_for(received_w, light_microsecond_m)));
+    }
+    void sends_at(BareRadio& sender, SimTime start, SimTime duration) {
+        air.at(start, [&sender, duration] { sender.send(duration); });
+    }
+    // When the station begins to send what it is given at that time.
+    SimTime sent(SimTime time) {
+        air.at(time, [this] { station.send(broadcast_id, 100); });
+        air.run();
+        for (const test::Heard& heard : sniffer.heard) {
+            if (heard.sender == station.id()) {
+                return heard.start;
+            }
+        }
+        return SimTime::long_ago();
+    }
+    static MacConfig without_backoff() {
+        MacConfig config;
+        config.cw_min = 0;
+        config.cw_max = 0;
+        return config;
+    }
+
+    const MacTiming timing{mode_set(MacConfig().op_mode)};
+    Air air{MediumConfig(), GetParam()};
+    Station& station = air.add_station({0, 0, 0}, without_backoff(), deaf_but_sensing());
+    test::Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+};
+
+TEST_P(StationBesideEnergy, SendsAtOnceIfNoneMadeItsChannelBusy) {
+    sends_at(add_sender(6e-11), us(10), us(100));
+    EXPECT_EQ(sent(us(120)), us(120));
+}
+
+TEST_P(StationBesideEnergy, WaitsFromTheEndOfWhatMadeItBusy) {
+    sends_at(add_sender(6e-11), us(10), us(100));
+    sends_at(add_sender(6e-11), us(10), us(200));
+    EXPECT_EQ(sent(us(120)), us(111) + timing.difs);
+}
+
+TEST_P(StationBesideEnergy, WaitsForTheEndOfWhatMakesItBusy) {
+    sends_at(add_sender(6e-11), us(10), us(200));
+    sends_at(add_sender(6e-11), us(10), us(300));
+    EXPECT_EQ(sent(us(120)), us(211) + timing.difs);
+}
+
+// The wait after a broken frame begins when the channel is free, not when the frame is over.
+TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameUntilThatIsOver) {
+    sends_at(add_sender(2e-9), us(10), us(100));
+    sends_at(add_sender(2e-9), us(50), us(20));
+    sends_at(add_sender(6e-11), us(20), us(200));
+    sends_at(add_sender(6e-11), us(20), us(300));
+    EXPECT_EQ(sent(us(250)), us(221) + timing.eifs);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hearings, StationBesideEnergy,
+                         testing::Values(Hearing::what_matters, Hearing::everything),
+                         [](const auto& param_info) {
+                             return param_info.param == Hearing::everything ? "everything" : "what_matters";
+                         });
+
+}  // namespace
+}  // namespace netsim
