@@ -35,6 +35,14 @@ class _Running:
     error_output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
 
 
+@dataclass(frozen=True)
+class _Printed:
+    """What a run that has ended has printed. Files would be too many to keep open behind a long run."""
+
+    output: bytes
+    error_output: bytes
+
+
 class _PassedOn(StopOnInterrupt):
     """Passes each press of Ctrl-C on to the processes under way; the third one raises KeyboardInterrupt."""
 
@@ -72,7 +80,7 @@ def in_processes(work: Work, count: int, jobs: int, output: TextIO) -> dict[int,
     After one that does not end with OK, and after Ctrl-C, none is begun: those have no exit code.
     """
     codes: dict[int, int] = {}
-    ended: dict[int, _Running] = {}
+    printed: dict[int, _Printed] = {}
     with _PassedOn() as interrupt:
         try:
             begun = 0
@@ -89,8 +97,9 @@ def in_processes(work: Work, count: int, jobs: int, output: TextIO) -> dict[int,
                 for run in [run for run in interrupt.running if not run.process.is_alive()]:
                     interrupt.running.remove(run)
                     codes[run.index] = _exit_code(run)
-                    ended[run.index] = run
-                _show(ended, interrupt.running, output)
+                    printed[run.index] = _Printed(_content(run.output), _content(run.error_output))
+                    run.process.close()
+                _show(printed, interrupt.running, output)
         finally:
             for run in interrupt.running:
                 run.process.kill()
@@ -147,15 +156,20 @@ def _exit_code(run: _Running) -> int:
     return FAILED
 
 
-def _show(ended: dict[int, _Running], running: list[_Running], output: TextIO) -> None:
+def _content(file: IO[bytes]) -> bytes:
+    """All of it; the file is closed."""
+    with file:
+        file.seek(0)
+        return file.read()
+
+
+def _show(printed: dict[int, _Printed], running: list[_Running], output: TextIO) -> None:
     """Show what the runs before the first one under way have printed."""
     first = min((run.index for run in running), default=None)
-    for index in sorted(ended):
+    for index in sorted(printed):
         if first is not None and index > first:
             return
-        run = ended.pop(index)
-        for file, stream in ((run.error_output, sys.stderr), (run.output, output)):
-            file.seek(0)
-            stream.write(file.read().decode("utf-8", errors="replace"))
+        run = printed.pop(index)
+        for text, stream in ((run.error_output, sys.stderr), (run.output, output)):
+            stream.write(text.decode("utf-8", errors="replace"))
             stream.flush()
-            file.close()

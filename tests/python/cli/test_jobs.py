@@ -30,6 +30,16 @@ class Killed(Talker):
     def handle_timer(self, timer):
         print("in the end", flush=True)
         os.kill(os.getpid(), 9)
+
+
+class WaitsForTheLast(Talker):
+    number = 0
+    last = 0
+
+    def initialize(self):
+        super().initialize()
+        if self.provider.get_id() == 0 and self.number in (0, self.last):
+            open("pipe", "r" if self.number == 0 else "w").close()
 """
 
 
@@ -86,6 +96,25 @@ def test_a_process_that_is_killed_is_told(gradysim, folder):
     assert done.returncode == 1
     assert done.stderr.count("its process was ended by SIGKILL\n") == 2
     assert "General: run 0 failed, run 1 failed, 0 of 2 runs are done\n" in done.stderr
+
+
+def test_many_runs_may_end_before_the_first_one_does(folder):
+    (folder / "tells.py").write_text(TELLS)
+    os.mkfifo(folder / "pipe")
+    lines = ('class="tells.py:WaitsForTheLast"', "number=${runnumber}", "last=39")
+    settings = [part for line in lines for part in ("--set", f"*.uavs[*].protocol.{line}")]
+    few_files = ["sh", "-c", 'ulimit -n 60 && exec "$@"', "sh"]
+    arguments = ["test.ini", "--mode", "prototype", "--json", "-j", "2", "--set", "repeat=40"]
+    done = subprocess.run(
+        [*few_files, sys.executable, "-m", "gradysim", "run", *arguments, *settings],
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 0
+    assert [run["run"] for run in objects(done.stdout)] == list(range(40))
 
 
 @pytest.mark.parametrize("jobs", ["0", "-1"])
