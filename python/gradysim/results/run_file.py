@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 from gradysim.config.scenario import Scenario
-from gradysim.results.run_result import Mode, RunResult
+from gradysim.results.run_result import Mode, RunResult, plain_iterations
 
 
 def run_file(directory: Path, config: str, run: int, mode: Mode) -> Path:
@@ -23,7 +23,13 @@ def is_done(scenario: Scenario, mode: Mode, directory: Path) -> bool:
         result = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):  # none, no JSON, or too deep
         return False
-    expected = {"interrupted": False, "seed": scenario.seed, "settings_hash": scenario.settings_hash}
+    expected = {
+        "interrupted": False,
+        "seed": scenario.seed,
+        "settings_hash": scenario.settings_hash,
+        "repetition": scenario.repetition,  # another `repeat` numbers the runs anew
+        "iterations": plain_iterations(scenario.iterations),
+    }
     return (
         isinstance(result, dict) and expected.items() <= {name: result.get(name) for name in expected}.items()
     )

@@ -48,10 +48,15 @@ class NodeResult:
         }
 
 
-def plain_iteration(value: str) -> int | float | str:
+def plain_iterations(values: Mapping[str, str]) -> dict[str, int | float | str]:
+    """Return the values of iteration variables as results have them."""
+    return {name: _plain_iteration(value) for name, value in values.items()}
+
+
+def _plain_iteration(value: str) -> int | float | str:
     """Return the value of an iteration variable as a number if it is a plain one, else without its quotes."""
     for number in (int, float):
-        with contextlib.suppress(ValueError):
+        with contextlib.suppress(ValueError, OverflowError):
             if math.isfinite(number(value)):
                 return number(value)
     return value[1:-1] if len(value) > 1 and value[0] == value[-1] == '"' else value
@@ -106,6 +111,6 @@ class RunResult:
             "fates": plain_value(self.fates),
             "nodes": [node.to_json_object() for node in self.nodes],
             "repetition": self.repetition,
-            "iterations": {name: plain_iteration(value) for name, value in self.iterations.items()},
+            "iterations": plain_iterations(self.iterations),
             "settings_hash": self.settings_hash,
         }

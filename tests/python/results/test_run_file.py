@@ -76,12 +76,27 @@ def test_a_run_is_done_if_its_file_is_there(done):
 
 
 @pytest.mark.parametrize(
-    "change", [{"interrupted": True}, {"seed": 99}, {"settings_hash": "another"}, {"run": 1}]
+    "change",
+    [
+        {"interrupted": True},
+        {"seed": 99},
+        {"settings_hash": "another"},
+        {"run": 1},
+        {"repetition": 1},
+        {"iterations": {"x": "2"}},
+    ],
 )
 def test_a_run_is_not_done_by_another_result(done, change):
     scenario, result, folder = done
     write_run_file(dataclasses.replace(result, **change), folder)
     assert not is_done(scenario, "integrated", folder)
+
+
+def test_the_values_of_a_run_that_is_done_may_be_numbers_and_texts(done):
+    scenario, result, folder = done
+    iterations = {"x": "0.1", "y": '"a"', "z": "5m"}
+    write_run_file(dataclasses.replace(result, iterations=iterations), folder)
+    assert is_done(dataclasses.replace(scenario, iterations=iterations), "integrated", folder)
 
 
 @pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"run": ', b"\xff", b"[" * 99_999])

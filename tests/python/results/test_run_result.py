@@ -1,3 +1,4 @@
+import dataclasses
 import json
 
 from gradysim.results.run_result import NodeResult, RunResult
@@ -43,6 +44,11 @@ def test_keys_and_values_that_scripts_rely_on():
         ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
         ("settings_hash", "0123"),
     ]
+
+
+def test_a_number_that_no_float_can_hold_stays_a_text():
+    result = dataclasses.replace(result_with({}), iterations={"key": "1" * 400})
+    assert result.to_json_object()["iterations"] == {"key": "1" * 400}
 
 
 def test_keys_of_a_node():
