@@ -1,8 +1,8 @@
 """Mean values over the runs of a study, from the files that `--result-dir` holds."""
 
 import json
-import math
 import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -76,7 +76,7 @@ def _tracked(nodes: Iterable[Mapping[str, Any]]) -> Iterator[tuple[str, float]]:
     for node in nodes:
         group = re.sub(r"\[\d+\]$", "[*]", node["name"])
         for name, value in node["tracked_variables"].items():
-            if isinstance(value, int | float) and math.isfinite(value):
+            if isinstance(value, int | float) and abs(value) <= sys.float_info.max:
                 values.setdefault(f"{group} {name}", []).append(value)
     for quantity, of_nodes in values.items():
         yield quantity, fmean(of_nodes)

@@ -46,7 +46,7 @@ def test_groups_and_single_nodes_are_apart() -> None:
     }
 
 
-@pytest.mark.parametrize("value", ["7", None, [1, 2], float("nan"), float("inf")])
+@pytest.mark.parametrize("value", ["7", None, [1, 2], float("nan"), float("inf"), 10**400])
 def test_what_is_no_finite_number_is_left_out(value: object) -> None:
     assert quantities([result(0, (value, 3))]) == {"uavs[*] heard": 3}
     assert quantities([result(0, (value,))]) == {}
