@@ -43,6 +43,8 @@ def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
     text = constraint.text
     if text.startswith('"') and text.endswith('"'):
         text = text[1:-1].replace('\\"', '"')
+    if not text.strip():  # the default
+        return True
     text = _VARIABLE.sub(value_of, text)
     try:
         return any(all(map(_comparison, alternative.split("&&"))) for alternative in text.split("||"))

@@ -8,7 +8,7 @@ it, `variables`, has only names to replace. One without a name is called by its 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal, InvalidOperation, Overflow
 
 from gradysim.config.error import ConfigError
 from gradysim.config.lookup import is_ignored
@@ -164,6 +164,9 @@ def _split(listed: str) -> list[str]:
         if character == "\\" and listed[position + 1 : position + 2] in (",", "}"):
             position += 1
             part += listed[position]
+        elif character == "\\" and quoted:
+            part += listed[position : position + 2]
+            position += 1
         elif character == "," and depth <= 0 and not quoted:
             parts.append(part.strip())
             part = ""
@@ -192,9 +195,9 @@ def _values(part: str, entry: Entry) -> Iterator[str]:
         return
     try:
         first, last, step = (Decimal(text) for text in (match[1], match[2], match[3] or "1"))
-    except InvalidOperation:  # an exponent beyond all bounds
+        count = (last - first) / step if step else Decimal(-1)
+    except (InvalidOperation, Overflow):  # an exponent beyond all bounds
         raise ConfigError.at(entry.source, f"`{part}` is out of range; expected smaller numbers") from None
-    count = (last - first) / step if step else Decimal(-1)
     if count < 0:
         raise ConfigError.at(
             entry.source, f"`{part}` has no values; expected a step that leads from the first to the last"

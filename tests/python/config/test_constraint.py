@@ -32,6 +32,7 @@ def entry(text: str) -> Entry:
         ("$x < $y && $t > 1s", False),
         ("$x == 3 || $x == 4 && $y == 5", True),
         ('"$x < $y"', True),
+        ('""', True),
     ],
 )
 def test_constraints(text: str, expected: bool) -> None:

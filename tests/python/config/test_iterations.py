@@ -45,6 +45,7 @@ def error_of(*texts: str) -> str:
         ("${ 10ms , 1h 5min }", ("10ms", "1h 5min")),
         ("${x=1}", ("1",)),
         ('${x="a,b", "c"}', ('"a,b"', '"c"')),
+        (r'${"a\"b,", c}', (r'"a\"b,"', "c")),
         ("${(1, 2), [3, 4]}", ("(1, 2)", "[3, 4]")),
         (r"${a\,b, c\}}", ("a,b", "c}")),
         ("${1..4}", ("1", "2", "3", "4")),
@@ -115,6 +116,10 @@ def test_what_is_ignored_iterates_over_nothing() -> None:
             "`1..3 step 0` has no values; expected a step that leads from the first to the last",
         ),
         (["${0..1 step 1e-9}"], "`0..1 step 1e-9` has too many values; expected at most 1000000"),
+        (
+            ["${0..1e999999 step 1e-9}"],
+            "`0..1e999999 step 1e-9` is out of range; expected smaller numbers",
+        ),
         (
             ["${runnumber=1,2}"],
             "`${runnumber}` is there in every run; expected another name",
