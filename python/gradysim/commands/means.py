@@ -22,7 +22,7 @@ def print_means(
 
     from gradysim.config.error import ConfigError
     from gradysim.report.means_table import means_table, write_csv
-    from gradysim.results.means import means, read_results
+    from gradysim.results.means import means, of_different_settings, read_results
 
     try:
         results = read_results(directory)
@@ -33,6 +33,12 @@ def print_means(
             )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
+    if (two := of_different_settings(results)) is not None:
+        print(
+            f"{directory}: warning: {two[0]} and {two[1]} are of different settings (`settings_hash`), and"
+            " their mean is one of both; expected a folder for each",
+            file=sys.stderr,
+        )
     found = means(results)
     if as_csv:
         write_csv(found, sys.stdout)

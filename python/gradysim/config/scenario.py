@@ -29,7 +29,7 @@ from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, r
 from gradysim.config.run_numbers import select_runs
 from gradysim.config.sections import config_names, search_order, unused_sections
 from gradysim.config.setting import Setting, SettingReader, read_scalar
-from gradysim.config.settings_hash import entries_of_the_hash, settings_hash
+from gradysim.config.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash, settings_hash
 from gradysim.config.source import Source
 from gradysim.config.struct_reader import read_struct
 from gradysim.config.variables import depends_on_run, run_variables, substitute
@@ -77,6 +77,7 @@ class Scenario:
         repetition: 0 to repeat-1.
         iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
         settings_hash: Of all that the file and the command line say of this run, the seed of `--seed` apart.
+            It is the same for all repetitions.
     """
 
     file: Path
@@ -175,7 +176,7 @@ def load_scenarios(
                 scenario,
                 repetition=repetition,
                 iterations=iterations,
-                settings_hash=settings_hash(_substituted(in_force, values)),
+                settings_hash=settings_hash(_substituted(in_force, {**values, **SAME_IN_ALL_RUNS})),
             )
         )
     return scenarios

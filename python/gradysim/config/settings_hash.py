@@ -9,6 +9,9 @@ from gradysim.config.reader import Entry
 _OF_NO_RUN = ("repeat", "constraint", "description", "extends", "abstract")
 """Options that say which runs there are, or nothing of what happens in them."""
 
+SAME_IN_ALL_RUNS = {"runnumber": "${runnumber}", "repetition": "${repetition}"}
+"""Values of variables for the hash: runs that differ in their numbers alone are of the same settings."""
+
 _LENGTH = 16
 """Hexadecimal digits, as many as a fingerprint has."""
 

@@ -52,9 +52,22 @@ def means(results: Iterable[Mapping[str, Any]]) -> list[Mean]:
     """Return the mean of each quantity over the runs that have equal values of iteration variables."""
     alike: dict[str, list[Mapping[str, Any]]] = {}
     for result in results:
-        key = json.dumps([result["config"], result["mode"], result["iterations"]])
-        alike.setdefault(key, []).append(result)
+        alike.setdefault(_values_of(result), []).append(result)
     return [mean for runs in alike.values() for mean in _means_of(runs)]
+
+
+def of_different_settings(results: Iterable[Mapping[str, Any]]) -> tuple[str, str] | None:
+    """Name two of the runs with equal values of variables, if there are any whose settings differ."""
+    first: dict[str, Mapping[str, Any]] = {}
+    for result in results:
+        other = first.setdefault(_values_of(result), result)
+        if other.get("settings_hash") != result.get("settings_hash"):
+            return f"{other['config']}-#{other['run']}", f"{result['config']}-#{result['run']}"
+    return None
+
+
+def _values_of(result: Mapping[str, Any]) -> str:
+    return json.dumps([result["config"], result["mode"], result["iterations"]], sort_keys=True)
 
 
 def _means_of(runs: list[Mapping[str, Any]]) -> Iterator[Mean]:

@@ -16,7 +16,8 @@ def run_file(directory: Path, config: str, run: int, mode: Mode) -> Path:
 def is_done(scenario: Scenario, mode: Mode, directory: Path) -> bool:
     """Whether `directory` has the result of just this run, with the same settings and seed, to its end.
 
-    What is no such file counts as none. Of a protocol that has changed it knows nothing.
+    What is no such file counts as none. Of changes in files that settings name, such as protocols,
+    it knows nothing.
     """
     file = run_file(directory, scenario.config, scenario.run_number, mode)
     try:

@@ -17,6 +17,18 @@ def test_means_of_runs(gradysim):
     assert "General,prototype,3,uavs[*] said,3,3.0,0.0" in in_csv
 
 
+def test_results_of_an_earlier_study_are_warned_of(gradysim):
+    arguments = ("run", "test.ini", "--mode", "prototype", "--result-dir", "out", "--quiet")
+    gradysim(*arguments)
+    gradysim(*arguments, "-r", "0", "--set", "sim-time-limit=3.5s")
+    done = gradysim("means", "out")
+    assert done.returncode == 0
+    assert done.stderr == (
+        "out: warning: General-#0 and General-#1 are of different settings (`settings_hash`), and their"
+        " mean is one of both; expected a folder for each\n"
+    )
+
+
 def test_a_folder_without_results(gradysim, folder):
     done = gradysim("means", ".")
     assert (done.returncode, done.stdout) == (2, "")

@@ -36,3 +36,9 @@ def test_runs_of_different_values_have_different_ones(folder: Any) -> None:
     folder.load("repeat = 2\n**.speed = ${3, 4}mps\n")
     first, again, other, _ = (scenario.settings_hash for scenario in load_scenarios(folder.ini))
     assert first == again != other
+
+
+def test_repetitions_have_the_same_whatever_depends_on_their_number(folder: Any) -> None:
+    folder.load('repeat = 2\nseed-set = ${repetition}\n**.label = "${runnumber}"\n')
+    first, again = (scenario.settings_hash for scenario in load_scenarios(folder.ini))
+    assert first == again

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.results.means import Mean, means, read_results
+from gradysim.results.means import Mean, means, of_different_settings, read_results
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -77,6 +77,22 @@ def test_other_values_modes_and_configurations_are_apart() -> None:
     assert [(mean.mean, mean.runs, mean.half_width) for mean in found] == [
         (run, 1, None) for run in range(len(changes))
     ]
+
+
+def test_the_order_of_variables_does_not_matter() -> None:
+    (mean,) = means([result(0, iterations={"x": 1, "y": 2}), result(1, iterations={"y": 2, "x": 1})])
+    assert mean.runs == 2
+
+
+def test_runs_of_equal_values_and_different_settings_are_named() -> None:
+    results = [result(3), result(4, settings_hash="a"), result(5, settings_hash="b")]
+    assert of_different_settings(results) == ("Study-#3", "Study-#4")
+    assert of_different_settings(results[1:]) == ("Study-#4", "Study-#5")
+
+
+def test_settings_may_differ_with_the_values() -> None:
+    results = [result(0, settings_hash="a"), result(1, settings_hash="b", iterations={"jitter": "20ms"})]
+    assert of_different_settings(results) is None
 
 
 def test_results_are_read_in_the_order_of_their_runs(tmp_path: Path) -> None:
