@@ -19,9 +19,8 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
     snr_db = 10 * math.log10(c.snr_at_range)
     to = "another one like it" if c.receiver == c.sender else c.receiver
     wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
-    sender = f"{c.sender}.{wlan}" if c.sender_interface else c.sender
     lines = [
-        f"{sender} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
+        f"{_sender(c)} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
         f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
         f" {c.bitrate_bps / 1e6:g} Mbps;",
         f"{snr_db:.2f} dB above the noise), with a power of {power_dbm:.3f} dBm:",
@@ -36,6 +35,11 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
         bar = block * round(ratio * BAR_WIDTH)
         lines.append(f"{_in_metres(distance_m):>6} m  {100 * ratio:7.2f} %  {bar}".rstrip())
     return "\n".join(lines)
+
+
+def _sender(c: Calibration) -> str:
+    """Its name, with that of its interface unless it is the first one, as receivers have it."""
+    return f"{c.sender}.wlan[{c.sender_interface}]" if c.sender_interface else c.sender
 
 
 def _in_metres(distance_m: float) -> str:
@@ -85,7 +89,9 @@ def draw(calibration: Calibration, path: Path) -> None:
     axes.axvline(c.range_m, linestyle=":", color="gray")
     axes.axhline(c.ratio, linestyle=":", color="gray")
     axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
-    axes.set_title(f"{c.sender} to {c.receiver}, {c.tx_power_w * 1000:.4g} mW, {c.bitrate_bps / 1e6:g} Mbps")
+    axes.set_title(
+        f"{_sender(c)} to {c.receiver}, {c.tx_power_w * 1000:.4g} mW, {c.bitrate_bps / 1e6:g} Mbps"
+    )
     try:
         figure.savefig(path)
     except OSError as error:

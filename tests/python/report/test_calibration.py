@@ -89,3 +89,11 @@ def test_a_picture_that_finds_no_room_names_its_file(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="No space left") as raised:
         draw(replace(calibration(), curve=((1.0, 0.5),)), picture)
     assert raised.value.filename == str(picture)
+
+
+def test_a_picture_says_which_interface_sends(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    picture = tmp_path / "curve.svg"
+    curve = ((1.0, 0.5), (2.0, 0.25))
+    draw(replace(calibration(2), sender_interface=1, receiver="base", curve=curve), picture)
+    assert "<!-- relay.wlan[1] to base, " in picture.read_text(encoding="utf-8")
