@@ -5,6 +5,7 @@ are converted to SI units as all quantities are: a protocol that takes its inter
 them in the place of 300. The names of some parameters leave little doubt.
 """
 
+import re
 from collections.abc import Iterable, Iterator
 
 from gradysim.config.error import BadValue
@@ -16,6 +17,10 @@ from gradysim.config.source import Source
 
 _TIMES = ("interval", "timeout", "period", "delay", "duration")
 """What names of times end in."""
+
+
+_METRES_IN_A_LIST = re.compile(r"[\d.]\s*m\b|[,.][^{}]*\}\s*m\b", re.ASCII)
+"""`${5m, 10m}`, `${5, 10}m` and `${5..10}m`, but not `${runnumber}m`."""
 
 
 def metres_for_times(nodes: Iterable[NodeSpec]) -> Iterator[str]:
@@ -39,6 +44,6 @@ def metres_for_times(nodes: Iterable[NodeSpec]) -> Iterator[str]:
 def _is_in_metres(text: str) -> bool:
     try:
         value = parse_value(text)
-    except BadValue:  # with a variable in it
-        return False
+    except BadValue:  # with a variable in it, or a list of values
+        return "${" in text and '"' not in text and _METRES_IN_A_LIST.search(text) is not None
     return isinstance(value, Quantity) and value.unit is not None and value.unit.name == "m"

@@ -34,6 +34,11 @@ def test_a_time_in_metres_is_told_once_with_its_line(folder: Any) -> None:
     )
 
 
+@pytest.mark.parametrize("values", ["${5m, 10m}", "${interval=10s, 5m}", "${5, 10}m", "${5..10 step 5}m"])
+def test_a_list_of_values_is_told_too(folder: Any, values: str) -> None:
+    assert len(told(folder, f"*.uavs[*].protocol.interval = {values}")) == 1
+
+
 def test_different_lines_are_told_each(folder: Any) -> None:
     lines = "*.uavs[0].protocol.interval = 5m\n*.uavs[1].protocol.heartbeatTimeout = 2 * 5m"
     assert len(told(folder, lines)) == 2
@@ -46,6 +51,8 @@ def test_different_lines_are_told_each(folder: Any) -> None:
         "interval = 5",
         "interval = 5km",
         "interval = ${runnumber}m",
+        "interval = ${5min, 10ms, 1 km}",
+        "interval = ${5, 10}min",
         "spacing = 5m",
         "lawn_interval = 5m",
         "beacon_period = 5",
