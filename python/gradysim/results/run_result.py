@@ -5,6 +5,7 @@
 
 import contextlib
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -13,6 +14,9 @@ from gradysim.protocol.plain_value import plain_value
 
 Mode = Literal["integrated", "prototype"]
 Fates = Mapping[str, Mapping[str, Mapping[str, int]]]
+
+_LIKE_A_NUMBER = re.compile(r"[-+.eE\d]+", re.ASCII)
+"""Python takes `2026_11` for one, too."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +59,7 @@ def plain_iterations(values: Mapping[str, str]) -> dict[str, int | float | str]:
 
 def _plain_iteration(value: str) -> int | float | str:
     """Return the value of an iteration variable as a number if it is a plain one, else without its quotes."""
-    for number in (int, float):
+    for number in (int, float) if _LIKE_A_NUMBER.fullmatch(value) else ():
         with contextlib.suppress(ValueError, OverflowError):
             if math.isfinite(number(value)):
                 return number(value)
