@@ -1,9 +1,13 @@
 """Arguments that several commands have."""
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
+
+if TYPE_CHECKING:
+    from cyclopts import Token
 
 Mode = Literal["integrated", "prototype"]
 """The same as in `gradysim.results.run_result`, which `gradysim --help` does not load."""
@@ -19,3 +23,16 @@ SetOption = Annotated[
         help="KEY=VALUE: takes precedence over the file; may be repeated.",
     ),
 ]
+
+
+def _whole_number(_type: type, tokens: "Sequence[Token]") -> int:
+    """As int() has it. The number that cyclopts makes of `1.5` is 2, and another seed is another run."""
+    text = tokens[0].value
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"{text} is no whole number") from None
+
+
+WholeNumber = Annotated[int, Parameter(converter=_whole_number, n_tokens=1)]
+"""The type of an option that counts or numbers something."""

@@ -25,6 +25,9 @@ def print_means(
     from gradysim.results.means import means, of_different_settings, read_results
 
     try:
+        if not directory.is_dir():
+            reason = "it is no folder" if directory.exists() else "there is no such folder"
+            raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
         results = read_results(directory)
         if not results:
             raise ConfigError(

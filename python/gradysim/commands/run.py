@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 
 from cyclopts import Parameter
 
-from gradysim.commands.arguments import ConfigOption, FileArgument, Mode, SetOption
+from gradysim.commands.arguments import ConfigOption, FileArgument, Mode, SetOption, WholeNumber
 from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK, say_mistake
 from gradysim.commands.scenarios import load
 from gradysim.commands.simulators import captures, capturing_simulator, files_written, simulator
@@ -56,7 +56,8 @@ def run(
     ] = "integrated",
     settings: SetOption = (),
     seed: Annotated[
-        int | None, Parameter(help="Seed of run 0, to which run N adds N; by default the file's seed-set.")
+        WholeNumber | None,
+        Parameter(help="Seed of run 0, to which run N adds N; by default the file's seed-set."),
     ] = None,
     result_dir: Annotated[
         Path | None, Parameter(help="Write each run's JSON object to DIR/CONFIG-#RUN.MODE.json.")
@@ -69,7 +70,7 @@ def run(
         ),
     ] = False,
     jobs: Annotated[
-        int, Parameter(alias="-j", help="How many runs at once, each in a process of its own.")
+        WholeNumber, Parameter(alias="-j", help="How many runs at once, each in a process of its own.")
     ] = 1,
     pcap: PcapOption = (),
     as_json: Annotated[

@@ -1,5 +1,7 @@
 """`gradysim means`: from the files of `run --result-dir`."""
 
+import pytest
+
 
 def test_means_of_runs(gradysim):
     study = ("--set", "sim-time-limit=${limit=3, 5}.5s", "--result-dir", "out", "--quiet")
@@ -38,7 +40,10 @@ def test_a_folder_without_results(gradysim, folder):
     )
 
 
-def test_a_folder_that_is_not_there(gradysim):
-    done = gradysim("means", "nowhere")
+@pytest.mark.parametrize(
+    ("name", "reason"), [("nowhere", "there is no such folder"), ("test.ini", "it is no folder")]
+)
+def test_a_folder_that_is_not_there(gradysim, name, reason):
+    done = gradysim("means", name)
     assert (done.returncode, done.stdout) == (2, "")
-    assert "nowhere" in done.stderr
+    assert done.stderr == f"{name}: {reason}; expected that of `gradysim run FILE --result-dir DIR`\n"

@@ -71,6 +71,14 @@ def test_an_argument_that_nothing_takes_is_named_with_what_is_missing(gradysim, 
     assert text in " ".join(done.stderr.replace("│", "").split())
 
 
+@pytest.mark.parametrize("option", ["--seed", "--jobs"])
+@pytest.mark.parametrize("value", ["1.5", "1e3", "two"])
+def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
+    done = gradysim("run", "test.ini", "--mode", "prototype", option, value)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"Invalid value for {option}: {value} is no whole number" in done.stderr
+
+
 @compiled
 @pytest.mark.parametrize(
     ("arguments", "refusal"),
