@@ -23,6 +23,7 @@ _COMPARISONS: dict[str, Callable[[Any, Any], bool]] = {
     ">": operator.gt,
 }
 _SIGN = re.compile(r"(<=|>=|==|!=|<|>)")
+_TEXT = re.compile(r'"(?:[^"\\]|\\.)*"')
 _VARIABLE = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
 
 
@@ -58,10 +59,22 @@ def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
 
 def _comparison(text: str) -> bool:
     parts = _SIGN.split(text)
+    if not text.strip():
+        raise BadValue("a comparison is missing")
     if len(parts) != 3:
-        raise BadValue(f"`{text.strip()}` is not one comparison")
+        raise BadValue(f"`{text.strip()}` is not one comparison", _hint(text))
+    bare = [_TEXT.sub("", side) for side in parts]
+    if any(side.count("(") != side.count(")") for side in bare):
+        raise BadValue("a comparison stands in parentheses, which go around values only")
     left, right = parse_value(parts[0]), parse_value(parts[2])
     return _COMPARISONS[parts[1]](*_comparable(left, right))
+
+
+def _hint(text: str) -> str:
+    """How other languages write what was meant."""
+    if match := re.search(r"\b(and|or)\b", text):
+        return f"; did you mean `{'&&' if match[1] == 'and' else '||'}`?"
+    return "; did you mean `==`?" if re.search(r"(?<![<>=!])=(?!=)", text) else ""
 
 
 def _comparable(left: Value, right: Value) -> tuple[object, object]:

@@ -6,7 +6,7 @@ Its grammar:
 - product = signed (("*" | "/") signed)*
 - signed = "-" signed | "+" signed | term ["^" signed]
 - term = quantity+ | text | "true" | "false" | "(" sum ")"
-- quantity = number [unit]; several stand for their sum, as in `1h 5min`
+- quantity = number [unit]; several of different units stand for their sum, as in `1h 5min`
 """
 
 import math
@@ -15,6 +15,7 @@ from fractions import Fraction
 
 from gradysim.config.error import BadValue
 from gradysim.config.quantity import Number, Quantity
+from gradysim.config.stray_token import not_understood
 from gradysim.config.units import unit_named
 
 Value = Quantity | str | bool
@@ -49,6 +50,7 @@ class _Parser:
         self._tokens = [
             (match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKENS.finditer(text)
         ]
+        self._text = text
         self._position = 0
         self._depth = 0
 
@@ -56,7 +58,7 @@ class _Parser:
         value = self._sum()
         kind, token = self._peek()
         if kind:
-            raise BadValue(f"`{token}` is not understood there")
+            raise not_understood(token, self._text)
         return value
 
     def _peek(self) -> tuple[str, str]:
@@ -118,11 +120,12 @@ class _Parser:
                 raise BadValue(f"there is no function `{token}`; values are fixed numbers and texts")
             hint = f"; did you mean `{token.lower()}`?" if token.lower() in _WORDS else ""
             raise BadValue(f"`{token}` is no value (a text stands in quotes)", hint)
-        raise BadValue(f"`{token}` is not understood there" if kind else "the value ends too early")
+        raise not_understood(token, self._text) if kind else BadValue("the value ends too early")
 
     def _quantities(self) -> Quantity:
-        """One quantity, or several as in `1h 5min`."""
+        """One quantity, or several as in `1h 5min`. Each unit stands there once: `1ms 2ms` lacks a comma."""
         total = self._quantity()
+        units = {total.unit}
         while self._peek()[0] == "number":
             following = self._quantity()
             if total.unit is None or following.unit is None:
@@ -131,6 +134,12 @@ class _Parser:
                 )
             if "dB" in total.unit.name or "dB" in following.unit.name:
                 raise BadValue(f"`{following}` follows `{total}`; decibels cannot be strung together")
+            if following.unit in units:
+                raise BadValue(
+                    f"`{following}` follows another number of `{following.unit.name}`",
+                    "; a list of values is written `${1ms, 2ms}`",
+                )
+            units.add(following.unit)
             total = total.plus(following)
         return total
 

@@ -152,8 +152,8 @@ def _logical_lines(file: Path, text: str) -> Iterator[tuple[int, str]]:
     current: tuple[int, str] | None = None
     for number, raw in _joined_lines(text):
         source = Source(file, number)
-        if raw.lstrip().startswith(";"):
-            raise ConfigError("`;` starts no comment here; expected `#`", source)
+        if sign := re.match(r"\s*(;|//)", raw):
+            raise ConfigError(f"`{sign[1]}` starts no comment here; expected `#`", source)
         line = _without_comment(raw, source)
         if not line.strip():
             continue

@@ -106,6 +106,11 @@ def test_truth_values() -> None:
         ("3 4", "`4` follows `3`; only quantities with units may be strung together"),
         ("5s 3", "`3` follows `5s`; only quantities with units may be strung together"),
         ("5s 3m", "`5s` and `3m` measure different things and cannot be added"),
+        (
+            "1ms 2ms",
+            "`2ms` follows another number of `ms`; a list of values is written `${1ms, 2ms}`",
+        ),
+        ("1h 5min 3h", "`3h` follows another number of `h`; a list of values is written `${1ms, 2ms}`"),
         ("3dB 2dB", "`2dB` follows `3dB`; decibels cannot be strung together"),
         ("1dBm + 1dBm", "`1dBm` and `1dBm` cannot be added, they are logarithms"),
         ("1mW + 1dBm", "`1mW` and `1dBm` cannot be added, one is a logarithm"),

@@ -125,6 +125,7 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
     ("text", "message"),
     [
         ("a = 1\n; old\n", "test.ini:2: `;` starts no comment here; expected `#`"),
+        ("a = 1\n// old\n", "test.ini:2: `//` starts no comment here; expected `#`"),
         ("a = 1\n  ; old\n", "test.ini:2: `;` starts no comment here; expected `#`"),
         (
             '\na = "x\n',
