@@ -349,9 +349,16 @@ class Network:
         "rts overheard", "cts", "cts overheard".
         """
     def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
-        """The same for the copies at one node that were strong enough to be received."""
+        """The same for the copies at one node that were strong enough to be received, whoever they were for.
+
+        Kinds: "broadcast", "unicast", "ack", "rts", "cts". "below_sensitivity" and "in_air" are not kept for
+        each node, and 0.
+        """
     def interferers_at(self, receiver: int) -> dict[int, int]:
-        """{node: copies that this receiver lost to interference while that node was on the air}."""
+        """{node: copies that this receiver lost to interference by frames of that node, or of it and others}.
+
+        Meant are those on the air when the interference was at its strongest.
+        """
     def frames_by_bitrate(self, node: int) -> dict[int, int]:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
     def message_fates(self) -> dict[str, dict[str, int]]:

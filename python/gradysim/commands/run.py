@@ -13,7 +13,7 @@ from cyclopts import Parameter
 from gradysim.commands.arguments import ConfigOption, FileArgument, Mode, SetOption, WholeNumber
 from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK, say_mistake
 from gradysim.commands.scenarios import load
-from gradysim.commands.simulators import captures, capturing_simulator, files_written, simulator
+from gradysim.commands.simulators import captures, files_written, ids_of_fates, simulator
 from gradysim.commands.warnings import (
     warn_of_equal_seeds,
     warn_of_metres_for_times,
@@ -38,6 +38,17 @@ PcapOption = Annotated[
         help="NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap"
         " (that of its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a"
         " group (uavs), or all.",
+    ),
+]
+
+FatesAtOption = Annotated[
+    tuple[str, ...],
+    Parameter(
+        negative="",
+        consume_multiple=(1, None),
+        show_default=False,
+        help="NODE...: tell what became of the frames that reached these nodes, and who interfered. A node"
+        " (uavs[0]), a group (uavs), or all.",
     ),
 ]
 
@@ -73,6 +84,7 @@ def run(
         WholeNumber, Parameter(alias="-j", help="How many runs at once, each in a process of its own.")
     ] = 1,
     pcap: PcapOption = (),
+    fates_at: FatesAtOption = (),
     as_json: Annotated[
         bool,
         Parameter(name="--json", negative="", help="Print one JSON object per run, one per line, no more."),
@@ -93,10 +105,10 @@ def run(
                 make_result_dir(result_dir)
             with waiting(f"reading {file}", shown=bar):
                 scenarios = load(file, config, runs, settings, seed)
-            check, build = simulator(mode) if not pcap else capturing_simulator(mode, pcap, result_dir)
+            check, build = simulator(mode, pcap, fates_at, result_dir)
             warn_of_equal_seeds(scenarios)
             if resume:
-                scenarios = left_to_do(scenarios, mode, result_dir)
+                scenarios = left_to_do(scenarios, mode, result_dir, fates_at)
                 if not scenarios:
                     return OK
             warn_of_shadowed_lines(scenarios[0])
@@ -179,15 +191,24 @@ def make_result_dir(directory: Path) -> None:
         raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
 
 
-def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, result_dir: Path | None) -> "list[Scenario]":
-    """Return the runs that have no result yet, and say which have one. ConfigError without a folder."""
+def left_to_do(
+    scenarios: "Sequence[Scenario]", mode: Mode, result_dir: Path | None, fates_at: Sequence[str]
+) -> "list[Scenario]":
+    """Return the runs that have no result yet, and say which have one.
+
+    Raises ConfigError without a folder, and for names in `fates_at` that are none of nodes.
+    """
     from gradysim.config.error import ConfigError
     from gradysim.config.run_numbers import text_of_runs
     from gradysim.results.run_file import is_done
 
     if result_dir is None:
         raise ConfigError("--resume: there is no folder to look into; expected --result-dir DIR, too")
-    left = [scenario for scenario in scenarios if not is_done(scenario, mode, result_dir)]
+    left = [
+        scenario
+        for scenario in scenarios
+        if not is_done(scenario, mode, result_dir, ids_of_fates(scenario, fates_at))
+    ]
     to_do = {scenario.run_number for scenario in left}
     done = [scenario.run_number for scenario in scenarios if scenario.run_number not in to_do]
     if done:

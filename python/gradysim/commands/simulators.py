@@ -1,4 +1,4 @@
-"""What checks and builds the runs of either mode, with capture files or without."""
+"""What checks and builds the runs of either mode, with capture files and fates at single nodes or without."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -11,37 +11,50 @@ if TYPE_CHECKING:
     from gradysim.report.supervised_run import Run
 
 
-def simulator(mode: Mode) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":
-    """Return what checks a scenario for `mode` and what builds its run; the other mode is not imported."""
+def simulator(
+    mode: Mode, pcap: Sequence[str] = (), fates_at: Sequence[str] = (), result_dir: Path | None = None
+) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":
+    """Return what checks a scenario for `mode` and what builds its run; the other mode is not imported.
+
+    Raises ConfigError for options that need frames and a mode without.
+    """
     if mode == "prototype":
         from gradysim.prototype.run import PrototypeRun
         from gradysim.prototype.simulation import check_scenario
 
+        require_no_names("--pcap", pcap, "no frames to capture")
+        require_no_names("--fates-at", fates_at, "no fates of frames")
         return check_scenario, PrototypeRun
-    from gradysim.integrated.network import check_scenario
-    from gradysim.integrated.run import IntegratedRun
 
-    return check_scenario, IntegratedRun
-
-
-def capturing_simulator(
-    mode: Mode, pcap: Sequence[str], result_dir: Path | None
-) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":
-    """The same for runs that write capture files. Raises ConfigError for a mode without frames."""
-    from gradysim.config.error import ConfigError
-
-    if mode == "prototype":
-        raise ConfigError(
-            f"--pcap {pcap[0]}: prototype mode has no frames to capture; expected --mode integrated"
-        )
-    from gradysim.integrated.network import check_scenario
+    from gradysim.integrated.network import check_scenario as check_network
     from gradysim.integrated.run import IntegratedRun
 
     def check(scenario: "Scenario") -> None:
-        check_scenario(scenario)
+        check_network(scenario)
         captures(scenario, pcap, result_dir)
+        ids_of_fates(scenario, fates_at)
 
-    return check, lambda scenario: IntegratedRun(scenario, captures(scenario, pcap, result_dir))
+    def build(scenario: "Scenario") -> "Run":
+        return IntegratedRun(
+            scenario, captures(scenario, pcap, result_dir), fates_at=ids_of_fates(scenario, fates_at)
+        )
+
+    return check, build
+
+
+def require_no_names(option: str, names: Sequence[str], reason: str) -> None:
+    """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
+    from gradysim.config.error import ConfigError
+
+    if names:
+        raise ConfigError(f"{option} {names[0]}: prototype mode has {reason}; expected --mode integrated")
+
+
+def ids_of_fates(scenario: "Scenario", fates_at: Sequence[str]) -> list[int]:
+    """Return the ids of the nodes that --fates-at names. Raises ConfigError for an unknown name."""
+    from gradysim.config.node_names import nodes_named
+
+    return [node.id for node in nodes_named(scenario, fates_at, "--fates-at")]
 
 
 def captures(scenario: "Scenario", pcap: Sequence[str], result_dir: Path | None) -> dict[int, Path]:

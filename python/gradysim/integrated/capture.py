@@ -5,26 +5,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
-from gradysim.config.nearest import did_you_mean
-from gradysim.config.scenario import NodeSpec, Scenario
+from gradysim.config.node_names import nodes_named
+from gradysim.config.scenario import Scenario
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network
 
-ALL = "all"
-"""Stands for every node, unless a node or a group has that name."""
-
 
 def capture_files(scenario: Scenario, names: Iterable[str], directory: Path) -> dict[int, Path]:
     """Return {id of a node: the file for what it sends and receives}, in the order of ids.
 
-    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `ALL`. The files are
+    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `all`. The files are
     `directory`/CONFIG-#RUN-NODE.pcap. Raises ConfigError for a name that the scenario has not.
     """
-    chosen = {node.id: node for name in names for node in nodes_named(scenario, name)}
     prefix = f"{scenario.config}-#{scenario.run_number}"
-    return {node_id: directory / f"{prefix}-{chosen[node_id].name}.pcap" for node_id in sorted(chosen)}
+    nodes = nodes_named(scenario, names, "--pcap")
+    return {node.id: directory / f"{prefix}-{node.name}.pcap" for node in nodes}
 
 
 def files_of_interfaces(scenario: Scenario, files: Mapping[int, Path]) -> dict[tuple[int, int], Path]:
@@ -34,24 +31,6 @@ def files_of_interfaces(scenario: Scenario, files: Mapping[int, Path]) -> dict[t
         for node_id, file in files.items()
         for index in range(len(scenario.nodes[node_id].wlan))
     }
-
-
-def nodes_named(scenario: Scenario, name: str) -> list[NodeSpec]:
-    """Return the node or the nodes of the group of that name."""
-    found = [node for node in scenario.nodes if name in (node.name, node.group)]
-    if found:
-        return found
-    if name == ALL:
-        return list(scenario.nodes)
-    groups = list(dict.fromkeys(node.group for node in scenario.nodes))
-    candidates = [*groups, *(node.name for node in scenario.nodes), ALL]
-    suggestion = did_you_mean(name, candidates)
-    raise ConfigError(
-        f"--pcap {name}: no such node; expected a node such as {scenario.nodes[0].name}, "
-        f"a group ({', '.join(groups)}) or {ALL}{suggestion}"
-        if scenario.nodes
-        else f"--pcap {name}: no such node; the scenario has none"
-    )
 
 
 def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, Path]) -> None:

@@ -17,6 +17,7 @@ from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import start_captures
 from gradysim.integrated.compiled_part import load_netsim
+from gradysim.integrated.fates_at import checked_ids, with_fates
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
@@ -41,6 +42,7 @@ class IntegratedRun:
         scenario: Scenario,
         captures: Mapping[int, Path] | None = None,
         *,
+        fates_at: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
     ) -> None:
@@ -53,13 +55,16 @@ class IntegratedRun:
         `captures` says for the ids of some nodes in which pcap file to write what they send and receive.
         The files are complete when `execute` returns or raises.
 
+        `fates_at` are the ids of the nodes whose results tell what became of frames there and who interfered:
+        `NodeResult.frame_fates` and `interferers`. The run itself is the same, and as fast.
+
         `real_time` lets simulated time go by as on the wall clock (True), or so many times as fast; False or
         0 is full speed. For viewers: events are up to 10 ms of wall time late.
 
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
         accept a value of the scenario or cannot write a capture file, ValueError or TypeError when `scenario`
-        is none, a handler cannot work in this mode or `real_time` is no factor, and what the constructor of a
-        protocol raises.
+        is none, `fates_at` has what is no id of a node, a handler cannot work in this mode or `real_time` is
+        no factor, and what the constructor of a protocol raises.
         """
         require_scenario(scenario)
         self._started = (perf_counter(), process_time())
@@ -67,6 +72,7 @@ class IntegratedRun:
         self._scenario = scenario
         self._complete = False
         self._real_time_factor = real_time_factor(real_time)
+        self._fates_at = checked_ids(fates_at, len(scenario.nodes))
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
         self._captures = captures or {}
@@ -160,6 +166,14 @@ class IntegratedRun:
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
         scenario, network = self._scenario, self._network
+        nodes = node_results(
+            scenario,
+            (
+                (node.position, encapsulator.provider.tracked_variables)
+                for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
+            ),
+            [network.frames_by_bitrate(node.id) for node in self._nodes],
+        )
         return RunResult(
             config=scenario.config,
             run=scenario.run_number,
@@ -175,14 +189,7 @@ class IntegratedRun:
             interrupted=not self._complete,
             fingerprint=network.fingerprint,
             fates={"frames": network.frame_fates(), "messages": network.message_fates()},
-            nodes=node_results(
-                scenario,
-                (
-                    (node.position, encapsulator.provider.tracked_variables)
-                    for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
-                ),
-                [network.frames_by_bitrate(node.id) for node in self._nodes],
-            ),
+            nodes=with_fates(nodes, self._fates_at, network),
         )
 
 
@@ -192,10 +199,13 @@ def run(
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
     captures: Mapping[int, Path] | None = None,
+    fates_at: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
-    integrated_run = IntegratedRun(scenario, captures, handlers=handlers, real_time=real_time)
+    integrated_run = IntegratedRun(
+        scenario, captures, fates_at=fates_at, handlers=handlers, real_time=real_time
+    )
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

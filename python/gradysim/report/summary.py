@@ -4,13 +4,14 @@ from collections.abc import Mapping
 from numbers import Real
 
 from rich import box
-from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
-from rich.measure import Measurement
+from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
 from gradysim.config.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
+from gradysim.report.count_tables import CountTables
+from gradysim.report.fates_at_nodes import fates_at_nodes, interferer_table
 from gradysim.results.run_result import NodeResult, RunResult
 
 MAX_VALUE_LENGTH = 200
@@ -47,8 +48,23 @@ def summary(result: RunResult) -> RenderableType:
             parts.append(Text(f"… and {len(result.nodes) - len(shown):,} more nodes; --json has all"))
     for what, kinds in result.fates.items():
         if has_counts(kinds):
-            parts += [title(FATE_TITLES.get(what, what)), FateTables(counted(kinds))]
-    return Group(*parts)
+            parts += [title(FATE_TITLES.get(what, what)), CountTables("fate", counted(kinds))]
+    return Group(*parts, *at_nodes(result))
+
+
+def at_nodes(result: RunResult) -> list[RenderableType]:
+    """Return what became of frames at the nodes that the run was asked for, and who interfered there."""
+    told = tuple(node for node in result.nodes if node.frame_fates is not None)
+    if not told:
+        return []
+    shown = told if len(told) <= MAX_NODES else told[:NODES_OF_MANY]
+    fates = dict.fromkeys(fate for counts in result.fates["frames"].values() for fate in counts)
+    parts = [title("Fates of frames at nodes, whoever they were for"), fates_at_nodes(shown, fates)]
+    if any(node.interferers for node in shown):
+        parts += [title("Lost to interference, and to whose frames"), interferer_table(shown)]
+    if len(shown) < len(told):
+        parts.append(Text(f"… and {len(told) - len(shown):,} more nodes; --json has all"))
+    return parts
 
 
 def title(text: str) -> Text:
@@ -117,10 +133,14 @@ def short(value: object) -> str:
 
 
 def counted(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, dict[str, int]]:
-    """Return {kind: {fate: count}} without what belongs to an option, and of which there was nothing."""
+    """Return {kind: {fate: count}} for people, without what belongs to an option and of which was nothing."""
     met = {fate for counts in kinds.values() for fate, count in counts.items() if count}
     return {
-        kind: {fate: count for fate, count in counts.items() if fate in met or fate not in OF_OPTIONS}
+        kind: {
+            fate.replace("_", " "): count
+            for fate, count in counts.items()
+            if fate in met or fate not in OF_OPTIONS
+        }
         for kind, counts in kinds.items()
         if any(counts.values()) or kind not in OF_OPTIONS
     }
@@ -129,42 +149,3 @@ def counted(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, dict[str, int]]
 def has_counts(kinds: Mapping[str, Mapping[str, int]]) -> bool:
     """Return whether anything was counted at all."""
     return any(any(fates.values()) for fates in kinds.values())
-
-
-class FateTables:
-    """The fates of {kind: {fate: count}}: one table, or several if the console has no room for it.
-
-    A table that is squeezed into a narrow console loses digits.
-    """
-
-    def __init__(self, kinds: Mapping[str, Mapping[str, int]]) -> None:
-        self._kinds = kinds
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        """Yield tables of as many kinds as fit beside each other, at least one."""
-        unlimited = options.update(max_width=10_000)
-        shown: dict[str, Mapping[str, int]] = {}
-        for kind, counts in self._kinds.items():
-            wider = {**shown, kind: counts}
-            if shown and Measurement.get(console, unlimited, fate_table(wider)).maximum > options.max_width:
-                yield fate_table(shown)
-                yield Text()
-                wider = {kind: counts}
-            shown = wider
-        yield fate_table(shown)
-
-
-def fate_table(kinds: Mapping[str, Mapping[str, int]]) -> Table:
-    """Return a row per fate and a column per kind, of {kind: {fate: count}}."""
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-    table.add_column("fate", no_wrap=True)
-    for kind in kinds:
-        table.add_column(Text(kind.replace(" ", "\n")), justify="right", no_wrap=True)
-    fates = list(dict.fromkeys(fate for counts in kinds.values() for fate in counts))
-    for fate in fates:
-        table.add_row(
-            Text(fate.replace("_", " ")), *(f"{counts.get(fate, 0):,}" for counts in kinds.values())
-        )
-    table.add_section()
-    table.add_row("sum", *(f"{sum(counts.values()):,}" for counts in kinds.values()))
-    return table

@@ -2,6 +2,7 @@
 
 import json
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 from gradysim.config.scenario import Scenario
@@ -13,11 +14,11 @@ def run_file(directory: Path, config: str, run: int, mode: Mode) -> Path:
     return directory / f"{config}-#{run}.{mode}.json"
 
 
-def is_done(scenario: Scenario, mode: Mode, directory: Path) -> bool:
+def is_done(scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[int] = ()) -> bool:
     """Whether `directory` has the result of just this run, with the same settings and seed, to its end.
 
-    What is no such file counts as none. Of changes in files that settings name, such as protocols,
-    it knows nothing.
+    It has to tell the fates of frames at the nodes `fates_at`, by their ids. What is no such file counts as
+    none. Of changes in files that settings name, such as protocols, it knows nothing.
     """
     file = run_file(directory, scenario.config, scenario.run_number, mode)
     try:
@@ -32,7 +33,16 @@ def is_done(scenario: Scenario, mode: Mode, directory: Path) -> bool:
         "iterations": plain_iterations(scenario.iterations),
     }
     return (
-        isinstance(result, dict) and expected.items() <= {name: result.get(name) for name in expected}.items()
+        isinstance(result, dict)
+        and expected.items() <= {name: result.get(name) for name in expected}.items()
+        and _has_fates_at(fates_at, result.get("nodes"))
+    )
+
+
+def _has_fates_at(fates_at: Iterable[int], nodes: object) -> bool:
+    told = nodes if isinstance(nodes, list) else []
+    return {node.get("id") for node in told if isinstance(node, dict) and "frame_fates" in node}.issuperset(
+        fates_at
     )
 
 

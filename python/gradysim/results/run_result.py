@@ -35,11 +35,20 @@ class NodeResult:
     """The last value of each variable that the protocol tracked."""
     frames_by_bitrate: Mapping[int, int] = field(default_factory=dict)
     """{bits per second: unicast frames sent at it, with retries}; empty for nodes without a rate control."""
+    frame_fates: Mapping[str, Mapping[str, int]] | None = None
+    """{kind: {fate: copies}} of the frames that were strong enough to be received here, whoever they were
+    for, without zeros; None unless the run was asked for it (`fates_at`). Kinds: "broadcast", "unicast",
+    "ack", "rts", "cts"; copies that are too weak or in air are kept for the whole network only."""
+    interferers: Mapping[str, int] | None = None
+    """{name of a node: copies that were lost here to interference by frames of that node, or of it and
+    others}, in the order of ids; None as above. Meant are those on the air when the interference was
+    at its strongest; a copy counts once for each of them."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the fields as plain values; see `plain_value` for tracked variables of other kinds.
 
-        `frames_by_bitrate` is left out where it is empty; its keys are texts then.
+        `frames_by_bitrate` is left out where it is empty; its keys are texts then. `frame_fates` and
+        `interferers` are left out where they are None.
         """
         rates = {str(bitrate): frames for bitrate, frames in self.frames_by_bitrate.items()}
         return {
@@ -49,7 +58,17 @@ class NodeResult:
             "position": plain_value(self.position),
             "tracked_variables": plain_value(self.tracked_variables),
             **({"frames_by_bitrate": rates} if rates else {}),
+            **self._fates(),
         }
+
+    def _fates(self) -> dict[str, object]:
+        """Return what was asked for: of large networks millions of counts, all of them plain already."""
+        told: dict[str, object] = {}
+        if self.frame_fates is not None:
+            told["frame_fates"] = {kind: dict(counts) for kind, counts in self.frame_fates.items()}
+        if self.interferers is not None:
+            told["interferers"] = dict(self.interferers)
+        return told
 
 
 def plain_iterations(values: Mapping[str, str]) -> dict[str, int | float | str]:

@@ -10,12 +10,19 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
+import gradysim.integrated.run
 from gradysim.config import Scenario, load_scenarios
 from gradysim.prototype.run import run
 
 GUIDE = "docs/guides/results.md"
 
 CodeBlocks = Callable[[str, str], list[str]]
+
+
+def names_in_table(text: str) -> set[str]:
+    """What stands in code quotes in its first column."""
+    rows = re.findall(r"^\| (`.*?) \|", text, re.MULTILINE)
+    return {name for row in rows for name in re.findall(r"`(\w+)`", row)}
 
 
 @pytest.fixture
@@ -65,7 +72,7 @@ def test_the_means_of_the_study_are_those_that_are_shown(
     with (folder / "hello.ini").open("a") as file:
         file.write(code_blocks("README.md", "ini")[1])
     shell("gradysim run hello.ini -c Study --result-dir results --quiet", folder)
-    (table,) = code_blocks(GUIDE, "text")
+    _, table = code_blocks(GUIDE, "text")
     printed = shell("gradysim means results", folder).splitlines()
     assert [line.rstrip() for line in printed] == table.splitlines()
 
@@ -85,7 +92,40 @@ def test_lines_of_studies_are_understood(root: Path, folder: Path, line: str, ru
 
 
 def test_its_table_has_all_fields(root: Path, make_scenario: Callable[..., Scenario]) -> None:
-    table = (root / GUIDE).read_text().partition("A row for each node")[0]
-    rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
-    names = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+    names = names_in_table((root / GUIDE).read_text().partition("A row for each node")[0])
     assert names == set(run(make_scenario()).to_json_object())
+
+
+@pytest.fixture
+def hidden(code_blocks: CodeBlocks, folder: Path) -> Path:
+    """The folder, with the configuration whose nodes are hidden from each other."""
+    with (folder / "hello.ini").open("a") as file:
+        file.write(code_blocks(GUIDE, "ini")[0])
+    return folder
+
+
+def test_what_it_shows_of_single_nodes_is_the_end_of_the_summary(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], hidden: Path
+) -> None:
+    shown = [line for line in code_blocks(GUIDE, "text")[0].splitlines() if line]
+    printed = shell("gradysim run hello.ini -c Hidden --fates-at nodes --quiet", hidden).splitlines()
+    assert [line.rstrip() for line in printed if line.strip()][-len(shown) :] == shown
+
+
+def test_its_table_of_a_node_has_what_is_told_of_nodes_that_were_asked_for(root: Path, hidden: Path) -> None:
+    table = (root / GUIDE).read_text().partition("| field of a node |")[2].partition("```python")[0]
+    (scenario,) = load_scenarios(hidden / "hello.ini", "Hidden")
+    unasked, asked = gradysim.integrated.run.run(scenario, fates_at=[1]).nodes[:2]
+    assert names_in_table(table) == asked.to_json_object().keys() - unasked.to_json_object().keys()
+
+
+def test_its_rows_of_interference_are_those_of_the_summary(
+    shell: Callable[[str, Path], str], hidden: Path, shown: dict[str, Any]
+) -> None:
+    shell("gradysim run hello.ini -c Hidden --fates-at nodes[1] --json > runs.jsonl", hidden)
+    rows = list(shown["interference"](str(hidden / "runs.jsonl")))
+    assert [(row["run"], row["at"], row["by"], row["copies"]) for row in rows] == [
+        (0, "nodes[1]", "nodes[0]", 3),
+        (0, "nodes[1]", "nodes[2]", 2),
+        (0, "nodes[1]", "nodes[3]", 5),
+    ]

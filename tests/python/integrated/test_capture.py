@@ -3,7 +3,6 @@ from pathlib import Path
 import pytest
 
 from gradysim.config.error import ConfigError
-from gradysim.config.scenario import load_scenarios
 from gradysim.integrated.capture import capture_files, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
 
@@ -12,34 +11,10 @@ FAILING = 'class Tested(Talker):\n    def handle_packet(self, message): raise Ru
 HEADER_BYTES = 24
 
 
-@pytest.fixture
-def scenario(make_scenario, tmp_path):
-    """Two UAVs and a ground station."""
-    make_scenario()
-    with (tmp_path / "test.ini").open("a") as file:
-        file.write('*.groundStation.protocol.class = "protocol.py:Tested"\n')
-    (scenario,) = load_scenarios(tmp_path / "test.ini")
-    return scenario
-
-
-@pytest.mark.parametrize(
-    ("names", "nodes"),
-    [
-        (["uavs[1]"], [1]),
-        (["groundStation"], [2]),
-        (["uavs"], [0, 1]),
-        (["all"], [0, 1, 2]),
-        (["groundStation", "uavs[0]"], [0, 2]),
-        (["uavs", "uavs[0]", "all"], [0, 1, 2]),
-        ([], []),
-    ],
-)
-def test_nodes_by_name(scenario, names, nodes):
-    assert list(capture_files(scenario, names, Path("out"))) == nodes
-
-
-def test_files_are_named_after_configuration_run_and_node(scenario):
-    assert capture_files(scenario, ["uavs[1]"], Path("out")) == {1: Path("out/General-#0-uavs[1].pcap")}
+def test_files_are_named_after_configuration_run_and_node(make_scenario):
+    assert capture_files(make_scenario(), ["uavs[1]"], Path("out")) == {
+        1: Path("out/General-#0-uavs[1].pcap")
+    }
 
 
 def test_each_further_interface_has_a_file_of_its_own(make_scenario):
@@ -51,15 +26,6 @@ def test_each_further_interface_has_a_file_of_its_own(make_scenario):
         (1, 1): "General-#0-uavs[1]-wlan1.pcap",
         (1, 2): "General-#0-uavs[1]-wlan2.pcap",
     }
-
-
-def test_an_unknown_name_says_what_there_is(scenario):
-    with pytest.raises(ConfigError) as error:
-        capture_files(scenario, ["groundstation"], Path("out"))
-    assert str(error.value) == (
-        "--pcap groundstation: no such node; expected a node such as uavs[0], a group (uavs, groundStation)"
-        " or all; did you mean `groundStation`?"
-    )
 
 
 def test_a_unit_disk_medium_has_nothing_to_capture(make_scenario, tmp_path):

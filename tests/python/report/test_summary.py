@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 from io import StringIO
 
 import pytest
@@ -22,7 +23,10 @@ def printed(width=100, **changes):
         "interrupted": False,
         "fingerprint": "0123456789abcdef",
         "fates": {
-            "frames": {"broadcast": {"delivered": 1500, "below_sensitivity": 2}, "ack": {"delivered": 3}}
+            "frames": {
+                "broadcast": {"delivered": 1500, "below_sensitivity": 2, "interference": 0},
+                "ack": {"delivered": 3},
+            }
         },
         "nodes": (node,),
     }
@@ -64,26 +68,6 @@ def test_fates_are_a_table_with_a_column_per_kind():
     assert ["delivered", "1,500", "3"] in lines
     assert ["below", "sensitivity", "2", "0"] in lines
     assert ["sum", "1,502", "3"] in lines
-
-
-KINDS = {
-    kind: {"below_sensitivity": 1_234_567, "receiver_transmitting": number}
-    for number, kind in enumerate(
-        ["broadcast", "unicast", "unicast overheard", "ack", "ack overheard", "rts"]
-    )
-}
-
-
-@pytest.mark.parametrize("width", [50, 80, 200])
-def test_no_digit_of_a_fate_is_lost_in_a_narrow_console(width):
-    text = printed(width=width, fates={"frames": KINDS})
-    assert text.count("1,234,567") == len(KINDS) + 1  # the sum of the first kind is the same
-    assert "…" not in text
-
-
-def test_fates_stay_one_table_where_there_is_room():
-    lines = [line.split() for line in printed(width=200, fates={"frames": KINDS}).splitlines()]
-    assert ["receiver", "transmitting", "0", "1", "2", "3", "4", "5"] in lines
 
 
 def test_a_table_of_nothing_is_left_out():
@@ -149,6 +133,26 @@ def nodes(count):
 def test_many_nodes_are_cut_short(count, shown):
     text = printed(nodes=nodes(count))
     assert text.count("uavs[") == shown
+    assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
+
+
+def told_nodes(count):
+    """Nodes of a run that was asked for what became of frames there."""
+    fates = {"broadcast": {"delivered": 2, "interference": 1}}
+    return tuple(replace(node, frame_fates=fates, interferers={"uavs[0]": 1}) for node in nodes(count))
+
+
+def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
+    lines = [line.split() for line in printed(nodes=(*told_nodes(1), *nodes(1))).splitlines()]
+    assert ["uavs[0]", "broadcast", "2", "1"] in lines
+    assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
+    assert "Fates of frames at nodes" not in printed()
+
+
+@pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
+def test_fates_at_many_nodes_are_cut_short(count, shown):
+    _, _, text = printed(nodes=told_nodes(count)).partition("Fates of frames at nodes")
+    assert text.count(" broadcast ") == shown
     assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
 
 

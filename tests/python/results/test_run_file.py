@@ -6,7 +6,7 @@ import pathlib
 import pytest
 
 from gradysim.results.run_file import is_done, write_run_file
-from gradysim.results.run_result import RunResult
+from gradysim.results.run_result import NodeResult, RunResult
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
 
@@ -97,6 +97,17 @@ def test_the_values_of_a_run_that_is_done_may_be_numbers_and_texts(done):
     iterations = {"x": "0.1", "y": '"a"', "z": "5m"}
     write_run_file(dataclasses.replace(result, iterations=iterations), folder)
     assert is_done(dataclasses.replace(scenario, iterations=iterations), "integrated", folder)
+
+
+def test_a_result_without_the_fates_that_are_wanted_is_not_enough(done):
+    scenario, result, folder = done
+    nodes = [
+        NodeResult(0, "uavs[0]", "Tested", (0.0, 0.0, 0.0), {}, {}, {}, {}),
+        NodeResult(1, "uavs[1]", "Tested", (0.0, 0.0, 0.0), {}),
+    ]
+    write_run_file(dataclasses.replace(result, nodes=tuple(nodes)), folder)
+    assert is_done(scenario, "integrated", folder, fates_at=[0])
+    assert not is_done(scenario, "integrated", folder, fates_at=[0, 1])
 
 
 @pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"run": ', b"\xff", b"[" * 99_999])

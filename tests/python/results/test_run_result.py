@@ -70,6 +70,13 @@ def test_frames_by_bitrate_are_there_if_there_were_any():
     assert node.to_json_object()["frames_by_bitrate"] == {"24000000": 3, "6000000": 1}
 
 
+def test_fates_and_interferers_are_there_if_the_run_was_asked_for_them():
+    heard = {"broadcast": {"delivered": 3}}
+    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, {}, heard, {})
+    told = node.to_json_object()
+    assert (told["frame_fates"], told["interferers"]) == (heard, {})
+
+
 def test_a_tracked_variable_without_a_json_form_is_given_as_repr():
     (node,) = json.loads(json.dumps(result_with({"seen": {4}}).to_json_object()))["nodes"]
     assert node["tracked_variables"] == {"seen": "{4}"}

@@ -6,6 +6,7 @@ the prototype and fail on a real channel; with a random delay they work on both,
 more. The numbers of the paper are not claimed: its radios were tuned for another simulator.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -16,7 +17,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 import gradysim.prototype.run
 from gradysim.config.scenario import load_scenarios
-from gradysim.integrated.run import IntegratedRun
+from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
@@ -33,16 +34,16 @@ class Flight:
     """
 
     result: RunResult
-    heard: dict[str, dict[str, int]]
+    heard: Mapping[str, Mapping[str, int]]
 
 
 @cache
 def integrated(config: str, seed: int = 0) -> Flight:
     (scenario,) = load_scenarios(FILE, config, overrides=[f"seed-set = {seed}"])
-    run = IntegratedRun(scenario)
-    run.execute()
-    station = scenario.nodes[-1].id
-    return Flight(run.result(), run._network.frame_fates_at(station))
+    result = run(scenario, fates_at=[scenario.nodes[-1].id])
+    heard = result.nodes[-1].frame_fates
+    assert heard is not None
+    return Flight(result, heard)
 
 
 @cache
@@ -72,7 +73,7 @@ def test_synchronised_heartbeats_work_in_the_prototype() -> None:
 @pytest.mark.parametrize("size", SIZES)
 def test_every_heartbeat_that_reaches_the_ground_station_meets_its_own_transmission(size: str) -> None:
     heard = integrated(f"{size}Synchronised").heard["broadcast"]
-    assert heard == dict.fromkeys(heard, 0) | {"receiver_transmitting": sum(heard.values())}
+    assert heard.keys() == {"receiver_transmitting"}
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -82,8 +83,7 @@ def test_heartbeats_did_reach_the_ground_station(size: str) -> None:
 
 @pytest.mark.parametrize("size", SIZES)
 def test_nobody_gets_as_far_as_sending_the_ground_station_a_message(size: str) -> None:
-    unicast = integrated(f"{size}Synchronised").heard["unicast"]
-    assert sum(unicast.values()) == 0
+    assert "unicast" not in integrated(f"{size}Synchronised").heard
 
 
 @pytest.mark.parametrize("fate", ["receiver_transmitting", "interference"])

@@ -1,0 +1,55 @@
+"""What became of frames at single nodes, of which a result tells only for those that it is asked for.
+
+The engine keeps it for all nodes. As Python's objects, that of a network of thousands would take longer to
+make, and more room in a file, than all else in its result.
+"""
+
+import operator
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from gradysim.results.run_result import NodeResult
+
+if TYPE_CHECKING:
+    from gradysim._netsim import Network
+
+
+def checked_ids(fates_at: Iterable[int], count: int) -> frozenset[int]:
+    """Return the ids of some of `count` nodes.
+
+    Raises TypeError for what is no id, and ValueError for one that is not there.
+    """
+    try:
+        ids = frozenset(map(operator.index, fates_at))
+    except TypeError:
+        raise TypeError(
+            f"fates_at = {fates_at!r}: expected ids of nodes, such as [0], or range({count}) for all"
+        ) from None
+    for node_id in ids:
+        if not 0 <= node_id < count:
+            raise ValueError(
+                f"fates_at: there is no node {node_id}; expected ids of the {count} nodes, from 0"
+            )
+    return ids
+
+
+def with_fates(
+    nodes: tuple[NodeResult, ...], ids: frozenset[int], network: "Network"
+) -> tuple[NodeResult, ...]:
+    """Return the results of all nodes, those of `ids` with what the network's ledger says of them."""
+    if not ids:
+        return nodes
+    return tuple(_with_fates(node, nodes, network) if node.id in ids else node for node in nodes)
+
+
+def _with_fates(node: NodeResult, nodes: tuple[NodeResult, ...], network: "Network") -> NodeResult:
+    kinds = {
+        kind: {fate: copies for fate, copies in counts.items() if copies}
+        for kind, counts in network.frame_fates_at(node.id).items()
+    }
+    return replace(
+        node,
+        frame_fates={kind: counts for kind, counts in kinds.items() if counts},
+        interferers={nodes[by].name: copies for by, copies in network.interferers_at(node.id).items()},
+    )

@@ -1,0 +1,43 @@
+"""`gradysim run --fates-at`: what is told of single nodes, and what is refused."""
+
+from python.cli.command import compiled, objects
+
+
+@compiled
+def test_results_tell_of_the_nodes_that_are_named(gradysim):
+    done = gradysim("run", "test.ini", "-r", "0", "--json", "--fates-at", "uavs[1]")
+    ((first, second),) = (run["nodes"] for run in objects(done.stdout))
+    assert "frame_fates" not in first
+    assert second["frame_fates"] == {"broadcast": {"delivered": 10}}
+    assert second["interferers"] == {}
+
+
+@compiled
+def test_the_summary_tells_of_them(gradysim):
+    done = gradysim("run", "test.ini", "-r", "0", "--fates-at", "all")
+    lines = [line.split() for line in done.stdout.splitlines()]
+    assert ["uavs[0]", "broadcast", "10"] in lines
+    assert ["uavs[1]", "broadcast", "10"] in lines
+
+
+@compiled
+def test_resumed_runs_are_repeated_for_nodes_that_were_not_told_of(gradysim):
+    arguments = ("run", "test.ini", "--result-dir", "out", "--resume", "--json", "--fates-at")
+    assert len(objects(gradysim(*arguments, "uavs[0]").stdout)) == 3
+    assert len(objects(gradysim(*arguments, "uavs[0]").stdout)) == 0
+    assert len(objects(gradysim(*arguments, "uavs").stdout)) == 3
+
+
+@compiled
+def test_a_wrong_node(gradysim):
+    done = gradysim("run", "test.ini", "--fates-at", "uavs[7]")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("--fates-at uavs[7]: no such node; expected a node such as uavs[0]")
+
+
+def test_prototype_mode_has_no_frames(gradysim):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--fates-at", "all")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "--fates-at all: prototype mode has no fates of frames; expected --mode integrated\n"
+    )

@@ -1,0 +1,40 @@
+import pytest
+
+from gradysim.config.error import ConfigError
+from gradysim.config.node_names import nodes_named
+from gradysim.config.scenario import load_scenarios
+
+
+@pytest.fixture
+def scenario(make_scenario, tmp_path):
+    """Two UAVs and a ground station."""
+    make_scenario()
+    with (tmp_path / "test.ini").open("a") as file:
+        file.write('*.groundStation.protocol.class = "protocol.py:Tested"\n')
+    (scenario,) = load_scenarios(tmp_path / "test.ini")
+    return scenario
+
+
+@pytest.mark.parametrize(
+    ("names", "nodes"),
+    [
+        (["uavs[1]"], [1]),
+        (["groundStation"], [2]),
+        (["uavs"], [0, 1]),
+        (["all"], [0, 1, 2]),
+        (["groundStation", "uavs[0]"], [0, 2]),
+        (["uavs", "uavs[0]", "all"], [0, 1, 2]),
+        ([], []),
+    ],
+)
+def test_nodes_by_name(scenario, names, nodes):
+    assert [node.id for node in nodes_named(scenario, names, "--pcap")] == nodes
+
+
+def test_an_unknown_name_says_what_there_is(scenario):
+    with pytest.raises(ConfigError) as error:
+        nodes_named(scenario, ["groundstation"], "--fates-at")
+    assert str(error.value) == (
+        "--fates-at groundstation: no such node; expected a node such as uavs[0],"
+        " a group (uavs, groundStation) or all; did you mean `groundStation`?"
+    )

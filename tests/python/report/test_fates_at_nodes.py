@@ -1,0 +1,58 @@
+from io import StringIO
+
+from rich.console import Console
+
+from gradysim.report.fates_at_nodes import MAX_INTERFERERS, fates_at_nodes, interferer_table
+from gradysim.results.run_result import NodeResult
+
+
+def node(name, frame_fates, interferers=()):
+    return NodeResult(0, name, "Mobile", (0.0, 0.0, 0.0), {}, {}, frame_fates, dict(interferers))
+
+
+def lines(renderable, width=100):
+    text = StringIO()
+    Console(file=text, width=width).print(renderable)
+    return [line.split() for line in text.getvalue().splitlines() if line.strip()]
+
+
+NODES = [
+    node("my_nodes[0]", {"broadcast": {"noise": 2}, "ack": {"receiver_locked": 1234}}),
+    node("my_nodes[1]", {"broadcast": {"delivered": 7}}),
+]
+
+
+def test_a_row_for_each_kind_at_each_node_and_a_column_for_each_fate_in_their_order():
+    assert lines(fates_at_nodes(NODES, ["delivered", "noise", "interference", "receiver_locked"])) == [
+        ["receiver"],
+        ["at", "delivered", "noise", "locked"],
+        ["─" * len("my_nodes[0] broadcast   delivered   noise   receiver")],
+        ["my_nodes[0]", "broadcast", "0", "2", "0"],
+        ["my_nodes[0]", "ack", "0", "0", "1,234"],
+        ["my_nodes[1]", "broadcast", "7", "0", "0"],
+        ["sum", "7", "2", "1,234"],
+    ]
+
+
+def test_in_a_narrow_console_the_columns_follow_each_other():
+    shown = lines(fates_at_nodes(NODES, ["delivered", "noise"]), width=35)
+    assert ["my_nodes[1]", "broadcast", "7"] in shown
+    assert ["my_nodes[0]", "broadcast", "2"] in shown
+
+
+def test_nodes_that_nothing_reached_are_told():
+    assert lines(fates_at_nodes([node("uavs[0]", {})], ["delivered"])) == [
+        ["no", "frame", "was", "strong", "enough", "to", "be", "received", "there"]
+    ]
+
+
+def test_interferers_by_their_copies():
+    fates = {"broadcast": {"interference": 3}, "unicast": {"interference": 2, "delivered": 9}}
+    table = interferer_table([node("a", {}), node("b", fates, {"c": 1, "d": 4, "e": 1})])
+    assert lines(table)[2:] == [["b", "5", "d", "4,", "c", "1,", "e", "1"]]
+
+
+def test_many_interferers_are_cut_short():
+    many = {f"n[{index}]": 1 for index in range(MAX_INTERFERERS + 2)}
+    *_, row = lines(interferer_table([node("a", {"broadcast": {"interference": 12}}, many)]), width=300)
+    assert row[-6:] == ["n[9]", "1,", "…", "and", "2", "more"]
