@@ -18,12 +18,18 @@ from gradysim.config.error import ConfigError
 from gradysim.config.keys.environment import OBSTACLE_FILE
 from gradysim.config.kinds import LARGEST_COORDINATE_M
 from gradysim.config.nearest import misspelt
+from gradysim.config.neighbours import file_meant
 from gradysim.config.obstacle_spec import DEFAULT_MATERIAL, ObstacleSpec
 from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.source import Source
 from gradysim.protocol.position import Position, geo_to_cartesian
 
 LOCAL_CRS = "local"
+
+_IF_IN_METRES = (
+    "if they are x and y of the scene in metres, expected"
+    ' `"crs": {"type": "name", "properties": {"name": "local"}}` in the file'
+)
 
 Placing = Callable[[float, float], tuple[float, float]]
 """What turns the two numbers of a position into x and y in metres."""
@@ -70,7 +76,8 @@ def _parse(file: Path) -> Mapping[str, Any]:
     try:
         content = json.loads(file.read_text(encoding="utf-8-sig"), parse_int=_whole_number)
     except OSError as error:
-        raise _BadFileError(f"cannot read it: {error.strerror or error}") from error
+        hint = file_meant(file, (".geojson", ".json"))
+        raise _BadFileError(f"cannot read it: {error.strerror or error}{hint}") from error
     except UnicodeDecodeError as error:
         raise _BadFileError("it is no text in UTF-8") from error
     except json.JSONDecodeError as error:
@@ -111,14 +118,20 @@ def _placing(content: Mapping[str, Any], reference: Position | None) -> Placing:
     if reference is None:
         raise _BadFileError(
             "its coordinates are longitude and latitude, and nothing says where the scene is; expected "
-            "`*.coordinateSystem.sceneLatitude = ...deg` and `sceneLongitude`, or, if they are x and y in "
-            'metres, `"crs": {"type": "name", "properties": {"name": "local"}}` in the file'
+            "`*.coordinateSystem.sceneLatitude = ...deg` and `sceneLongitude`; " + _IF_IN_METRES
         )
 
     def place(longitude: float, latitude: float) -> tuple[float, float]:
         if abs(longitude) > 180 or abs(latitude) > 90:
-            raise _BadFileError(f"[{longitude:g}, {latitude:g}] is no longitude and latitude in degrees")
+            raise _BadFileError(
+                f"[{longitude:g}, {latitude:g}] is no longitude and latitude in degrees; {_IF_IN_METRES}"
+            )
         x, y, _ = geo_to_cartesian(reference, (latitude, longitude, reference[2]))
+        if not _is_in_the_scene(x, y):
+            raise _BadFileError(
+                f"[{longitude:g}, {latitude:g}] is too far away; expected longitude and latitude at most"
+                f" {LARGEST_COORDINATE_M} m from the origin; {_IF_IN_METRES}"
+            )
         return x, y
 
     return place
@@ -224,8 +237,12 @@ def _corner(position: object, place: Placing) -> tuple[float, float]:
     ):
         raise _BadFileError(f"{position!r} is no position; expected two numbers")
     x, y = place(float(position[0]), float(position[1]))
-    if not (abs(x) <= LARGEST_COORDINATE_M and abs(y) <= LARGEST_COORDINATE_M):
+    if not _is_in_the_scene(x, y):
         raise _BadFileError(
             f"{position!r} is too far away; expected at most {LARGEST_COORDINATE_M} m from the origin"
         )
     return x, y
+
+
+def _is_in_the_scene(x: float, y: float) -> bool:
+    return abs(x) <= LARGEST_COORDINATE_M and abs(y) <= LARGEST_COORDINATE_M

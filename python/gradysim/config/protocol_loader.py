@@ -2,13 +2,14 @@
 
 import importlib
 import inspect
+import os
 import traceback
 from pathlib import Path
 from types import ModuleType
 
 from gradysim.config.error import BadValue
-from gradysim.config.nearest import did_you_mean
-from gradysim.config.neighbours import names_beside
+from gradysim.config.nearest import did_you_mean, misspelt
+from gradysim.config.neighbours import file_meant
 from gradysim.config.protocol_contract import check_contract
 from gradysim.config.protocol_module import ModuleLoader
 from gradysim.protocol.interface import IProtocol
@@ -28,7 +29,7 @@ class ProtocolLoader:
         """
         place, colon, class_name = reference.rpartition(":")
         if not (colon and place and class_name.isidentifier()):
-            raise BadValue(f"`{reference}` names no class")
+            raise BadValue(f"`{reference}` names no class", _class_meant(reference, folder))
         if place.endswith(".py") or "/" in place or "\\" in place:
             module = self._from_file(place, folder)
         else:
@@ -42,9 +43,7 @@ class ProtocolLoader:
         except OSError as error:
             raise BadValue(f"{file}: {error.strerror}") from error
         if not is_file:
-            prefix = place[: len(place) - len(Path(place).name)]
-            hint = did_you_mean(place, (prefix + sibling for sibling in names_beside(file, "*.py")))
-            raise BadValue(f"there is no file {file}", hint)
+            raise BadValue(f"there is no file {file}", file_meant(file, (".py",), place))
         try:
             return self._modules.load(file)
         except (Exception, SystemExit) as error:
@@ -67,16 +66,44 @@ def _from_name(name: str, folder: Path, class_name: str) -> ModuleType:
 def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     cls = getattr(module, name, None)
     if cls is None:
-        protocols = [other for other, value in vars(module).items() if _is_protocol(value)]
+        protocols = _protocols(module)
         raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or _list(protocols))
     if not _is_protocol(cls):
-        raise BadValue(f"`{name}` in {place} is no protocol, it does not derive from IProtocol")
+        raise BadValue(
+            f"`{name}` in {place} is no protocol, it does not derive from IProtocol",
+            _list(_protocols(module)),
+        )
     protocol: type[IProtocol] = cls
     if inspect.isabstract(protocol):
-        missing = ", ".join(f"{method}()" for method in sorted(protocol.__abstractmethods__))
-        raise BadValue(f"`{name}` in {place} is not complete, it lacks {missing}")
+        missing = sorted(protocol.__abstractmethods__)
+        raise BadValue(
+            f"`{name}` in {place} is not complete, it lacks {_calls(missing)}", _misspelt(protocol, missing)
+        )
     check_contract(protocol)
     return protocol
+
+
+def _class_meant(reference: str, folder: Path) -> str:
+    """A hint for one that has a dot in the place of its colon."""
+    module, _, class_name = reference.rpartition(".")
+    file = f"{module.replace('.', '/')}.py"
+    is_meant = module and class_name.isidentifier() and class_name != "py" and os.path.isfile(folder / file)
+    return f"; did you mean `{file}:{class_name}`?" if is_meant else ""
+
+
+def _misspelt(protocol: type[IProtocol], missing: list[str]) -> str:
+    """A hint at methods of the class that look like missing ones."""
+    own = [name for name in dir(protocol) if not name.startswith("_") and name not in dir(IProtocol)]
+    alike = [name for method in missing if (name := misspelt(method, own))]
+    return f"; it has {_calls(alike)}" if alike else ""
+
+
+def _calls(methods: list[str]) -> str:
+    return ", ".join(f"{method}()" for method in methods)
+
+
+def _protocols(module: ModuleType) -> list[str]:
+    return [name for name, value in vars(module).items() if _is_protocol(value)]
 
 
 def _is_protocol(value: object) -> bool:

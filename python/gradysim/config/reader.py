@@ -11,8 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gradysim.config.error import ConfigError
-from gradysim.config.nearest import did_you_mean
-from gradysim.config.neighbours import names_beside
+from gradysim.config.neighbours import file_meant
 from gradysim.config.source import Source
 
 GENERAL = "General"
@@ -133,7 +132,7 @@ def _text_of(file: Path, asked_by: Source | None) -> str:
     try:
         data = file.read_bytes()
     except OSError as error:
-        hint = did_you_mean(file.name, names_beside(file, "*.ini"))
+        hint = file_meant(file, (".ini",))
         reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
         raise ConfigError(f"{file}: {reason}; expected an .ini file{hint}", asked_by) from error
     zero = data.find(b"\0")  # of UTF-16, say; no name of a file has one

@@ -13,6 +13,8 @@ class TrackedVariables(dict[str, Any]):
     element appended to a list, cannot be seen.
     """
 
+    __slots__ = ("_on_change",)  # so that `tracked_variables.x = 5` is an error, as it is of a dict
+
     def __init__(self, on_change: Callable[[str, Any], None]) -> None:
         """Start empty. `on_change(name, value)` is called after each change, with None for a removed item."""
         super().__init__()

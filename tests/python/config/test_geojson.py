@@ -137,8 +137,25 @@ def test_mistakes_name_file_and_feature(folder: Any, text: str, message: str) ->
 
 def test_degrees_out_of_range_are_told(folder: Any) -> None:
     folder.write("town.geojson", town(feature(coordinates=[[[0, 0], [0, 95], [1, 1], [0, 0]]]), crs=None))
-    assert "[0, 95] is no longitude and latitude in degrees" in folder.error(LINE + ON_EARTH)
+    error = folder.error(LINE + ON_EARTH)
+    assert (
+        "[0, 95] is no longitude and latitude in degrees; if they are x and y of the scene in metres" in error
+    )
+
+
+def test_small_numbers_of_metres_are_taken_for_degrees_and_told_as_far_away(folder: Any) -> None:
+    folder.write(
+        "town.geojson", town(feature(coordinates=[[[40, 0], [170, 50], [41, 1], [40, 0]]]), crs=None)
+    )
+    error = folder.error(LINE + ON_EARTH)
+    assert "[170, 50] is too far away; expected longitude and latitude at most 10000000 m" in error
+    assert error.endswith('`"crs": {"type": "name", "properties": {"name": "local"}}` in the file')
 
 
 def test_a_missing_file_is_told(folder: Any) -> None:
     assert "town.geojson: cannot read it: No such file" in folder.error(LINE)
+
+
+def test_a_file_with_nearly_the_name_of_a_missing_one_is_suggested(folder: Any) -> None:
+    folder.write("twon.geojson", "")
+    assert folder.error(LINE).endswith("No such file or directory; did you mean `twon.geojson`?")

@@ -43,6 +43,9 @@ def test_loads_from_a_module(folder: Any, monkeypatch: pytest.MonkeyPatch) -> No
         ("protocols.py", "`protocols.py` names no class"),
         ("protocols.py:", "`protocols.py:` names no class"),
         (":Mobile", "`:Mobile` names no class"),
+        ("protocols.Mobile", "`protocols.Mobile` names no class; did you mean `protocols.py:Mobile`?"),
+        ("n" * 5000 + ".Mobile", "`" + "n" * 5000 + ".Mobile` names no class"),
+        ("elsewhere.Mobile", "`elsewhere.Mobile` names no class"),
         (
             "protocol.py:Mobile",
             "there is no file protocol.py; did you mean `protocols.py`?",
@@ -57,11 +60,13 @@ def test_loads_from_a_module(folder: Any, monkeypatch: pytest.MonkeyPatch) -> No
         ),
         (
             "protocols.py:Other",
-            "`Other` in protocols.py is no protocol, it does not derive from IProtocol",
+            "`Other` in protocols.py is no protocol, it does not derive from IProtocol;"
+            " there are Sensor, Mobile, Half",
         ),
         (
             "protocols.py:IProtocol",
-            "`IProtocol` in protocols.py is no protocol, it does not derive from IProtocol",
+            "`IProtocol` in protocols.py is no protocol, it does not derive from IProtocol;"
+            " there are Sensor, Mobile, Half",
         ),
         (
             "protocols.py:Half",
@@ -81,6 +86,16 @@ def test_loads_from_a_module(folder: Any, monkeypatch: pytest.MonkeyPatch) -> No
 )
 def test_errors(error_of: Any, reference: str, message: str) -> None:
     assert error_of(reference) == message
+
+
+def test_methods_that_look_like_missing_ones_are_named(folder: Any, error_of: Any) -> None:
+    half = "from protocols import Mobile, Half\nclass Slips(Half):\n"
+    methods = ("initialise", "handle_packets", "handle_telemetry", "on_timer", "finish")
+    folder.write("slips.py", half + "".join(f"    def {name}(self, *_): ...\n" for name in methods))
+    lacks = "handle_packet(), handle_timer()"
+    assert error_of("slips.py:Slips") == (
+        f"`Slips` in slips.py is not complete, it lacks {lacks}; it has handle_packets()"
+    )
 
 
 @pytest.mark.parametrize(

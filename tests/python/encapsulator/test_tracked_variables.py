@@ -111,3 +111,8 @@ def test_who_follows_the_reports_has_the_same_dict(steps):
     for operation, *arguments in steps:
         getattr(variables, operation)(*arguments)
     assert followed == dict(variables)
+
+
+def test_a_variable_is_no_attribute(variables):
+    with pytest.raises(AttributeError, match="no attribute 'c'"):
+        variables.c = 3
