@@ -51,9 +51,9 @@ class InterfaceBuilder:
 
     def interfaces(self, node: str, count: int) -> tuple[InterfaceSpec, ...]:
         """Return the `count` interfaces of that node."""
-        return tuple(self._interface(node, index) for index in range(count))
+        return tuple(self._interface(node, index, count) for index in range(count))
 
-    def _interface(self, node: str, index: int) -> InterfaceSpec:
+    def _interface(self, node: str, index: int, count: int) -> InterfaceSpec:
         while len(self._keys) <= index:
             paths = ((key, at_interface(key.path, len(self._keys))) for key in WLAN_KEYS)
             self._keys.append(
@@ -71,6 +71,8 @@ class InterfaceBuilder:
             except ConfigError as error:
                 channel = found.get(CHANNEL_NUMBER)
                 if channel is None or channel.entry.source != error.source or not self._has_typenames():
+                    raise
+                if _is_about_this_alone(channel.entry.key, node, index, count):
                     raise
                 hint = _of_one_kind_only(node, index, is_802154)
                 raise ConfigError(error.message + hint, error.source) from error
@@ -105,6 +107,12 @@ class InterfaceBuilder:
 def _of_802154(found: Mapping[Key, Found]) -> Mapping[Key, Found]:
     """Read a channel's number as 802.15.4 counts, in its only band."""
     return {OF_802154.get(key, key): entry for key, entry in found.items()}
+
+
+def _is_about_this_alone(key: str, node: str, index: int, count: int) -> bool:
+    """Whether a key names a node's group and, of several interfaces, this one."""
+    group = node.partition("[")[0]
+    return key.startswith((f"*.{group}.", f"*.{group}[")) and (count == 1 or f".wlan[{index}]." in key)
 
 
 def _of_one_kind_only(node: str, index: int, is_802154: bool) -> str:

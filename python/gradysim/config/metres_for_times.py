@@ -32,13 +32,19 @@ def metres_for_times(nodes: Iterable[NodeSpec]) -> Iterator[str]:
             continue
         seen.add(id(spec.protocol_sources))
         for name, source in spec.protocol_sources.items():
-            is_time = name.casefold().endswith(_TIMES) and unit_of(spec.protocol, name) is None
-            if is_time and source not in told and _is_in_metres(source.value):
+            if not _is_named_like_a_time(name) or unit_of(spec.protocol, name) is not None:
+                continue
+            if source not in told and _is_in_metres(source.value):
                 told.add(source)
                 yield (
                     f"{source}: warning: `{name}` is given in metres, `m`; a minute is `min` (in"
                     f' {spec.protocol.__name__}, `{name}: Annotated[float, "m"]` says that metres are meant)'
                 )
+
+
+def _is_named_like_a_time(name: str) -> bool:
+    """A jitter alone is one of times; that of something else, as in `position_jitter`, may be anything."""
+    return name.casefold().endswith(_TIMES) or name == "jitter"
 
 
 def _is_in_metres(text: str) -> bool:

@@ -159,3 +159,24 @@ def test_errors(folder: Any, added: str, message: str) -> None:
 
 def test_a_key_of_an_interface_that_is_not_there_is_not_its_own_suggestion(folder: Any) -> None:
     assert "did you mean" not in folder.error("*.uavs[*].wlan[1].radio.bandwidth = 20MHz\n")
+
+
+@pytest.mark.parametrize(
+    ("line", "problem"),
+    [
+        (
+            "*.groundStation.wlan[0].radio.channelNumber = 20",
+            "it is out of range; expected a channel of the 2.4",
+        ),
+        (
+            "*.uavs[*].wlan[*].radio.channelNumber = 5",
+            "it is out of range; expected a channel of IEEE 802.15.4",
+        ),
+    ],
+)
+def test_a_number_for_one_standard_alone_has_no_other_to_be_left_to(
+    folder: Any, line: str, problem: str
+) -> None:
+    error = folder.error(f"{SENSORS}{line}\n")
+    assert problem in error
+    assert "leaves it to" not in error

@@ -126,6 +126,22 @@ def test_says_what_it_expects(kind: Kind, expected: str) -> None:
     assert kind.expected == expected
 
 
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("36", "; channel 36 of the 5 GHz band is `radio.centerFrequency = 5180MHz`"),
+        ("177", "; channel 177 of the 5 GHz band is `radio.centerFrequency = 5885MHz`"),
+        ("35", ""),
+        ("178", ""),
+        ("36.0", "; did you mean `36`?"),
+    ],
+)
+def test_a_channel_of_the_5_ghz_band_is_told_by_its_frequency(text: str, hint: str) -> None:
+    with pytest.raises(BadValue) as caught:
+        channel_of_2_4_ghz().convert(parse_value(text))
+    assert caught.value.suggestion == hint
+
+
 @given(st.integers(0, 13))
 def test_channels_are_in_the_band(channel: int) -> None:
     centre = channel_of_2_4_ghz().convert(parse_value(str(channel)))

@@ -12,6 +12,8 @@ from protocols import Sensor
 class Timed(Sensor):
     interval = 1.0
     heartbeatTimeout = 1.0
+    jitter = 0.0
+    position_jitter = 0.0
     spacing = 1.0
     lawn_interval: Annotated[float, "m"] = 1.0
     beacon_period: Annotated[float, "s"] = 1.0
@@ -34,6 +36,10 @@ def test_a_time_in_metres_is_told_once_with_its_line(folder: Any) -> None:
     )
 
 
+def test_a_jitter_is_one_of_times(folder: Any) -> None:
+    assert len(told(folder, "*.uavs[*].protocol.jitter = 100m")) == 1
+
+
 @pytest.mark.parametrize("values", ["${5m, 10m}", "${interval=10s, 5m}", "${5, 10}m", "${5..10 step 5}m"])
 def test_a_list_of_values_is_told_too(folder: Any, values: str) -> None:
     assert len(told(folder, f"*.uavs[*].protocol.interval = {values}")) == 1
@@ -48,6 +54,7 @@ def test_different_lines_are_told_each(folder: Any) -> None:
     "line",
     [
         "interval = 5min",
+        "position_jitter = 5m",
         "interval = 5",
         "interval = 5km",
         "interval = ${runnumber}m",
