@@ -78,6 +78,7 @@ class Scenario:
         iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
         settings_hash: Of all that the file and the command line say of this run, the seed of `--seed` apart.
             It is the same for all repetitions.
+        run_count: How many runs the configuration has, this one and those that were not asked for included.
     """
 
     file: Path
@@ -95,6 +96,7 @@ class Scenario:
     repetition: int = 0
     iterations: Mapping[str, str] = field(default_factory=dict)
     settings_hash: str = ""
+    run_count: int = 1
 
 
 def require_scenario(value: object) -> None:
@@ -152,7 +154,7 @@ def load_scenarios(
     source = sections[0].source
     ranked, variables = name_iterations(ranked)
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
-    numbered = _numbered_runs(_options(only_options), variables, config, runs, source)
+    numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source)
 
     loader = ProtocolLoader()
     networks: dict[tuple[str, ...], _Network] = {}
@@ -177,6 +179,7 @@ def load_scenarios(
                 repetition=repetition,
                 iterations=iterations,
                 settings_hash=settings_hash(_substituted(in_force, {**values, **SAME_IN_ALL_RUNS})),
+                run_count=run_count,
             )
         )
     return scenarios
@@ -188,8 +191,8 @@ def _numbered_runs(
     config: str,
     runs: str | Iterable[int] | None,
     source: Source,
-) -> list[tuple[int, int, dict[str, str]]]:
-    """The runs that are wanted: number, repetition and the values of the iteration variables."""
+) -> tuple[list[tuple[int, int, dict[str, str]]], int]:
+    """The runs that are wanted (number, repetition, values of variables), and how many there are in all."""
     repeat = options.get("repeat")
     if repeat is not None and "${" in repeat.text:
         raise ConfigError.at(repeat.source, "it is the same for all combinations; expected a number")
@@ -214,7 +217,8 @@ def _numbered_runs(
     numbers = select_runs(runs, count * repetitions, config, place, made_of)
     if chosen is None:
         chosen = list(combinations(variables))
-    return [(number, number % repetitions, chosen[number // repetitions]) for number in numbers]
+    wanted = [(number, number % repetitions, chosen[number // repetitions]) for number in numbers]
+    return wanted, count * repetitions
 
 
 def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section]) -> str:

@@ -25,6 +25,7 @@ from gradysim.integrated.real_time import RealTimeRun
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.node_results import node_results
+from gradysim.results.run_file import run_name
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.simulator.handler.interface import INodeHandler
@@ -85,6 +86,7 @@ class IntegratedRun:
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
+        name = run_name(scenario, "integrated")
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
             if is_native(spec):
                 view = NativeView(node, spec)
@@ -98,6 +100,7 @@ class IntegratedRun:
                 nodes=self._nodes,
                 handlers=self._handlers.by_label,
             )
+            encapsulator.provider.run_name = name
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
             self._handlers.register_node(node, encapsulator, scenario.seed)

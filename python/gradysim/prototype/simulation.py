@@ -6,6 +6,7 @@ from gradysim.config.error import ConfigError
 from gradysim.config.native_protocol import NativeProtocol, text_of_only_integrated
 from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import NodeSpec, Scenario
+from gradysim.results.run_file import run_name
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.copy_ledger import CopyLedger
 from gradysim.simulator.handler.given import given_handlers
@@ -44,7 +45,11 @@ def build_simulation(
         builder.add_handler(handler)
     for spec in scenario.nodes:
         builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
-    return builder.build(), ledger
+    simulator = builder.build()
+    name = run_name(scenario, "prototype")
+    for node in simulator.nodes:
+        node.protocol_encapsulator.provider.run_name = name
+    return simulator, ledger
 
 
 def check_scenario(scenario: Scenario) -> None:

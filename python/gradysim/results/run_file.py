@@ -11,7 +11,16 @@ from gradysim.results.run_result import Mode, RunResult, plain_iterations
 
 def run_file(directory: Path, config: str, run: int, mode: Mode) -> Path:
     """Return the file for one run."""
-    return directory / f"{config}-#{run}.{mode}.json"
+    return directory / f"{_stem(config, run, mode)}.json"
+
+
+def run_name(scenario: Scenario, mode: Mode) -> str:
+    """Return what files of its protocols have in their names; nothing if there is one run only."""
+    return _stem(scenario.config, scenario.run_number, mode) if scenario.run_count > 1 else ""
+
+
+def _stem(config: str, run: int, mode: Mode) -> str:
+    return f"{config}-#{run}.{mode}"
 
 
 def is_done(scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[int] = ()) -> bool:

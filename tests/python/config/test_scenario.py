@@ -90,6 +90,7 @@ def test_a_run_for_each_combination_of_values_and_repetition(folder: Any) -> Non
     assert [scenario.run_number for scenario in scenarios] == [0, 1, 2, 3]
     assert [scenario.seed for scenario in scenarios] == [0, 1, 2, 3]
     assert [scenario.repetition for scenario in scenarios] == [0, 1, 0, 1]
+    assert {scenario.run_count for scenario in scenarios} == {4}
     assert [scenario.iterations["speed"] for scenario in scenarios] == ["1", "1", "2", "2"]
     assert speeds(scenarios) == [1.0, 1.0, 2.0, 2.0]
     assert scenarios[0].nodes is scenarios[1].nodes

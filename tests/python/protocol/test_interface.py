@@ -69,6 +69,10 @@ def test_a_protocol_must_have_every_callback(missing):
         incomplete()
 
 
+def test_a_provider_that_knows_no_runs_has_no_name_for_them():
+    assert SilentProvider().run_name == ""
+
+
 def test_a_provider_without_a_stream_of_its_own_has_one_by_id():
     def draws(node_id):
         return [SilentProvider(node_id).random.random() for _ in range(2)]

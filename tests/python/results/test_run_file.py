@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from gradysim.results.run_file import is_done, write_run_file
+from gradysim.results.run_file import is_done, run_name, write_run_file
 from gradysim.results.run_result import NodeResult, RunResult
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
@@ -13,6 +13,12 @@ RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "012
 
 def test_name_of_the_file(tmp_path):
     assert write_run_file(RESULT, tmp_path) == tmp_path / f"ZigZag5-#3.{RESULT.mode}.json"
+
+
+@pytest.mark.parametrize(("count", "name"), [(1, ""), (4, "General-#3.integrated")])
+def test_one_of_several_runs_has_a_name_for_files(make_scenario, count, name):
+    scenario = dataclasses.replace(make_scenario(), run_number=3, run_count=count)
+    assert run_name(scenario, "integrated") == name
 
 
 def test_content_is_the_json_object(tmp_path):

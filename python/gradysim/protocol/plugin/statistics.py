@@ -91,7 +91,8 @@ class StatisticsProtocolWrapper:
         """Write both files to the working directory; files of these names are replaced."""
         protocol = self.protocol
         names = (self._file_name_part, type(protocol).__name__, str(protocol.provider.get_id()))
-        suffix = "_".join(names) + ".csv"
+        run = getattr(protocol.provider, "run_name", "")  # users' own providers may be older
+        suffix = "_".join((run, *names) if run else names) + ".csv"
         _write(f"simulation_real_time_{suffix}", ["real_time"], self._times)
         names_of_all = dict.fromkeys(name for _, values in self._tracked for name in values)
         _write(f"tracked_variables_{suffix}", list(names_of_all), self._tracked)
@@ -153,7 +154,9 @@ def finish_statistics(protocol: IProtocol) -> None:
     """Stop to collect, and write two files to the working directory; call it in `finish` at the latest.
 
     Their first column numbers the rows, from 0. NAME is `file_name_part`, then the class of the protocol and
-    the id of its node, joined with underscores.
+    the id of its node, joined with underscores. If the run is one of several of a configuration, all this
+    comes after its name, as in `tracked_variables_Study-#3.integrated_NAME.csv`: runs do not overwrite the
+    files of each other.
 
     - `simulation_real_time_NAME.csv`: simulation_time (s), real_time (s since 1970)
     - `tracked_variables_NAME.csv`: simulation_time (s), then a column for each variable, in the order of

@@ -255,6 +255,16 @@ def test_a_part_that_is_no_part_of_a_name_is_refused(protocol, part):
         create_statistics(protocol, part)
 
 
+def test_a_run_of_several_is_in_the_names(protocol, provider, working_directory):
+    provider.run_name = "Study-#3.prototype"
+    create_statistics(protocol, "part")
+    finish_statistics(protocol)
+    assert {path.name for path in working_directory.iterdir()} == {
+        "simulation_real_time_Study-#3.prototype_part_RecordingProtocol_0.csv",
+        "tracked_variables_Study-#3.prototype_part_RecordingProtocol_0.csv",
+    }
+
+
 def test_statistics_in_a_simulation(make_scenario, run_mode):
     nodes = ["sim-time-limit = 1.1s", "*.uavs.count = 2", '*.uavs[*].protocol.class = "protocols.py:Counter"']
     run_mode(make_scenario(FLIGHT, *nodes))
