@@ -12,6 +12,7 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
 
 _ATTRIBUTE = "_gradysim_dispatcher"
+_CALLBACKS = ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
 
 
 class DispatchReturn(Enum):
@@ -123,9 +124,14 @@ class ProtocolWrapper:
 
 
 def create_dispatcher(protocol: IProtocol) -> ProtocolWrapper:
-    """Return the dispatcher of a protocol, the same one each time; the first call makes it."""
-    wrapper: ProtocolWrapper | None = vars(protocol).get(_ATTRIBUTE)
+    """Return the dispatcher of a protocol, the same one each time; the first call makes it.
+
+    Raises TypeError if what it is given has not the callbacks of a protocol.
+    """
+    wrapper: ProtocolWrapper | None = getattr(protocol, "__dict__", {}).get(_ATTRIBUTE)
     if wrapper is None:
+        if isinstance(protocol, type) or not all(hasattr(protocol, name) for name in _CALLBACKS):
+            raise TypeError(f"expected a protocol (a plugin's first argument is `self`), got {protocol!r}")
         wrapper = ProtocolWrapper(protocol)
         setattr(protocol, _ATTRIBUTE, wrapper)
     return wrapper

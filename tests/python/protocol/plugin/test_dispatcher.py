@@ -136,6 +136,12 @@ def test_unregistering_a_stranger_is_an_error(callback):
         unregister(Recorder(), callback, noting("stranger"))
 
 
+@pytest.mark.parametrize("wrong", [object(), None, "self", Recorder], ids=["object", "None", "text", "class"])
+def test_what_is_no_protocol_has_no_dispatcher(wrong):
+    with pytest.raises(TypeError, match=r"expected a protocol \(a plugin's first argument is `self`\), got "):
+        create_dispatcher(wrong)
+
+
 def test_a_handler_must_be_callable():
     with pytest.raises(TypeError, match="callable"):
         register(Recorder(), "handle_timer", "not a function")
