@@ -1,5 +1,6 @@
 #include "proxy_protocol/node_commands.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -26,10 +27,17 @@ PyObject* name_of(const char* text) {
     return PyUnicode_InternFromString(text);
 }
 
-py::object attribute(py::handle object, PyObject* name) {
-    PyObject* value = PyObject_GetAttr(object.ptr(), name);
+// An attribute of a command. What has none is no command of the kind `expected`, but something else that a protocol
+// passed by mistake: a text, or a command to its vehicle in the place of one to its radio.
+py::object attribute(py::handle command, PyObject* name, const char* expected) {
+    PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
-        throw py::error_already_set();
+        if (!PyErr_ExceptionMatches(PyExc_AttributeError)) {
+            throw py::error_already_set();
+        }
+        PyErr_Clear();
+        throw py::type_error("a " + std::string(expected) + " was expected, not " +
+                             std::string(py::repr(command)));
     }
     return py::reinterpret_steal<py::object>(value);
 }
@@ -54,20 +62,6 @@ double number(py::handle value, const char* what, const char* expected = "a numb
                              std::string(py::repr(value)));
     }
     return result;
-}
-
-// The attribute that tells commands from anything else that a protocol may pass by mistake.
-long command_type_of(py::handle command, PyObject* type_name, const char* expected) {
-    PyObject* type = PyObject_GetAttr(command.ptr(), type_name);
-    if (type == nullptr) {
-        if (!PyErr_ExceptionMatches(PyExc_AttributeError)) {
-            throw py::error_already_set();
-        }
-        PyErr_Clear();
-        throw py::type_error("a " + std::string(expected) + " was expected, not " +
-                             std::string(py::repr(command)));
-    }
-    return integer(py::reinterpret_steal<py::object>(type), "command_type");
 }
 
 // Carries out a command. What it refuses is raised as that exception of gradysim.protocol.errors, as in every mode.
@@ -129,10 +123,10 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const message_name = name_of("message");
     static PyObject* const destination_name = name_of("destination");
-    const long type = command_type_of(command, type_name, "CommunicationCommand");
+    const auto value_of = [&](PyObject* name) { return attribute(command, name, "CommunicationCommand"); };
+    const long type = integer(value_of(type_name), "command_type");
     const auto interface = interface_of(command);
-    auto payload =
-        std::make_shared<const std::string>(utf8_from_python(attribute(command, message_name), "a message"));
+    auto payload = std::make_shared<const std::string>(utf8_from_python(value_of(message_name), "a message"));
     if (type == broadcast_type) {
         node.broadcast(std::move(payload), interface);
         return;
@@ -141,7 +135,7 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
         throw py::value_error("command_type " + std::to_string(type) +
                               " is not a CommunicationCommandType: expected SEND (0) or BROADCAST (1)");
     }
-    const py::object destination = attribute(command, destination_name);
+    const py::object destination = value_of(destination_name);
     if (destination.is_none()) {
         throw py::value_error("a SEND command needs a destination: the id of a node");
     }
@@ -151,17 +145,21 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
 void carry_out_mobility(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const parameter_names[] = {name_of("param_1"), name_of("param_2"), name_of("param_3")};
-    const long type = command_type_of(command, type_name, "MobilityCommand");
+    const auto value_of = [&](PyObject* name) { return attribute(command, name, "MobilityCommand"); };
+    const long type = integer(value_of(type_name), "command_type");
     const auto parameter = [&](int index, const char* what) {
-        return number(attribute(command, parameter_names[index]), what);
+        return number(value_of(parameter_names[index]), what);
     };
     if (type == goto_coords_type) {
         node.go_to(netsim::Position{parameter(0, "x (metres)"), parameter(1, "y (metres)"),
                                     parameter(2, "z (metres)")});
     } else if (type == set_speed_type) {
-        if (!attribute(command, parameter_names[1]).is_none()) {
-            throw py::value_error(
-                "SET_SPEED with three velocity components needs a mobility model that obeys velocities");
+        if (!value_of(parameter_names[1]).is_none()) {
+            const auto component = [&](int index) {
+                return std::string(py::repr(value_of(parameter_names[index])));
+            };
+            throw py::value_error("a velocity, (" + component(0) + ", " + component(1) + ", " + component(2) +
+                                  "), was given to a vehicle that takes a speed and a target");
         }
         node.set_speed(parameter(0, "speed (m/s)"));
     } else {
@@ -185,6 +183,10 @@ void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) 
     carry_out("TimerException", [&] {
         std::string name = utf8_from_python(timer, "a timer's name");
         const double time_s = number(timestamp, "timestamp", "a number of seconds");
+        if (!std::isfinite(time_s)) {
+            throw py::value_error("cannot set timer '" + name + "' for " + std::string(py::repr(timestamp)) +
+                                  ": expected a finite number of seconds");
+        }
         node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s));
     });
 }
