@@ -18,9 +18,8 @@ def print_means(
     ] = False,
 ) -> int:
     """Print means of tracked variables and deliveries over all runs, with 95 % confidence intervals."""
-    from rich.console import Console
-
     from gradysim.config.error import ConfigError
+    from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
     from gradysim.results.means import means, of_different_settings, read_results
 
@@ -46,5 +45,5 @@ def print_means(
     if as_csv:
         write_csv(found, sys.stdout)
     else:
-        Console().print(means_table(found))
+        console().print(means_table(found))
     return OK

@@ -277,9 +277,8 @@ def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
     if as_json:
         print(json.dumps(result.to_json_object()), file=output, flush=True)
         return
-    from rich.console import Console
-
+    from gradysim.report.console import console
     from gradysim.report.summary import print_summary
 
-    print_summary(result, Console(file=output))
+    print_summary(result, console(output))
     print(file=output)

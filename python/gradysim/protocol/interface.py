@@ -20,8 +20,8 @@ class IProvider(ABC):
     """Values that the protocol wants to be seen; environments show and record them under these names."""
 
     run_name: str = ""
-    """`Study-#3.integrated`, where the run is one of several of a configuration; empty elsewhere. Files that a
-    protocol writes are to have it in their names, or the next run overwrites them."""
+    """`Study-#3.integrated`, where the run is one of several of a configuration; empty elsewhere. Files that
+    a protocol writes are to have it in their names, or the next run overwrites them."""
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:

@@ -19,7 +19,7 @@ def means_table(means: Sequence[Mean]) -> Table:
     variables = _variables(means)
     headings = [*(["config"] if len(config) > 1 else []), *(["mode"] if len(mode) > 1 else [])]
     for heading in [*headings, *(f"${name}" for name in variables), "quantity"]:
-        table.add_column(heading)
+        table.add_column(heading, overflow="fold")
     for heading in ("runs", "mean", "± (95 %)"):
         table.add_column(heading, justify="right", no_wrap=True)
     for mean in means:

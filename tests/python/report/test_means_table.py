@@ -37,3 +37,10 @@ def test_csv_has_all_digits() -> None:
         "Study,integrated,10,a,uavs[*] heard,10,1234.5678,0.12345",
         "Study,prototype,20,,uavs[*] heard,1,2.0,",
     ]
+
+
+def test_a_narrow_table_loses_no_letter() -> None:
+    text = StringIO()
+    long = Mean("Study", "integrated", {"fading": "Free" * 8}, "uavs[*] heard", 1, 2.0, None)
+    Console(file=text, width=40).print(means_table([long]))
+    assert "…" not in text.getvalue()
