@@ -11,8 +11,9 @@ import shutil
 import signal
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from mmap import mmap
 from multiprocessing.connection import wait
 from multiprocessing.context import ForkProcess
 from types import FrameType
@@ -31,6 +32,8 @@ class _Running:
 
     index: int
     process: ForkProcess
+    finished: mmap = field(default_factory=lambda: mmap(-1, 1))
+    """Shared with the process, which sets it to 1 when the run has come to its end, well or not."""
     output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
     error_output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
 
@@ -74,10 +77,11 @@ class _InAProcess(StopOnInterrupt):
         return super().should_stop() or os.getppid() != self._parent
 
 
-def in_processes(work: Work, count: int, jobs: int, output: TextIO) -> dict[int, int]:
-    """Call `work` for the indices 0 to `count` - 1, `jobs` at a time; return {index: exit code} of those.
+def in_processes(work: Work, names: Sequence[str], jobs: int, output: TextIO) -> dict[int, int]:
+    """Call `work` for the indices of `names`, `jobs` at a time; return {index: exit code} of those.
 
-    After one that does not end with OK, and after Ctrl-C, none is begun: those have no exit code.
+    After one that does not end with OK, and after Ctrl-C, none is begun: those have no exit code. Of a
+    process that ends before its run does, the error output tells with the name of the run.
     """
     codes: dict[int, int] = {}
     printed: dict[int, _Printed] = {}
@@ -85,7 +89,7 @@ def in_processes(work: Work, count: int, jobs: int, output: TextIO) -> dict[int,
         try:
             begun = 0
             while True:
-                while begun < count and len(interrupt.running) < jobs and not any(codes.values()):
+                while begun < len(names) and len(interrupt.running) < jobs and not any(codes.values()):
                     if interrupt.should_stop():
                         break
                     with _held_back(signal.SIGINT):
@@ -96,7 +100,7 @@ def in_processes(work: Work, count: int, jobs: int, output: TextIO) -> dict[int,
                 wait([run.process.sentinel for run in interrupt.running])
                 for run in [run for run in interrupt.running if not run.process.is_alive()]:
                     interrupt.running.remove(run)
-                    codes[run.index] = _exit_code(run)
+                    codes[run.index] = _exit_code(run, names[run.index])
                     printed[run.index] = _Printed(_content(run.output), _content(run.error_output))
                     run.process.close()
                 _show(printed, interrupt.running, output)
@@ -121,6 +125,7 @@ def _begin(work: Work, index: int, output: TextIO) -> _Running:
             code = work(index, interrupt, theirs)
         theirs.flush()
         sys.stderr.flush()
+        running.finished[0] = 1
         os._exit(code)
 
     running.process.run = in_the_process  # type: ignore[method-assign]
@@ -146,13 +151,17 @@ def _held_back(number: signal.Signals) -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _exit_code(run: _Running) -> int:
-    code = run.process.exitcode or OK
-    if code >= 0:
-        return code
+def _exit_code(run: _Running, name: str) -> int:
+    status = run.process.exitcode or OK
+    if run.finished[0] and status >= 0:
+        return status
+    if status < 0:
+        number = signal.Signals(-status).name if -status in set(signal.Signals) else str(-status)
+        how = f"was ended by {number}"
+    else:
+        how = f"ended with exit status {status}, as by os._exit"
     run.error_output.seek(0, os.SEEK_END)
-    name = signal.Signals(-code).name if -code in set(signal.Signals) else str(-code)
-    run.error_output.write(f"its process was ended by {name}\n".encode())
+    run.error_output.write(f"{name}: its process {how}, and left no result\n".encode())
     return FAILED
 
 

@@ -173,7 +173,8 @@ def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", outp
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
 
-    codes = in_processes(work, len(scenarios), jobs, output)
+    names = [f"{scenario.config} run {scenario.run_number}" for scenario in scenarios]
+    codes = in_processes(work, names, jobs, output)
     if len(codes) < len(scenarios) or any(codes.values()):
         say_unfinished(scenarios, codes)
         return next((code for code in codes.values() if code not in (OK, INTERRUPTED)), INTERRUPTED)

@@ -32,6 +32,13 @@ class Killed(Talker):
         os.kill(os.getpid(), 9)
 
 
+class EndsItself(Talker):
+    status = 0
+
+    def handle_timer(self, timer):
+        os._exit(self.status)
+
+
 class WaitsForTheLast(Talker):
     number = 0
     last = 0
@@ -92,10 +99,26 @@ def test_an_interrupted_process_ends_all(gradysim):
 def test_a_process_that_is_killed_is_told(gradysim, folder):
     (folder / "tells.py").write_text(TELLS)
     name = '*.uavs[*].protocol.class="tells.py:Killed"'
-    done = gradysim("run", "test.ini", "--mode", "prototype", "-j", "2", "-r", "0,1", "--set", name)
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-j", "2", "-r", "0,2", "--set", name)
     assert done.returncode == 1
-    assert done.stderr.count("its process was ended by SIGKILL\n") == 2
-    assert "General: run 0 failed, run 1 failed, 0 of 2 runs are done\n" in done.stderr
+    for run in (0, 2):
+        assert f"General run {run}: its process was ended by SIGKILL, and left no result\n" in done.stderr
+    assert "General: run 0 failed, run 2 failed, 0 of 2 runs are done\n" in done.stderr
+
+
+@pytest.mark.parametrize("status", [0, 3])
+def test_a_process_that_ends_itself_is_no_run_that_is_done(gradysim, folder, status):
+    (folder / "tells.py").write_text(TELLS)
+    settings = ('class="tells.py:EndsItself"', f"status={status}")
+    arguments = [part for line in settings for part in ("--set", f"*.uavs[*].protocol.{line}")]
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-j", "2", "-r", "1,2", "--json", *arguments)
+    assert (done.returncode, done.stdout) == (1, "")
+    for run in (1, 2):
+        assert (
+            f"General run {run}: its process ended with exit status {status}, as by os._exit,"
+            " and left no result\n" in done.stderr
+        )
+    assert done.stderr.endswith("General: run 1 failed, run 2 failed, 0 of 2 runs are done\n")
 
 
 def test_many_runs_may_end_before_the_first_one_does(folder):
