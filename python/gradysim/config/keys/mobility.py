@@ -42,7 +42,12 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     ),
     _start("lineStepY", "line_step_y", quantity("m"), "The same for y", default="0m"),
     _start("lineStepZ", "line_step_z", quantity("m"), "The same for z", default="0m"),
-    _flight("speed", "speed_mps", quantity("mps", at_least=0), "Speed until the protocol sets another"),
+    _flight(
+        "speed",
+        "speed_mps",
+        quantity("mps", at_least=0),
+        "Speed until the protocol sets another, as every mission of the plugin does",
+    ),
     _own(
         "telemetryInterval",
         "telemetry_interval_s",
