@@ -50,6 +50,30 @@ def test_jitter_makes_them_heard(first_protocol: Path) -> None:
     assert heard(run, first_protocol, "Jittered") == [177] * 4
 
 
+def test_the_radio_reaches_as_far_as_it_says(first_protocol: Path) -> None:
+    pytest.importorskip("gradysim._netsim")
+    from gradysim.integrated.calibration import calibrate
+
+    (reach_m,) = re.findall(r"broadcasts of the real radio (\d+) m", README.read_text())
+    scenario = load_scenarios(first_protocol)[0]
+    here, one_metre_on = (calibrate(scenario, range_m=int(reach_m) + more).tx_power_w for more in (0, 1))
+    assert here <= 0.020 < one_metre_on  # W, the default
+
+
+def test_one_line_gives_both_modes_one_range(first_protocol: Path) -> None:
+    pytest.importorskip("gradysim._netsim")
+    import gradysim.integrated.run
+    import gradysim.prototype.run
+
+    (line,) = re.findall(r"`(\*\*\.wlan.*communicationRange = 60m)`", README.read_text())
+    ends = "*.nodes[*].mobility.lineStepX = 59m"
+    settings = [line, ends, "*.nodes[*].protocol.jitter = 100ms"]
+    scenario = load_scenarios(first_protocol, overrides=settings)[0]
+    for run in (gradysim.prototype.run.run, gradysim.integrated.run.run):
+        heard_by = [node.tracked_variables["heard"] for node in run(scenario).nodes]
+        assert heard_by == [59, 118, 118, 59]
+
+
 def test_what_the_command_prints_is_explained(root: Path, first_protocol: Path) -> None:
     pytest.importorskip("gradysim._netsim")
     from gradysim.integrated.run import run
