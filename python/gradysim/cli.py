@@ -13,17 +13,17 @@ output that takes no more; 130 Ctrl-C. Each command has its own file in `gradysi
 import os
 import sys
 from collections.abc import Sequence
-from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
 from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.commands.calibrate import calibrate_power
-from gradysim.commands.exit_code import INTERRUPTED, MISTAKE, OK
+from gradysim.commands.exit_code import INTERRUPTED, MISTAKE, OK, say_mistake
 from gradysim.commands.keys import list_keys
 from gradysim.commands.means import print_means
 from gradysim.commands.run import run
 from gradysim.commands.runs import list_runs
+from gradysim.commands.standard_output import is_about_output, named_output
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -69,8 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
-    if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
-        sys.stdout.reconfigure(errors="backslashreplace")  # rather than lose a result over a letter in it
+    sys.stdout = named_output(sys.stdout)
     try:
         try:
             code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
@@ -80,18 +79,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return MISTAKE
     except KeyboardInterrupt:
         return INTERRUPTED
-    except BrokenPipeError:  # who reads the output, such as `head`, has had enough
-        abandon_output()
-        return OK
     except SystemExit as end:
-        if isinstance(end.__context__, BrokenPipeError):  # what rich makes of it
-            return OK
+        if isinstance(end.__context__, BrokenPipeError) and is_about_output(end.__context__):
+            return OK  # what rich makes of it
         raise
     except OSError as error:
-        if error.filename is not None:
-            raise
+        if not is_about_output(error):
+            return say_mistake(error)
         abandon_output()
-        print(f"standard output: {error.strerror or error}", file=sys.stderr)
+        if isinstance(error, BrokenPipeError):  # who reads the output, such as `head`, has had enough
+            return OK
+        print(error.filename, error.strerror, sep=": ", file=sys.stderr)
         return MISTAKE
     return code if isinstance(code, int) else OK
 

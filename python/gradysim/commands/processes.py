@@ -19,7 +19,7 @@ from multiprocessing.context import ForkProcess
 from types import FrameType
 from typing import IO, TextIO
 
-from gradysim.commands.exit_code import FAILED, OK
+from gradysim.commands.exit_code import FAILED, MISTAKE, OK
 from gradysim.report.interrupt import StopOnInterrupt
 
 Work = Callable[[int, StopOnInterrupt, TextIO], int]
@@ -92,16 +92,25 @@ def in_processes(work: Work, names: Sequence[str], jobs: int, output: TextIO) ->
                 while begun < len(names) and len(interrupt.running) < jobs and not any(codes.values()):
                     if interrupt.should_stop():
                         break
-                    with _held_back(signal.SIGINT):
-                        interrupt.running.append(_begin(work, begun, output))
+                    output.flush()
+                    sys.stderr.flush()
+                    try:
+                        with _held_back(signal.SIGINT):
+                            interrupt.running.append(_begin(work, begun, output))
+                    except OSError as error:  # there are too many processes or files, or no room for files
+                        text = f"{names[begun]}: its process cannot begin: {error.strerror or error}\n"
+                        codes[begun] = MISTAKE
+                        printed[begun] = _Printed(b"", text.encode())
                     begun += 1
                 if not interrupt.running:
+                    _show(printed, [], output)
                     return codes
                 wait([run.process.sentinel for run in interrupt.running])
                 for run in [run for run in interrupt.running if not run.process.is_alive()]:
                     interrupt.running.remove(run)
-                    codes[run.index] = _exit_code(run, names[run.index])
-                    printed[run.index] = _Printed(_content(run.output), _content(run.error_output))
+                    codes[run.index], told = _ending(run, names[run.index])
+                    error_output = _content(run.error_output) + told.encode()
+                    printed[run.index] = _Printed(_content(run.output), error_output)
                     run.process.close()
                 _show(printed, interrupt.running, output)
         finally:
@@ -129,8 +138,6 @@ def _begin(work: Work, index: int, output: TextIO) -> _Running:
         os._exit(code)
 
     running.process.run = in_the_process  # type: ignore[method-assign]
-    output.flush()
-    sys.stderr.flush()
     running.process.start()
     return running
 
@@ -151,18 +158,17 @@ def _held_back(number: signal.Signals) -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _exit_code(run: _Running, name: str) -> int:
+def _ending(run: _Running, name: str) -> tuple[int, str]:
+    """Return the exit code of a run whose process has ended, and what to say if that was too early."""
     status = run.process.exitcode or OK
     if run.finished[0] and status >= 0:
-        return status
+        return status, ""
     if status < 0:
         number = signal.Signals(-status).name if -status in set(signal.Signals) else str(-status)
         how = f"was ended by {number}"
     else:
         how = f"ended with exit status {status}, as by os._exit"
-    run.error_output.seek(0, os.SEEK_END)
-    run.error_output.write(f"{name}: its process {how}, and left no result\n".encode())
-    return FAILED
+    return FAILED, f"{name}: its process {how}, and left no result\n"
 
 
 def _content(file: IO[bytes]) -> bytes:

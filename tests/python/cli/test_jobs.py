@@ -121,6 +121,32 @@ def test_a_process_that_ends_itself_is_no_run_that_is_done(gradysim, folder, sta
     assert done.stderr.endswith("General: run 1 failed, run 2 failed, 0 of 2 runs are done\n")
 
 
+def test_a_process_that_cannot_begin_is_told(folder):
+    code = (
+        "import errno, os, sys; from gradysim.cli import main\n"
+        "def fork(count=[]):\n"
+        "    count.append(1)\n"
+        "    if len(count) > 1: raise OSError(errno.EAGAIN, 'too many processes')\n"
+        "    return real_fork()\n"
+        "real_fork, os.fork = os.fork, fork\n"
+        "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '--json', '-j', '2']))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 2
+    assert [run["run"] for run in objects(done.stdout)] == [0]
+    assert done.stderr.splitlines()[-2:] == [
+        "General run 1: its process cannot begin: too many processes",
+        "General: run 1 failed, 1 of 3 runs is done (0), 1 was not begun (2)",
+    ]
+
+
 def test_many_runs_may_end_before_the_first_one_does(folder):
     (folder / "tells.py").write_text(TELLS)
     os.mkfifo(folder / "pipe")

@@ -85,3 +85,23 @@ def test_a_mistake_is_no_result_where_the_error_output_is_closed(folder):
         check=False,
     )
     assert (done.returncode, done.stdout) == (2, b"")
+
+
+def test_an_error_about_something_else_is_not_told_as_one_of_the_output(folder):
+    for error in ("OSError(errno.EAGAIN, 'try again')", "BrokenPipeError(errno.EPIPE, 'try again')"):
+        code = (
+            "import errno, sys; from gradysim.commands import run; from gradysim.cli import main\n"
+            f"def fail(*_): raise {error}\n"
+            "run.warn_of_equal_seeds = fail\n"
+            "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '--quiet']))"
+        )
+        done = subprocess.run(
+            [sys.executable, "-c", code],
+            cwd=folder,
+            env=environment(),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert (done.returncode, done.stdout) == (2, "")
+        assert done.stderr == "try again (in fail, <string>:2)\n"
