@@ -31,6 +31,8 @@ _TOKENS = re.compile(
     re.VERBOSE | re.ASCII | re.DOTALL,
 )
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
+_SPEEDS = {"m/s": "mps", "km/h": "kmph", "km/s": "kmps"}
+"""Units as people write them, and their names here."""
 _WORDS = ("true", "false", "inf", "nan")
 _MAX_DEPTH = 50
 _MAX_DIGITS = 300
@@ -118,9 +120,14 @@ class _Parser:
         if kind == "word":
             if self._accept("("):
                 raise BadValue(f"there is no function `{token}`; values are fixed numbers and texts")
-            hint = f"; did you mean `{token.lower()}`?" if token.lower() in _WORDS else ""
-            raise BadValue(f"`{token}` is no value (a text stands in quotes)", hint)
+            raise BadValue(f"`{token}` is no value (a text stands in quotes)", self._hint_at(token))
         raise not_understood(token, self._text) if kind else BadValue("the value ends too early")
+
+    def _hint_at(self, word: str) -> str:
+        if word.lower() in _WORDS:
+            return f"; did you mean `{word.lower()}`?"
+        unit = "".join(token for _, token in self._tokens[max(0, self._position - 3) : self._position])
+        return f"; did you mean `{_SPEEDS[unit]}`?" if unit in _SPEEDS else ""
 
     def _quantities(self) -> Quantity:
         """One quantity, or several as in `1h 5min`. Each unit stands there once: `1ms 2ms` lacks a comma."""

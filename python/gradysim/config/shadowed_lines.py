@@ -5,6 +5,7 @@ but who writes a special line below a general one mostly believes that it counts
 sections or files, the one that gives way is there to be overridden, and nothing is said.
 """
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from gradysim.config.lookup import is_ignored, is_option
@@ -20,6 +21,8 @@ _ANYTHING = ".".join([_NO_DOT] * 10)
 _INSTEAD: dict[str, tuple[str, ...]] = {
     "channelNumber": ("centerFrequency",),
     "centerFrequency": ("channelNumber",),
+    "protocol.class": ("protocol.typename",),
+    "protocol.typename": ("protocol.class",),
 } | {
     end: others
     for axis in "XYZ"
@@ -38,8 +41,11 @@ _INSTEAD_WITH_POWERS = _INSTEAD | {
 }
 """The same where a range stands for the power that it takes."""
 
-_NONE_BY_DEFAULT = ("transmitter.power", "communicationRange")
+_NONE_BY_DEFAULT = ("transmitter.power", "communicationRange", "protocol.class", "protocol.typename")
 """Ends of keys whose default says nothing about the other."""
+
+_COUNT = re.compile(r"(.*\.)(?:num([A-Z])(\w*)|([a-z])(\w*)\.count)", re.ASCII)
+"""`*.numUavs` and `*.uavs.count`."""
 
 
 def shadowed_lines(sections: Iterable[Section], *, has_powers: bool = True) -> list[str]:
@@ -95,6 +101,13 @@ def _deprived_by(
 
 def _instead_of(key: str, instead: Mapping[str, Sequence[str]]) -> list[str]:
     """Keys of which the first one is in force, as they say the same thing in other words."""
+    if match := _COUNT.fullmatch(key):
+        network, initial, rest, small_initial, others = match.groups()
+        return [
+            f"{network}{initial.lower()}{rest}.count"
+            if initial
+            else f"{network}num{small_initial.upper()}{others}"
+        ]
     return [
         key.removesuffix(end) + other
         for end, others in instead.items()

@@ -103,6 +103,8 @@ def test_truth_values() -> None:
         ("3 +", "the value ends too early"),
         ("fast", "`fast` is no value (a text stands in quotes)"),
         ("True", "`True` is no value (a text stands in quotes); did you mean `true`?"),
+        ("10m/s", "`s` is no value (a text stands in quotes); did you mean `mps`?"),
+        ("36 km/h", "`h` is no value (a text stands in quotes); did you mean `kmph`?"),
         ("3 4", "`4` follows `3`; only quantities with units may be strung together"),
         ("5s 3", "`3` follows `5s`; only quantities with units may be strung together"),
         ("5s 3m", "`5s` and `3m` measure different things and cannot be added"),

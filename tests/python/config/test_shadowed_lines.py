@@ -38,6 +38,10 @@ def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
         ("*.uavs[*].mobility.lineStepY", "*.uavs[0].mobility.initialY"),
         ("*.uav.mobility.initialZ", "*.uav.mobility.lineStartZ"),
         ("**.radio.centerFrequency", "*.uavs[0].wlan[0].radio.channelNumber"),
+        ("*.numUavs", "*.uavs.count"),
+        ("*.uavs.count", "*.numUavs"),
+        ("*.uavs[*].protocol.class", "*.uavs[*].protocol.typename"),
+        ("*.uavs[*].protocol.typename", "*.uavs[0].protocol.class"),
         ("*.uav.wlan[*].radio.transmitter.power", "*.uav.wlan[*].radio.transmitter.communicationRange"),
         ("*.uav.wlan[*].radio.transmitter.communicationRange", "*.uav.wlan[0].radio.transmitter.power"),
         ("**.transmitter.power", "*.uav.wlan[*].radio.transmitter.power"),
@@ -53,6 +57,8 @@ def test_what_has_no_effect(write_ini: Write, above: str, below: str) -> None:
 @pytest.mark.parametrize(
     ("above", "below"),
     [
+        ("*.numUavs", "*.sensors.count"),
+        ("*.uavs[0].protocol.class", "*.uavs[*].protocol.typename"),
         ("*.uavs[1].mobility.speed", "*.uavs[*].mobility.speed"),
         ("*.uavs[*].mobility.speed", "**.speed"),
         ("*.uavs[*].mobility.speed", "*.*.mobility.speed"),
