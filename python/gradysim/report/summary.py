@@ -10,6 +10,7 @@ from rich.text import Text
 
 from gradysim.config.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
+from gradysim.protocol.readable_number import readable_number
 from gradysim.report.count_tables import CountTables
 from gradysim.report.fates_at_nodes import fates_at_nodes, interferer_table
 from gradysim.results.run_result import NodeResult, RunResult
@@ -78,7 +79,7 @@ def heading(result: RunResult) -> Text:
     values = f"{text_of_iterations(result.iterations)}, " if result.iterations else ""
     text.append(f"  {values}seed {result.seed}, {result.mode} mode", style="not bold")
     if result.interrupted:
-        text.append(f"\ninterrupted at {result.sim_time_s:g} s of simulated time", style="bold red")
+        text.append(f"\ninterrupted at {result.sim_time_s:,.9g} s of simulated time", style="bold red")
     return text
 
 
@@ -128,8 +129,19 @@ def tracked(variable: tuple[str, object]) -> str:
 def short(value: object) -> str:
     """Return `value` as text of at most `MAX_VALUE_LENGTH` characters."""
     is_nan = isinstance(value, Real) and value != value
-    text = "nan" if is_nan else str(plain_value(value))
+    text = "nan" if is_nan else str(_readable(plain_value(value)))
     return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 1] + "…"
+
+
+def _readable(plain: object) -> object:
+    """Return a plain value with all its numbers as people read them."""
+    if isinstance(plain, float):
+        return readable_number(plain)
+    if isinstance(plain, list):
+        return [_readable(item) for item in plain]
+    if isinstance(plain, dict):
+        return {key: _readable(item) for key, item in plain.items()}
+    return plain
 
 
 def counted(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, dict[str, int]]:

@@ -97,6 +97,11 @@ def test_an_interrupted_run_is_marked_on_a_line_of_its_own():
     assert "interrupted at 12.5 s of simulated time" in lines
 
 
+def test_the_time_of_an_interruption_is_the_simulated_time():
+    text = printed(interrupted=True, sim_time_s=2345678.900000000058)
+    assert text.count("2,345,678.9 s") == 2
+
+
 def test_a_whole_run_is_not():
     assert "interrupted" not in printed()
 
@@ -111,6 +116,21 @@ def test_a_long_value_is_cut():
 
 def test_what_is_no_number_is_shown_as_that():
     assert short(math.nan) == "nan"
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (59.90000000000058, "59.9"),
+        (60.00000000000058, "60.0"),
+        ([(59.90000000000058, 1e-17)], "[[59.9, 1e-17]]"),
+        ({"at": 0.1 + 0.2}, "{'at': 0.3}"),
+        (True, "True"),
+        (12345678901234567, "12345678901234567"),
+    ],
+)
+def test_sums_of_steps_are_shown_without_the_rests_of_rounding(value, shown):
+    assert short(value) == shown
 
 
 def test_a_whole_number_of_any_size_is_shown():

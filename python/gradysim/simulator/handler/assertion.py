@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.readable_number import readable_number
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
@@ -267,7 +268,7 @@ def _named(case: type[SimulationTestCase], predicate: Callable[..., bool]) -> ty
 
 
 def _when(iteration: int, timestamp: float) -> str:
-    return f"[iteration={iteration} | timestamp={timestamp}]"
+    return f"[iteration={iteration} | timestamp={readable_number(timestamp)}]"
 
 
 def _failure(name: str, description: str, when: str, *nodes: Node[Any]) -> FailedAssertionException:

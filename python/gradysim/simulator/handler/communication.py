@@ -13,6 +13,7 @@ from gradysim.protocol.errors import CommunicationException as CommunicationExce
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.interface_index import checked_interface
 from gradysim.protocol.position import Position, squared_distance
+from gradysim.protocol.readable_number import readable_number
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.copy_ledger import CopyLedger
@@ -81,8 +82,8 @@ class CommunicationSource:
         """Count a message that arrives at once. Raises CommunicationException if they do not end."""
         if self._without_delay.exceeds(now):
             raise CommunicationException(
-                f"node {self.node.id} has sent {MOST_AT_ONE_INSTANT} messages at {now} s, with a delay of "
-                f"{medium.delay} s: time stands still; expected a delay, or answers that end"
+                f"node {self.node.id} has sent {MOST_AT_ONE_INSTANT} messages at {readable_number(now)} s, "
+                f"with a delay of {medium.delay} s: time stands still; expected a delay, or answers that end"
             )
 
 

@@ -4,6 +4,7 @@ from functools import partial
 from typing import Any
 
 from gradysim.protocol.errors import TimerException as TimerException
+from gradysim.protocol.readable_number import readable_number
 from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
 from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
 from gradysim.simulator.handler.interface import INodeHandler
@@ -103,8 +104,8 @@ class TimerHandler(INodeHandler):
     def _count_for_now(self, message: str, now: float, node: Node[Any]) -> None:
         if self._for_now.setdefault(node.id, InstantCount()).exceeds(now):
             raise TimerException(
-                f"node {node.id} has set {MOST_AT_ONE_INSTANT} timers for now, {now} s, and this one, "
-                f"{message!r}, is one more: time stands still; expected a later time"
+                f"node {node.id} has set {MOST_AT_ONE_INSTANT} timers for now, {readable_number(now)} s, "
+                f"and this one, {message!r}, is one more: time stands still; expected a later time"
             )
 
     def _timers_of(self, node: Node[Any]) -> _Pending:

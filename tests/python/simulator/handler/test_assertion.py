@@ -75,6 +75,23 @@ def test_not_always_true():
         run(always(3))
 
 
+class Steps(Counter):
+    """Counts at 0.1, 0.2 and 0.30000000000000004 s."""
+
+    def initialize(self):
+        self.provider.schedule_timer("count", 0.1)
+
+    def handle_timer(self, timer):
+        self.count += 1
+        if self.count < 3:
+            self.provider.schedule_timer("count", self.provider.current_time() + 0.1)
+
+
+def test_the_time_is_told_without_the_rests_of_rounding():
+    with pytest.raises(FailedAssertionException, match=r"timestamp=0\.3\]$"):
+        run(always(3, Steps), protocols=[Steps])
+
+
 def test_only_nodes_of_the_protocol_are_checked():
     run(always(3, Other), protocols=[Counter])
 
