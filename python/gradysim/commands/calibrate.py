@@ -49,6 +49,11 @@ def calibrate_power(
 
     try:
         scenario = load(file, config, "0", settings)[0]
+        if not 0 < ratio < 1:
+            hint = f"; did you mean {ratio / 100:g}?" if 1 < ratio < 100 else ""
+            raise ConfigError(
+                f"--ratio {ratio:g}: it is out of range; expected more than 0 and less than 1{hint}"
+            )
         if picture is not None:
             calibration.check_picture(picture)
         found = calibrate(

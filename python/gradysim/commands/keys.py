@@ -15,7 +15,7 @@ def list_keys(
     markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
 ) -> int:
     """List the keys of .ini files: unit, default, meaning."""
-    from gradysim.config.key_list import key_sections, matching
+    from gradysim.config.key_list import key_meant, key_sections, matching
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.integrated.engine_defaults import engine_defaults
     from gradysim.integrated.native_protocols import native_protocols
@@ -26,9 +26,11 @@ def list_keys(
     except CompiledPartMissingError:
         structs, natives = {}, []
         print("defaults shown as ? are the compiled part's, which is not installed", file=sys.stderr)
-    sections = matching(key_sections(structs, natives), pattern)
+    everything = key_sections(structs, natives)
+    sections = matching(everything, pattern)
     if not sections:
-        print(f"no key contains {pattern!r}; `gradysim keys` lists all", file=sys.stderr)
+        hint = key_meant(everything, pattern)
+        print(f"no key contains {pattern!r}; `gradysim keys` lists all{hint}", file=sys.stderr)
         return MISTAKE
     if markdown:
         print(key_table.markdown(sections), end="")

@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 from gradysim.config.key import Key
-from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
 from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS, PROTOCOL_PARAMETER
 from gradysim.config.keys.options import OPTION_KEYS
 from gradysim.config.native_protocol import NativeProtocol
+from gradysim.config.nearest import misspelt
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.scenario import CommunicationMediumSpec
 
@@ -20,6 +21,9 @@ UNKNOWN = "?"
 """Default of a key whose struct is not at hand."""
 
 _INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
+
+_GROUP = re.compile(r"\*\.(\w+)(?:\[[^\]]*\])?\.", re.ASCII)
+"""The beginning of a key of a group of nodes, or of a part of the network."""
 
 OWN_STRUCTS: Structs = {"communication_medium": {"": CommunicationMediumSpec()}}
 
@@ -63,8 +67,21 @@ def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ())
 def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
     """The keys that contain `pattern`, in any case, or match it if it has a `*` or `?`.
 
-    Keys are listed for any index, `wlan[*]`: what is asked for one, or a range, is found there.
+    Keys are listed for `nodes` and any index, `wlan[*]`: what is asked for one index or a range is found
+    there, and what is asked for another group, `*.uavs[0].mobility.speed`.
     """
+    everything = list(sections)
+    return _matching(everything, pattern) or _matching(everything, _group_as_nodes(pattern))
+
+
+def key_meant(sections: Iterable[KeySection], pattern: str) -> str:
+    """The end of a message about a pattern that matches none, "; did you mean ...?"; "" if it is no slip."""
+    keys = [row.key.partition(" ")[0].split(".") for section in sections for row in section.rows]
+    meant = misspelt(pattern, (".".join(key[-length:]) for length in (1, 2) for key in keys))
+    return f"; did you mean `{meant}`?" if meant else ""
+
+
+def _matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
     wanted = _INDEX.sub("[*]", pattern.lower())
     if not set("*?") & set(wanted.replace("[*]", "")):
         wanted = f"*{wanted}*"
@@ -74,6 +91,13 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
         for section in sections
     ]
     return [section for section in found if section.rows]
+
+
+def _group_as_nodes(pattern: str) -> str:
+    group = _GROUP.match(pattern)
+    if group is None or group[1] in NETWORK_MODULES:
+        return pattern
+    return f"*.nodes[*].{pattern[group.end() :]}"
 
 
 def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, ...]:

@@ -8,6 +8,8 @@ def test_keys_are_plain_lines_when_there_is_no_terminal(gradysim):
 
 
 def test_a_pattern_that_no_key_matches_is_a_mistake(gradysim):
-    done = gradysim("keys", "nonsense")
+    done = gradysim("keys", "sensitivty")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "nonsense" in done.stderr
+    assert done.stderr.endswith(
+        "no key contains 'sensitivty'; `gradysim keys` lists all; did you mean `sensitivity`?\n"
+    )

@@ -89,6 +89,14 @@ def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
         ),
         (["--range", "0m"], "--range 0m: it is out of range; expected a length such as 50m, greater than 0m"),
         (
+            ["--range", "50m", "--ratio", "90"],
+            "--ratio 90: it is out of range; expected more than 0 and less than 1; did you mean 0.9?",
+        ),
+        (
+            ["--range", "50m", "--ratio", "1"],
+            "--ratio 1: it is out of range; expected more than 0 and less than 1",
+        ),
+        (
             ["--range", "50m", "--message", "-5B"],
             "--message -5B: it is out of range; expected a size such as 100B, at least 0B",
         ),

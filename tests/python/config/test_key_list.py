@@ -2,7 +2,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from gradysim.config.key_list import UNKNOWN, KeyRow, key_sections, matching
+from gradysim.config.key_list import UNKNOWN, KeyRow, key_meant, key_sections, matching
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 
 
@@ -68,3 +68,26 @@ def test_what_is_asked_of_one_interface_is_found_for_any(index: str) -> None:
 
 def test_what_does_not_match_is_left_out() -> None:
     assert keys("nonsense") == []
+
+
+@pytest.mark.parametrize("group", ["uavs[*]", "uavs[3]", "groundStation", "nodes[*]"])
+def test_what_is_asked_of_a_group_is_found_for_any(group: str) -> None:
+    assert keys(f"*.{group}.mobility.speed") == ["*.nodes[*].mobility.speed"]
+
+
+def test_the_network_has_parts_that_are_no_groups() -> None:
+    assert keys("*.radioMedium.pathLoss.k") == ["*.radioMedium.pathLoss.k"]
+    assert keys("*.radioMedium.mobility.speed") == []
+
+
+@pytest.mark.parametrize(
+    ("pattern", "hint"),
+    [
+        ("sensitivty", "; did you mean `sensitivity`?"),
+        ("mobility speed", "; did you mean `mobility.speed`?"),
+        ("sim time limit", "; did you mean `sim-time-limit`?"),
+        ("zzz", ""),
+    ],
+)
+def test_the_nearest_name_is_suggested(pattern: str, hint: str) -> None:
+    assert key_meant(key_sections({}), pattern) == hint
