@@ -3,8 +3,10 @@
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
 
 from gradysim.config.error import ConfigError
+from gradysim.config.neighbours import file_meant
 from gradysim.config.setting import Setting
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
@@ -86,10 +88,18 @@ def _told(text: str, settings: Mapping[str, Setting]) -> ConfigError:
         if target not in settings:
             told = f"{key_name(field)} = {shown} (its default): {rest}"
         elif place is None or _LITERAL.fullmatch(place.source.value):
-            told = rest
+            told = rest + _file_meant(target, settings[target])
         else:
-            told = f"that is {shown}: {rest}"
+            told = f"that is {shown}: {rest}{_file_meant(target, settings[target])}"
     return ConfigError(told) if place is None else ConfigError.at(place.source, told)
+
+
+def _file_meant(target: str, setting: Setting) -> str:
+    """A hint at a file beside one that is not there; "" for what is no name of a file, or of one that is."""
+    key, file = keys_by_target().get(target), Path(str(setting.value))
+    if key is None or not key.kind.is_file or file.exists():
+        return ""
+    return file_meant(file, (".csv", ".txt"), setting.source.value.strip('"'))
 
 
 def _nearest(named: list[str], settings: Mapping[str, Setting]) -> str:

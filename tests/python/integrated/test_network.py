@@ -90,6 +90,18 @@ def test_a_malformed_table_of_error_rates_is_refused_where_it_is_named(make_scen
     assert error.value.key == "**.errorModel.berTableFile"
 
 
+@pytest.mark.parametrize("quote", ['"', ""])
+def test_a_missing_error_table_is_told_with_the_one_that_may_be_meant(make_scenario, tmp_path, quote):
+    (tmp_path / "table.csv").touch()
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        f"**.errorModel.berTableFile = {quote}tabel.csv{quote}",
+    )
+    with pytest.raises(ConfigError, match=r"expected a file that can be read; did you mean `table\.csv`\?$"):
+        check_scenario(scenario)
+
+
 @pytest.mark.parametrize(
     "text",
     [
