@@ -242,16 +242,22 @@ def run_one(
 
 
 def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool) -> int:
-    """Show and write what came out of a run, and return the exit code."""
+    """Show and write what came out of a run, and return the exit code.
+
+    Why it failed comes last, where somebody looks whose screen the tables fill.
+    """
     from gradysim.report.failure import print_failure
     from gradysim.results.run_file import write_run_file
 
-    if outcome.failure is not None:
-        print_failure(outcome.failure, sys.stderr)
-    if outcome.result is not None:
-        show(outcome.result, output, as_json=as_json)
-        if result_dir is not None:
-            print(f"written to {write_run_file(outcome.result, result_dir)}")
+    try:
+        if outcome.result is not None:
+            show(outcome.result, output, as_json=as_json)
+            if result_dir is not None:
+                print(f"written to {write_run_file(outcome.result, result_dir)}")
+            output.flush()
+    finally:  # also if the output takes no more
+        if outcome.failure is not None:
+            print_failure(outcome.failure, sys.stderr)
     if outcome.failure is not None:
         return FAILED
     return INTERRUPTED if outcome.interrupted else OK

@@ -1,6 +1,9 @@
 """What a user sees of a protocol that fails."""
 
-from python.cli.command import both_modes, objects
+import subprocess
+import sys
+
+from python.cli.command import both_modes, environment, objects
 
 
 @both_modes
@@ -12,6 +15,21 @@ def test_a_failing_protocol(gradysim, mode):
     assert "protocol.py" in lines[1]
     assert lines[-2] == "RuntimeError: spoilt"
     assert "in handle_packet of node 1 (Failing 1) at 1" in lines[-1]
+
+
+@both_modes
+def test_why_it_failed_comes_last_on_a_screen(folder, mode):
+    done = subprocess.run(
+        [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Failing", "--mode", mode, "-r", "0"],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=60,
+    )
+    assert done.stdout.index("Failing run 0") < done.stdout.index("Traceback")
+    assert "in handle_packet of node 1 (Failing 1) at 1" in done.stdout.splitlines()[-1]
 
 
 @both_modes
