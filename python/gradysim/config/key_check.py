@@ -4,6 +4,7 @@ Two checks, since the parameters of protocols are known only when their classes 
 group is better reported than the missing class that follows from it.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
@@ -43,6 +44,8 @@ def check_option(entry: Entry) -> None:
     if key in OPTIONS or key in SECTION_OPTIONS or is_ignored(entry):
         return
     hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, "network", "result-dir", "experiment-label"])
+    if re.fullmatch(r"num[A-Z]\w*", key):
+        hint = f"; did you mean `*.{key}`?"
     raise ConfigError(
         f"there is no option `{key}`; expected one, or a parameter such as `*.uavs[*].mobility.speed`{hint}",
         entry.source,

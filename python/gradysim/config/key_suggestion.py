@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from gradysim.config.groups import Group
 from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.interface import WLAN, interface_in, written_for
+from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS
 from gradysim.config.lookup import Found
-from gradysim.config.nearest import did_you_mean, nearest
+from gradysim.config.nearest import did_you_mean, misspelt, nearest
 from gradysim.config.parameter_unit import annotations_of
 from gradysim.config.pattern import Pattern, compile_pattern
 from gradysim.config.protocol_parameters import parameters_of
@@ -33,6 +34,8 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
         nearest_parts = [found.parts[0].text, group.written if group else match]
         nearest_parts += [part.text for part in found.parts[2:]]
         hint = f"; did you mean `{'.'.join(nearest_parts)}`?"
+    elif not bracket and is_misspelt_class(found.rest_pattern()):
+        hint = f"; did you mean `{found.parts[0].text}.{base}.{PROTOCOL_CLASS.path}`?"
     else:
         hint = "" if bracket else did_you_mean(key, _written_keys(key, groups, ()))
     if group is not None and group.name == base:
@@ -43,6 +46,14 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
         return f"`{key}` matches no node: nothing says how many `{base}` there are; expected {size}"
     names = ", ".join(f"`{group.written}`" for group in groups)
     return f"`{key}` matches no node; expected one of {names or 'the nodes, and there are none'}{hint}"
+
+
+def is_misspelt_class(rest: Pattern | None) -> bool:
+    """Whether what stands below a node's name was meant as `protocol.class`, and is something else."""
+    if rest is None or rest.literal is None or rest.literal == PROTOCOL_CLASS.path:
+        return False
+    paths = [key.path for key in PROTOCOL_KEYS]
+    return rest.literal == "protocol" or misspelt(rest.literal, paths) == PROTOCOL_CLASS.path
 
 
 def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:

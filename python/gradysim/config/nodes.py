@@ -12,6 +12,7 @@ from gradysim.config.groups import Group
 from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.interfaces import InterfaceBuilder
 from gradysim.config.key import Key
+from gradysim.config.key_suggestion import is_misspelt_class
 from gradysim.config.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
 from gradysim.config.kinds import LARGEST_COORDINATE_M, Kind
@@ -68,7 +69,7 @@ def load_protocols(
                 if (found := of_key.first(name)) is not None and not found.is_default
             ]
             if not given:
-                raise _no_class_error(group, groups, name)
+                raise _misspelt_class_error(lookup, group, name) or _no_class_error(group, groups, name)
             _, key, found = min(given, key=lambda each: each[0])
             if found not in by_entry:
                 load = _load_class if key is PROTOCOL_CLASS else _native_class
@@ -217,6 +218,17 @@ def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> t
     except BadValue as error:
         text = f"{error.problem}; expected one that `gradysim keys protocol` lists{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
+
+
+def _misspelt_class_error(lookup: Lookup, group: Group, node: str) -> ConfigError | None:
+    """The error about the line that was meant to say it; None if there is none."""
+    for found in lookup.found:
+        name, rest = found.name_pattern(), found.rest_pattern()
+        if name is not None and name.matches(node) and is_misspelt_class(rest):
+            expected = f"`*.{group.written}.{PROTOCOL_CLASS.path}`"
+            problem = f"`{found.entry.key}` matches no parameter, and nothing says which protocol {node} runs"
+            return ConfigError(f"{problem}; expected {expected}", found.entry.source)
+    return None
 
 
 def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:

@@ -59,7 +59,7 @@ def test_the_first_mistake_of_the_file_is_reported(folder: Any) -> None:
     [
         ("sim-time-limt", "; did you mean `sim-time-limit`?"),
         ("zzzz", ""),
-        ("numUavs", ""),
+        ("numUavs", "; did you mean `*.numUavs`?"),
     ],
 )
 def test_unknown_options(folder: Any, key: str, hint: str) -> None:

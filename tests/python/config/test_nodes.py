@@ -312,6 +312,20 @@ def test_errors(folder: Any, added: str, message: str) -> None:
     assert folder.error(added) == f"test.ini:6: {message}"
 
 
+@pytest.mark.parametrize("rest", ["protocl.class", "protocol.clas", "protocol.Class", "protocol"])
+def test_a_line_that_was_meant_to_say_the_protocol_is_named(folder: Any, rest: str) -> None:
+    assert folder.error(f'*.numBoats = 1\n*.boats[*].{rest} = "protocols.py:Mobile"\n') == (
+        f"test.ini:7: `*.boats[*].{rest}` matches no parameter, and nothing says which protocol boats[0]"
+        " runs; expected `*.boats[*].protocol.class`"
+    )
+
+
+def test_a_single_node_whose_class_is_misspelt_is_no_node(folder: Any) -> None:
+    error = folder.error('*.boat.protocol.clas = "protocols.py:Mobile"\n')
+    assert error.startswith("test.ini:6: `*.boat.protocol.clas` matches no node; ")
+    assert error.endswith("; did you mean `*.boat.protocol.class`?")
+
+
 def test_ten_thousand_nodes_share_what_is_the_same(folder: Any) -> None:
     scenario = folder.load("*.uavs[3].mobility.speed = 3mps\n**.power = 1mW\n[X]\n*.numUavs = 10000\n", "X")
     assert len(scenario.nodes) == 10001
