@@ -7,6 +7,7 @@
 
 #include "netsim/error.hpp"
 #include "netsim/kernel/fetch.hpp"
+#include "netsim/medium/order_of_arrival.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -157,17 +158,17 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         audience.members.prepare(now, odometer_, within_m);
         entry.reach_m = std::max(entry.reach_m, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
-        candidates_.clear();
         const double search_m = std::max(within_m, ring.radius_m());
-        audience.members.visit(sent.origin, search_m, [&](RadioId radio, const Position& place) {
+        const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
+        for (const auto& [radio, place] : near) {
+            netsim::fetch(attached_[radio]);
+        }
+        for (const auto& [radio, place] : near) {
             const double squared_m2 = squared_distance(sent.origin, place);
-            if (squared_m2 <= search_m * search_m && radio != sent.radio &&
-                (squared_m2 <= within_m * within_m || watches_[radio] != 0)) {
-                __builtin_prefetch(&attached_[radio]);
-                candidates_.push_back(Candidate{radio, place, squared_m2});
+            const double heard_m = watches_[radio] != 0 ? search_m : within_m;
+            if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
+                continue;
             }
-        });
-        for (const auto& [radio, place, squared_m2] : candidates_) {
             const Attached& there = attached_[radio];
             const double distance_m = std::sqrt(squared_m2);
             const double received_w = power_w(sent, share, radio, place, distance_m);
@@ -281,9 +282,7 @@ void Medium::schedule_arrivals(OnAir& entry) {
     if (entry.heard.empty()) {
         return;
     }
-    std::sort(entry.heard.begin(), entry.heard.end(), [](const Heard& a, const Heard& b) {
-        return a.start != b.start ? a.start < b.start : a.radio < b.radio;
-    });
+    put_in_order(entry.heard, entry.transmission.start);
     schedule_next(entry, Edge::begins);
     schedule_next(entry, Edge::ends);
 }

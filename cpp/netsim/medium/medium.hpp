@@ -118,12 +118,6 @@ private:
         const void* upper_layer = nullptr;
         const void* protocol = nullptr;
     };
-    // Within reach of the transmission, or nearly.
-    struct Candidate {
-        RadioId radio = 0;
-        Position place;
-        double squared_m2 = 0;
-    };
     // The last one that was worked out: mostly all transmissions have the same.
     struct KnownReach {
         double gain = -1;
@@ -318,8 +312,7 @@ private:
     std::vector<Receiver> receivers_;         // [radio]
     std::vector<std::uint32_t> audience_of_;  // [radio]
     std::vector<std::uint8_t> watches_;       // [radio]: its energy
-    std::vector<Candidate> candidates_;
-    std::vector<RadioId> first_radio_;  // [node]; its others come after it
+    std::vector<RadioId> first_radio_;        // [node]; its others come after it
     std::deque<Audience> audiences_;
     Odometer odometer_;
     std::deque<std::unique_ptr<OnAir>> on_air_;  // by start

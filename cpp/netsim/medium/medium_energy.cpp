@@ -84,7 +84,7 @@ void Medium::add_to_ring(OnAir& here, const OnAir& there, std::size_t audience) 
 }
 
 void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
-    const Audience& audience = audiences_[index];
+    Audience& audience = audiences_[index];
     const Transmission& sent = here.transmission;
     EnergyRing& ring = here.rings[index];
     const auto visit_others = [&](const auto& visitor) {
@@ -137,10 +137,10 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
     const double share = here.shares[index];
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
-    audience.members.visit(sent.origin, radius_m + moved_m, [&](RadioId radio, const Position& place) {
+    for (const auto& [radio, place] : audience.members.near(sent.origin, radius_m + moved_m)) {
         if (watches_[radio] == 0 || squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m ||
             radio == sent.radio) {
-            return;
+            continue;
         }
         ++energy_looks_;
         const double received_w = moved_m > 0 || !odometer_.all_stand()
@@ -150,7 +150,7 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
             !is_surely_loud(attached_[radio], received_w)) {
             watch(radio, place, received_w);
         }
-    });
+    }
 }
 
 // Who is nearer is told of the transmission even if it is alone. 0 where that depends on more than the distance.

@@ -1,7 +1,10 @@
 #include "netsim/medium/neighbours.hpp"
 
 #include <bit>
+#include <cmath>
 #include <limits>
+
+#include "netsim/kernel/fetch.hpp"
 
 namespace netsim {
 
@@ -73,6 +76,59 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
     const Position largest{std::max(-lowest_.x, highest_.x), std::max(-lowest_.y, highest_.y),
                            std::max(-lowest_.z, highest_.z)};
     rounding_m_ = 1e-12 * std::max({largest.x, largest.y, largest.z, 0.0});
+}
+
+void Neighbours::find_runs(const Position& centre, double radius_m) {
+    runs_.clear();
+    const auto rows = static_cast<std::int64_t>(columns_);
+    const std::int64_t first_row = cell_of(centre.y - radius_m);
+    const std::int64_t last_row = cell_of(centre.y + radius_m);
+    // Also if the radius is infinite or no number.
+    if (!(radius_m < 1e150) || last_row - first_row >= rows) {
+        runs_.push_back({0, static_cast<std::uint32_t>(entries_.size())});
+        return;
+    }
+    const std::int64_t first = cell_of(centre.x - radius_m);
+    const std::int64_t last = cell_of(centre.x + radius_m);
+    const bool is_all = last - first >= rows;
+    const std::size_t begin = is_all ? 0 : column_of(first);
+    const std::size_t end = is_all ? columns_ : begin + static_cast<std::size_t>(last - first) + 1;
+    for (std::int64_t row = first_row; row <= last_row; ++row) {
+        const std::uint32_t* const first_entry = first_entry_.data() + column_of(row) * columns_;
+        runs_.push_back({first_entry[begin], first_entry[std::min(end, columns_)]});
+        if (end > columns_) {
+            runs_.push_back({first_entry[0], first_entry[end - columns_]});
+        }
+    }
+}
+
+const std::vector<Neighbours::Near>& Neighbours::near(const Position& centre, double radius_m) {
+    const double far_m = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
+    const double search_m = (radius_m + moved_m_) * (1 + 1e-9) + rounding_m_ + 1e-12 * far_m;
+    find_runs(centre, search_m);
+    std::size_t count = 0;
+    for (const Run& run : runs_) {
+        fetch_bytes(entries_.data() + run.first, (run.end - run.first) * sizeof(Entry));
+        count += run.end - run.first;
+    }
+    if (found_.size() <= count) {
+        found_.resize(count + 1);
+    }
+    // Half of the entries are too far away, in no order: without a branch, as a processor cannot guess which.
+    const double squared_m2 = search_m * search_m;
+    std::size_t found = 0;
+    for (const Run& run : runs_) {
+        for (std::uint32_t entry = run.first; entry < run.end; ++entry) {
+            found_[found] = entry;
+            found += squared_distance(centre, entries_[entry].place) > squared_m2 ? 0U : 1U;
+        }
+    }
+    near_.clear();
+    for (std::size_t i = 0; i < found; ++i) {
+        const Entry& entry = entries_[found_[i]];
+        near_.push_back({entry.id, all_stand_ ? entry.place : entry.trajectory->position_at(now_)});
+    }
+    return near_;
 }
 
 double Neighbours::farthest_m(const Position& from) const {

@@ -29,10 +29,13 @@ public:
     // the cells follows those that are usual.
     void prepare(SimTime now, Odometer& odometer, double reach_m);
 
-    // Calls visitor(radio, position now) for all radios within `radius_m` of `centre`, and some others near by, in an
-    // order that depends on nothing but the nodes' positions. An infinite radius visits all.
-    template <typename Visitor>
-    void visit(const Position& centre, double radius_m, Visitor&& visitor) const;
+    struct Near {
+        RadioId radio = 0;
+        Position place;  // now
+    };
+    // All within `radius_m` of `centre`, and some others near by, in an order that depends on nothing but the nodes'
+    // positions; everybody, if the radius is infinite. Valid until the next call.
+    const std::vector<Near>& near(const Position& centre, double radius_m);
 
     // No node is farther away from there.
     double farthest_m(const Position& from) const;
@@ -59,17 +62,13 @@ private:
     std::size_t column_of(std::int64_t cell) const {
         return static_cast<std::size_t>(cell) & (columns_ - 1);  // a power of two
     }
-    // Has those of a row brought into the cache; which of them are near is not known before they are there.
-    void fetch_row(std::size_t row, std::size_t first, std::size_t end) const {
-        const Entry* const last = entries_.data() + first_entry_[row * columns_ + end];
-        for (const Entry* entry = entries_.data() + first_entry_[row * columns_ + first]; entry < last;
-             ++entry) {
-            __builtin_prefetch(entry);
-        }
-    }
-    template <typename Visitor>
-    void visit_row(std::size_t row, std::size_t first, std::size_t end, const Position& centre,
-                   double squared_radius_m2, Visitor&& visitor) const;
+    // Of entries that lie side by side.
+    struct Run {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
+    // Collects in `runs_` those of the cells that are within the radius, row by row.
+    void find_runs(const Position& centre, double radius_m);
 
     std::vector<Radio> radios_;
     std::vector<Entry> entries_;              // by place in the table
@@ -90,57 +89,10 @@ private:
     bool all_stand_ = false;  // where they were then, exactly
     double reaches_m_ = 0;    // sum of those asked for
     std::uint64_t asked_ = 0;
+
+    std::vector<Run> runs_;
+    std::vector<std::uint32_t> found_;  // entries
+    std::vector<Near> near_;            // the answer of near, reused
 };
-
-template <typename Visitor>
-void Neighbours::visit(const Position& centre, double radius_m, Visitor&& visitor) const {
-    const double far_m = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
-    const double search_m = (radius_m + moved_m_) * (1 + 1e-9) + rounding_m_ + 1e-12 * far_m;
-    const double squared_m2 = search_m * search_m;
-    const auto rows = static_cast<std::int64_t>(columns_);
-    const std::int64_t first_row = cell_of(centre.y - search_m);
-    const std::int64_t last_row = cell_of(centre.y + search_m);
-    // Also if the radius is infinite or no number.
-    if (!(squared_m2 < 1e300) || last_row - first_row >= rows) {
-        for (std::size_t row = 0; row < columns_; ++row) {
-            visit_row(row, 0, columns_, centre, squared_m2, visitor);
-        }
-        return;
-    }
-    const std::int64_t first = cell_of(centre.x - search_m);
-    const std::int64_t last = cell_of(centre.x + search_m);
-    if (last - first < rows) {
-        const std::size_t begin = column_of(first);
-        const std::size_t end = std::min(begin + static_cast<std::size_t>(last - first) + 1, columns_);
-        for (std::int64_t row = first_row; row <= last_row; ++row) {
-            fetch_row(column_of(row), begin, end);
-        }
-    }
-    for (std::int64_t row = first_row; row <= last_row; ++row) {
-        if (last - first >= rows) {
-            visit_row(column_of(row), 0, columns_, centre, squared_m2, visitor);
-            continue;
-        }
-        const std::size_t begin = column_of(first);
-        const std::size_t end = begin + static_cast<std::size_t>(last - first) + 1;
-        visit_row(column_of(row), begin, std::min(end, columns_), centre, squared_m2, visitor);
-        if (end > columns_) {
-            visit_row(column_of(row), 0, end - columns_, centre, squared_m2, visitor);
-        }
-    }
-}
-
-template <typename Visitor>
-void Neighbours::visit_row(std::size_t row, std::size_t first, std::size_t end, const Position& centre,
-                           double squared_radius_m2, Visitor&& visitor) const {
-    const Entry* entry = entries_.data() + first_entry_[row * columns_ + first];
-    const Entry* const last = entries_.data() + first_entry_[row * columns_ + end];
-    for (; entry != last; ++entry) {
-        if (squared_distance(centre, entry->place) > squared_radius_m2) {
-            continue;
-        }
-        visitor(entry->id, all_stand_ ? entry->place : entry->trajectory->position_at(now_));
-    }
-}
 
 }  // namespace netsim

@@ -29,13 +29,13 @@ struct Crowd {
         neighbours.prepare(now, odometer, reach_m);
         std::set<NodeId> near;
         std::set<NodeId> visited;
-        neighbours.visit(centre, radius_m, [&](NodeId node, const Position& place) {
+        for (const auto& [node, place] : neighbours.near(centre, radius_m)) {
             EXPECT_TRUE(visited.insert(node).second) << node;
             EXPECT_EQ(place, trajectories[node].position_at(now)) << node;
             if (distance(centre, place) <= radius_m) {
                 near.insert(node);
             }
-        });
+        }
         return near;
     }
     std::set<NodeId> expected(Position centre, double radius_m, SimTime now) const {
@@ -113,9 +113,7 @@ TEST(Neighbours, AreLookedForOnlyNearBy) {
         crowd.add({100.0 * column, 100.0 * row, 0});
     }
     crowd.neighbours.prepare(s(0), crowd.odometer, 200);
-    int visited = 0;
-    crowd.neighbours.visit({5000, 5000, 0}, 200, [&visited](NodeId, const Position&) { ++visited; });
-    EXPECT_EQ(visited, 13);
+    EXPECT_EQ(crowd.neighbours.near({5000, 5000, 0}, 200).size(), 13U);
 }
 
 TEST(Neighbours, NobodyIsFartherThanTheFarthest) {

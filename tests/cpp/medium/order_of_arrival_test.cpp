@@ -1,0 +1,70 @@
+#include "netsim/medium/order_of_arrival.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netsim/kernel/random.hpp"
+
+namespace netsim {
+namespace {
+
+constexpr SimTime sent = SimTime::from_us(7);
+
+struct Heard {
+    SimTime start;
+    std::int32_t radio = 0;
+
+    bool operator==(const Heard&) const = default;
+    friend std::ostream& operator<<(std::ostream& out, const Heard& heard) {
+        return out << heard.start.ps() << " ps at " << heard.radio;
+    }
+};
+
+// So many, whose delays are up to that; `kinds` different ones.
+std::vector<Heard> draw(RandomStream& draws, std::size_t count, std::int64_t longest_ps,
+                        std::uint32_t kinds) {
+    std::vector<Heard> heard;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto delay_ps = static_cast<std::int64_t>(static_cast<double>(longest_ps) *
+                                                        draws.uniform_int(kinds) / (kinds - 1));
+        const auto radio = static_cast<std::int32_t>(count - i) * 3;
+        heard.push_back({sent + SimTime::from_ps(delay_ps), i == 0 ? 0x7FFFFFFF : radio});
+    }
+    return heard;
+}
+
+struct Case {
+    const char* name;
+    std::int64_t longest_ps;
+    std::uint32_t kinds;
+};
+
+class OrderOfArrival : public testing::TestWithParam<Case> {};
+
+TEST_P(OrderOfArrival, IsByStartThenByRadio) {
+    RandomStream draws(1, 0, Purpose{1004});
+    for (std::size_t count = 0; count < 70; ++count) {
+        std::vector<Heard> heard = draw(draws, count, GetParam().longest_ps, GetParam().kinds);
+        std::vector<Heard> expected = heard;
+        std::ranges::sort(expected, {},
+                          [](const Heard& one) { return std::tuple(one.start.ps(), one.radio); });
+        put_in_order(heard, sent);
+        ASSERT_EQ(heard, expected) << count;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OrderOfArrival,
+                         testing::Values(Case{"near", 1'000'000, 1'000'000}, Case{"onCircles", 1'000'000, 3},
+                                         Case{"atTheLastDelayThatFits", (1LL << 33) - 1, 1000},
+                                         Case{"beyondIt", 1LL << 33, 1000},
+                                         Case{"farAway", 1'000'000'000'000, 1000}),
+                         [](const auto& given) { return std::string(given.param.name); });
+
+}  // namespace
+}  // namespace netsim
