@@ -66,7 +66,7 @@ def check_names(lookup: Lookup, groups: list[Group]) -> None:
             known[name.text] = (
                 any(map(name.matches, names)) if name.literal is None else name.literal in names
             )
-        matches = known[name.text] or _is_beyond_overridden_size(found, groups)
+        matches = known[name.text] or _is_of_other_runs(found, groups)
         if not (matches and found.parts and found.parts[0].matches(lookup.network)):
             raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
 
@@ -165,11 +165,18 @@ def _in_order_of_text(lookup: Lookup) -> list[Found]:
     return sorted(lookup.found, key=lambda found: (found.entry.source.line, found.order))
 
 
-def _is_beyond_overridden_size(found: Found, groups: list[Group]) -> bool:
-    """Whether a key names an index that the group had until a more specific section made it smaller."""
+def _is_of_other_runs(found: Found, groups: list[Group]) -> bool:
+    """Whether a key names an index that the group has in other runs.
+
+    It had it until a more specific section made it smaller, or its size is another one in each combination of
+    values.
+    """
     name = found.name_pattern()
     prefix = name.literal_prefix().partition("[") if name else ("", "", "")
     return any(
-        group.name == prefix[0] and prefix[1] and group.size_found and group.size_found.rank < found.rank
+        group.name == prefix[0]
+        and prefix[1]
+        and group.size_found
+        and (group.size_found.rank < found.rank or "${" in group.size_found.entry.source.value)
         for group in groups
     )

@@ -78,7 +78,9 @@ def read_overrides(file: Path, overrides: Iterable[str]) -> list[Entry]:
         key, equals, text = (part.strip() for part in override.partition("="))
         if not (key and equals and text):
             raise ConfigError(f"--set {override}: expected KEY=VALUE, such as `sim-time-limit=10s`")
-        entries.append(Entry(key, text, Source(file, 0, key, text), COMMAND_LINE))
+        source = Source(file, 0, key, text)
+        _refuse_variables(key, source)
+        entries.append(Entry(key, text, source, COMMAND_LINE))
     return entries
 
 
@@ -216,4 +218,10 @@ def _entry(line: str, source: Source, section: str) -> Entry:
         raise ConfigError(f"`{line}` is no entry; expected `key = value`", source)
     if not text:
         raise ConfigError(f"`{key}` has no value; expected `{key} = value`", source)
+    _refuse_variables(key, source)
     return Entry(key, text, Source(source.file, source.line, key, text.replace("\n", " ")), section)
+
+
+def _refuse_variables(key: str, source: Source) -> None:
+    if "${" in key:
+        raise ConfigError(f"`{key}` has a variable; expected `${{...}}` in values only", source)

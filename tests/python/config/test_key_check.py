@@ -2,6 +2,8 @@ from typing import Any
 
 import pytest
 
+from gradysim.config.scenario import Scenario, load_scenarios
+
 
 @pytest.mark.parametrize(
     "added",
@@ -89,4 +91,24 @@ def test_a_group_in_the_wrong_case_is_told_at_its_line(folder: Any, base_first: 
     assert folder.error(own, "X") == (
         f"test.ini:{7 if base_first else 8}: `*.Uavs[*].mobility.speed` matches no node; expected one of "
         "`groundStation`, `uavs[*]`; did you mean `*.uavs[*].mobility.speed`?"
+    )
+
+
+def speeds(scenario: Scenario) -> list[object]:
+    settings = [node.mobility.get("speed_mps") for node in scenario.nodes]
+    return [setting and setting.value for setting in settings]
+
+
+def test_a_line_about_a_node_that_only_some_runs_have_concerns_those(folder: Any) -> None:
+    lines = "[X]\n*.numUavs = ${1, 3}\n*.uavs[2].mobility.speed = 3mps\n"
+    folder.load(lines, "X")
+    one, three = load_scenarios(folder.ini, "X")
+    assert speeds(one) == [None, None]
+    assert speeds(three) == [None, None, None, 3.0]
+
+
+def test_a_variable_in_a_key_is_refused_on_the_command_line_too(folder: Any) -> None:
+    assert folder.error("", "General", "*.uavs[${n}].mobility.speed=1mps") == (
+        "--set *.uavs[${n}].mobility.speed=1mps: `*.uavs[${n}].mobility.speed` has a variable;"
+        " expected `${...}` in values only"
     )

@@ -180,6 +180,10 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
             "test.ini:2: test.ini includes itself; expected another file",
         ),
         (
+            "*.uavs[${n}].x = 3\n",
+            "test.ini:1: `*.uavs[${n}].x` has a variable; expected `${...}` in values only",
+        ),
+        (
             "include tst.ini\n",
             "test.ini:1: tst.ini: no such file; expected an .ini file; did you mean `test.ini`?",
         ),
