@@ -43,7 +43,9 @@ def read_scalar(entry: Entry, kind: Kind) -> Scalar:
         value = kind.convert(_value_of(entry, kind))
         return str(entry.source.file.parent / str(value)) if kind.is_file and value else value
     except BadValue as error:
-        text = f"{error.problem}; expected {kind.expected}{error.suggestion}"
+        is_of_one_run = "${" in entry.source.value and "${" not in entry.text
+        this_run = f"that is {entry.text}: " if is_of_one_run else ""
+        text = f"{this_run}{error.problem}; expected {kind.expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 
 

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -38,6 +39,16 @@ def test_errors_name_the_place_the_entry_and_what_was_expected() -> None:
     assert str(caught.value) == (
         "a.ini:7: *.x.y = 3mpss: there is no unit `mpss`; "
         "expected a speed such as 10mps, at least 0mps; did you mean `mps`?"
+    )
+
+
+def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
+    of_this_run = replace(entry("${v=3mps, -3mps}"), text="-3mps")
+    with pytest.raises(ConfigError) as caught:
+        read_scalar(of_this_run, SPEED)
+    assert str(caught.value) == (
+        "a.ini:7: *.x.y = ${v=3mps, -3mps}: that is -3mps: it is out of range; "
+        "expected a speed such as 10mps, at least 0mps"
     )
 
 
