@@ -12,6 +12,7 @@ from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.configuration import configuration_or_default
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 
@@ -60,7 +61,7 @@ class MissionMobilityPlugin:
     ) -> None:
         """Attach to `protocol`; without a configuration its defaults hold."""
         self._protocol = protocol
-        self._configuration = configuration or MissionMobilityConfiguration()
+        self._configuration = configuration_or_default(self, configuration, MissionMobilityConfiguration)
         _check_configuration(self._configuration)
         self._dispatcher = create_dispatcher(protocol)
         self._mission: tuple[Position, ...] = ()

@@ -8,6 +8,7 @@ from gradysim.protocol.checked_values import checked_number, checked_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.configuration import configuration_or_default
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 
@@ -44,7 +45,7 @@ class RandomMobilityPlugin:
         Raises:
             ValueError: A range is not two finite numbers in ascending order, or the tolerance is negative.
         """
-        config = config or RandomMobilityConfig()
+        config = configuration_or_default(self, config, RandomMobilityConfig)
         self._protocol = protocol
         self._ranges = tuple(
             checked_range(name, getattr(config, name), ValueError)

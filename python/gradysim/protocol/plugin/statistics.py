@@ -140,6 +140,7 @@ def create_statistics(
     Raises:
         ValueError: `file_name_part` or `collection_interval` is not what it should be.
     """
+    create_dispatcher(protocol)  # which knows what is no protocol
     wrapper: StatisticsProtocolWrapper | None = vars(protocol).get(_ATTRIBUTE)
     if wrapper is None:
         wrapper = StatisticsProtocolWrapper(protocol, file_name_part, collection_interval)

@@ -8,6 +8,7 @@ from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+from gradysim.protocol.plugin.configuration import configuration_or_default
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.plugin.follow_mobility.mobility import (
@@ -69,7 +70,7 @@ class MobilityFollowerPlugin:
         Raises:
             FollowMobilityException: A number of the configuration is outside its range.
         """
-        self._configuration = configuration or MobilityFollowerConfiguration()
+        self._configuration = configuration_or_default(self, configuration, MobilityFollowerConfiguration)
         _check(self._configuration)
         self._provider = protocol.provider
         self._last_heard: dict[int, float] = {}

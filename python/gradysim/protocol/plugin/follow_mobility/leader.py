@@ -8,6 +8,7 @@ from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.configuration import configuration_or_default
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.follow_mobility.broadcast_clock import BroadcastClock
 from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
@@ -71,7 +72,7 @@ class MobilityLeaderPlugin:
         Raises:
             FollowMobilityException: A number of the configuration is outside its range.
         """
-        configuration = configuration or MobilityLeaderConfiguration()
+        configuration = configuration_or_default(self, configuration, MobilityLeaderConfiguration)
         interval, self._timeout, self._orientation, jitter = _checked(configuration)
         self._provider = protocol.provider
         self._position: Position | None = None
