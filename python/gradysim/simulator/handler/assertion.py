@@ -69,6 +69,7 @@ def assert_always_true_for_protocol(
         name: Of the check, for the message of its failure.
         description: More words for that message.
     """
+    _check_class(protocol_type)
 
     def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
         class Case(SimulationTestCase):
@@ -92,6 +93,7 @@ def assert_eventually_true_for_protocol(
     The arguments are those of `assert_always_true_for_protocol`. Without such nodes, or any event, there
     is nothing to fail.
     """
+    _check_class(protocol_type)
 
     def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
         class Case(SimulationTestCase):
@@ -234,6 +236,12 @@ _NEVER = "the condition was never met during the simulation"
 
 def _of_type(nodes: list[Node[Any]], protocol_type: type[IProtocol]) -> list[Node[Any]]:
     return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, protocol_type)]
+
+
+def _check_class(protocol_type: object) -> None:
+    """The name of a class, or an instance, would be found out after the first event only."""
+    if not isinstance(protocol_type, type):
+        raise TypeError(f"expected a protocol's class, got {protocol_type!r}")
 
 
 def _check_not_loaded_twice(node: Node[Any], asked: type[IProtocol]) -> None:

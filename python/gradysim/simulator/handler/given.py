@@ -29,9 +29,11 @@ def given_handlers(
         asynchronous: Whether an `IAsyncNodeHandler` works there.
 
     Raises:
-        TypeError: Something else than a handler is among them.
+        TypeError: They are no list, or something else than a handler is among them.
         ValueError: One of them cannot work there, or two have the same label.
     """
+    if not isinstance(handlers, Iterable):
+        raise TypeError(f"expected a list of handlers, got {handlers!r}")
     by_label: dict[str, INodeHandler] = {}
     for handler in handlers:
         label, name = label_of(handler), type(handler).__name__

@@ -211,3 +211,9 @@ def test_an_exception_of_a_predicate_passes():
 
     with pytest.raises(AttributeError, match="height"):
         run(wrong)
+
+
+@pytest.mark.parametrize("decorator", [assert_always_true_for_protocol, assert_eventually_true_for_protocol])
+def test_nodes_are_chosen_by_a_class(decorator):
+    with pytest.raises(TypeError, match="expected a protocol's class, got 'Scout'"):
+        decorator("Scout", "in reach")

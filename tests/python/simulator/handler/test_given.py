@@ -38,6 +38,11 @@ def test_something_else(wrong):
         given(wrong)
 
 
+def test_one_handler_is_no_list():
+    with pytest.raises(TypeError, match=r"expected a list of handlers, got <.*Watching object"):
+        given_handlers(Watching(), "test mode", "", asynchronous=False)
+
+
 @pytest.mark.parametrize("label", WORLD)
 def test_the_world_is_not_to_be_given(label):
     expected = f"Watching cannot be given to a run in test mode: it has a {label} of its own"
