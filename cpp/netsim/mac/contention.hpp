@@ -17,6 +17,7 @@
 #include <cstdint>
 
 #include "netsim/config/mac_config.hpp"
+#include "netsim/error.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/timing.hpp"
@@ -49,10 +50,18 @@ public:
     void start_without_backoff_if_free(int contention_window);
     bool in_progress() const { return state_ != State::idle; }
 
-    // The channel became busy (by the radio's word or the NAV's) or free. Told in every state, at changes only.
+    // The channel became busy (by the radio's word or the NAV's) or free. Told at changes only, in every state but idle, in
+    // which it need not be told.
     void channel_busy_changed(bool busy);
-    // While nobody watched it, the channel was busy until then.
-    void channel_was_busy_until(SimTime time) { free_since_ = std::max(free_since_, time); }
+    // The same after a time in which nothing was told of the channel: it is busy, or free since then.
+    void channel_found(bool busy, SimTime free_since) {
+        NETSIM_ASSERT(!in_progress());
+        busy_ = busy;
+        if (!busy) {
+            free_since_ = std::max(free_since_, free_since);
+        }
+    }
+    bool finds_channel_busy() const { return busy_; }
     // Between the two below.
     bool awaits_end_of_broken_frame() const { return broken_frame_; }
     // A frame was received broken (reported while the radio still finds the channel busy with it) …
@@ -77,7 +86,6 @@ private:
     void schedule_grant(SimTime idle_since);
     void granted();
 
-    // First what every frame that is heard touches: one cache line.
     Simulator& simulator_;
     State state_ = State::idle;
     bool busy_ = false;

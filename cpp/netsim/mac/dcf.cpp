@@ -1,5 +1,6 @@
 #include "netsim/mac/dcf.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -207,7 +208,10 @@ void Dcf::answer_timed_out() {
 }
 
 void Dcf::frame_received(const Transmission& transmission) {
-    contention_.frame_received();
+    if (last_frame_was_broken_) {
+        last_frame_was_broken_ = false;
+        contention_.frame_received();
+    }
     const Frame& frame = *transmission.frame;
     const bool for_this_station = frame.receiver == radio_.node();
     if (!for_this_station) {
@@ -253,7 +257,9 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
 }
 
 void Dcf::frame_corrupted() {
+    last_frame_was_broken_ = true;
     contention_.frame_corrupted();
+    radio_.tell_of_channel();  // so that EIFS begins when it is free
     if (is_awaiting_answer() && !simulator_.is_pending(answer_timeout_)) {
         attempt_failed();
     }
@@ -323,9 +329,16 @@ void Dcf::set_nav(SimTime duration) {
         return;
     }
     nav_end_ = end;
+    nav_place_ = simulator_.reserve_places(1);
     simulator_.cancel(nav_event_);
-    nav_event_ = simulator_.schedule_at(end, [this] { update_contention(); });
-    update_contention();
+    if (watches_channel_) {
+        await_end_of_nav();
+        update_contention();
+    }
+}
+
+void Dcf::await_end_of_nav() {
+    nav_event_ = simulator_.schedule_at_place(nav_end_, nav_place_, [this] { update_contention(); });
 }
 
 void Dcf::channel_busy_changed(bool busy) {
@@ -339,29 +352,37 @@ void Dcf::channel_busy_changed(bool busy) {
         contention_.radio_finds_it_free();
         stop_watching_channel();
     }
-    update_contention();
+    if (watches_channel_) {
+        update_contention();
+    }
 }
 
 // What it was not told of meanwhile may have made the channel busy.
 void Dcf::watch_channel(SimTime since) {
     if (!watches_channel_) {
         watches_channel_ = true;
-        contention_.channel_was_busy_until(radio_.watch_channel(since));
+        const SimTime radio_free_since = radio_.watch_channel(since);
+        contention_.channel_found(is_channel_busy(), std::max(radio_free_since, nav_end_));
+        if (is_nav_set()) {
+            await_end_of_nav();
+        }
     }
 }
 
 void Dcf::stop_watching_channel() {
-    if (watches_channel_ && !in_progress_ && queue_.empty()) {
+    if (!in_progress_ && queue_.empty()) {
         watches_channel_ = false;
         radio_.stop_watching_channel();
+        simulator_.cancel(nav_event_);
+        if (contention_.awaits_end_of_broken_frame()) {
+            radio_.tell_of_channel();
+        }
     }
 }
 
 void Dcf::update_contention() {
-    const bool busy = radio_.is_channel_busy() || is_nav_set();
-    if (busy != contention_sees_busy_) {
-        contention_sees_busy_ = busy;
-        contention_.channel_busy_changed(busy);
+    if (is_channel_busy() != contention_.finds_channel_busy()) {
+        contention_.channel_busy_changed(is_channel_busy());
     }
 }
 

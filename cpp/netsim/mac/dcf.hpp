@@ -100,6 +100,8 @@ private:
     bool is_nav_set() const { return nav_end_ > simulator_.now(); }
     void own_frame_ended(const Frame& frame);
     void set_nav(SimTime duration);
+    bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
+    void await_end_of_nav();
     void update_contention();
     // Counts what made it busy from `since` on.
     void watch_channel(SimTime since);
@@ -107,19 +109,20 @@ private:
     void stop_watching_channel();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 
-    // First what every frame that is heard touches: two cache lines, which the medium fetches ahead.
+    // First what every frame that is heard touches: one cache line, which the medium fetches ahead.
     Simulator& simulator_;
     Radio& radio_;
     LinkListener& listener_;
     SimTime nav_end_ = SimTime::long_ago();
-    bool contention_sees_busy_ = false;
-    bool watches_channel_ = false;
+    bool watches_channel_ = false;        // and contention is told of it
+    bool last_frame_was_broken_ = false;  // of those that the radio received
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     bool own_frames_set_nav_;
     Contention contention_;
 
-    EventHandle nav_event_;
+    Place nav_place_ = 0;    // of the event at the end of the NAV, since that was set
+    EventHandle nav_event_;  // pending while the channel is watched
     MessageFates& fates_;
     const ModeSet& modes_;
     MacTiming timing_;

@@ -233,7 +233,7 @@ void Medium::fetch(RadioId radio, FrameKind kind) const {
     constexpr std::size_t cache_line = 64;
     const Attached& there = attached_[radio];
     fetch_bytes(there.listener, 3 * cache_line);
-    fetch_bytes(there.link, 2 * cache_line);
+    fetch_bytes(there.link, cache_line);
     fetch_bytes(there.upper_layer, cache_line);
     fetch_bytes(there.protocol, cache_line);
     fates_.fetch(there.interface.node, kind);

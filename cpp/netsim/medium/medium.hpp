@@ -98,6 +98,9 @@ public:
         return on_air_[arrival.transmission->id - on_air_.front()->transmission.id]->others_w;
     }
 
+    // To which the radios add, too.
+    FrameFates& fates() { return fates_; }
+    Fingerprint& fingerprint() { return fingerprint_; }
     const BackgroundNoise& background_noise() const { return background_noise_; }
     // Transmissions on the air, or over but able to disturb a reception that is not: stays small, as tests
     // check.

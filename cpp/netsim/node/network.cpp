@@ -52,7 +52,7 @@ std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, Interfac
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
     Radio& radio = radios_.emplace_back(simulator_, medium_, id, config.radio, node.trajectory(), seed_,
-                                        frame_fates_, fingerprint_, node.attitude(), known_formats(config));
+                                        node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,

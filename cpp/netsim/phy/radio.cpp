@@ -9,15 +9,12 @@
 namespace netsim {
 
 Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
-             const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
-             const Attitude& attitude, PpduFormats formats)
+             const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
     : energy_detection_w_(config.energy_detection_w),
       by_chunks_(config.snir_mode == snir_by_chunks),
       medium_(medium),
       interface_(interface),
       reception_draws_(seed, interface.stream(), Purpose::reception),
-      fates_(fates),
-      fingerprint_(fingerprint),
       simulator_(simulator),
       frame_capture_(config),
       preamble_detection_(config),
@@ -194,7 +191,7 @@ void Radio::end_reception(const Arrival& arrival) {
         observer_->received(arrival, reception_.noise_w, decoded);
     }
     if (culprits != nullptr) {
-        fates_.book_interference(node(), transmission.label, culprits->interferers);
+        medium_.fates().book_interference(node(), transmission.label, culprits->interferers);
     } else {
         book(transmission, fate);
     }
@@ -250,12 +247,12 @@ bool Radio::header_survives() {
 }
 
 void Radio::remember(const Transmission& transmission, FrameFate fate) {
-    fingerprint_.add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
-    fingerprint_.add(static_cast<std::uint64_t>(interface_.stream()));
+    medium_.fingerprint().add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
+    medium_.fingerprint().add(static_cast<std::uint64_t>(interface_.stream()));
 }
 
 void Radio::book(const Transmission& transmission, FrameFate fate) {
-    fates_.book(node(), transmission.label, fate);
+    medium_.fates().book(node(), transmission.label, fate);
 }
 
 void Radio::update_busy() {
@@ -271,7 +268,12 @@ void Radio::update_busy() {
     }
     if (busy != busy_) {
         busy_ = busy;
-        listener_->channel_busy_changed(busy);
+        if (!busy) {
+            free_since_ = simulator_.now();
+        }
+        if (tells_of_channel_) {
+            listener_->channel_busy_changed(busy);
+        }
     }
 }
 

@@ -44,6 +44,7 @@ namespace netsim {
 // The side of a MAC that its radio speaks to. At the end of a frame, the frame is reported before the channel is free.
 class RadioListener {
 public:
+    // Not while it was told to stop (Radio::stop_watching_channel).
     virtual void channel_busy_changed(bool busy) = 0;
     virtual void frame_received(const Transmission& transmission) = 0;
     // A frame that the radio had locked on to could not be decoded, or was given up for another one.
@@ -57,8 +58,8 @@ protected:
 class alignas(64) Radio final : public MediumListener {
 public:
     Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
-          const Trajectory& trajectory, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint,
-          const Attitude& attitude = {}, PpduFormats formats = PpduFormats::all());
+          const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
+          PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
 
@@ -79,18 +80,24 @@ public:
     void transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                   SimTime duration);
 
-    // A radio watches its channel from the start: what it says of it includes frames that only together make it busy. A MAC that
-    // need not know that for a while saves most of the cost of a large network by telling it to stop; beside that, it is told
-    // of what the radio notices anyway. When it begins again, it learns when frames made the channel busy together for the
-    // last time, if that is over: not before `since`, long ago if they did not.
+    // A radio tells of its channel from the start, and what it says includes frames that only together make it busy. A MAC
+    // that need not know that for a while saves much of the cost of a large network by telling it to stop. When it begins again, it
+    // learns when the channel was busy for the last time, if that is over: by frames that only together made it busy, not
+    // before `since`; long ago if it never was.
     SimTime watch_channel(SimTime since) {
-        return detects_preambles_ ? SimTime::long_ago() : medium_.watch_energy(id_, since);
+        tells_of_channel_ = true;
+        const SimTime energy_over =
+            detects_preambles_ ? SimTime::long_ago() : medium_.watch_energy(id_, since);
+        return std::max(free_since_, energy_over);
     }
     void stop_watching_channel() {
+        tells_of_channel_ = false;
         if (!detects_preambles_) {  // such a radio leaves out what the medium cannot know: it always watches
             medium_.stop_watching_energy(id_);
         }
     }
+    // Again, without watching: of frames that it notices one by one.
+    void tell_of_channel() { tells_of_channel_ = true; }
     // How far back watch_channel may ask.
     void remember_channel(SimTime duration) { medium_.remember(duration); }
     // When a frame that was received broken ends: that no others can make the channel busy together.
@@ -147,16 +154,16 @@ private:
     bool captures_frames_ : 1 = false;    // as frame_capture_ says
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
+    bool tells_of_channel_ : 1 = true;
     RadioId id_ = 0;
     RadioListener* listener_ = nullptr;
     Medium& medium_;
     InterfaceId interface_;
 
     RandomStream reception_draws_;
-    FrameFates& fates_;
-    Fingerprint& fingerprint_;
-
     Simulator& simulator_;
+    SimTime free_since_ = SimTime::long_ago();  // its channel, if it is
+
     RadioObserver* observer_ = nullptr;
     Arrival locked_arrival_;  // if locked on, for the options that ask for it before its end
     FrameCapture frame_capture_;

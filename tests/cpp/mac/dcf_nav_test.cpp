@@ -64,6 +64,15 @@ TEST_F(HiddenResponder, TheNavCountsAsBusyForImmediateAccess) {
     EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(0).start, data_end_at_c + sifs + ack_duration + difs);
 }
 
+// Nobody told the station's contention of a NAV that began and ended before there was something to send.
+TEST_F(HiddenResponder, ANavThatIsOverCountsAsBusyForImmediateAccess) {
+    a->send(b->id(), 100);
+    const SimTime nav_end = data_duration + us(1) + sifs + ack_duration;
+    air.at(nav_end + us(5), [&] { c->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(0).start, nav_end + difs);
+}
+
 TEST_F(HiddenResponder, ABroadcastLeavesNoNav) {
     a->send(broadcast_id, 100);
     air.at(us(40), [&] { c->send(broadcast_id, 100); });

@@ -135,7 +135,7 @@ protected:
         air.at(time, [this] { station.send(broadcast_id, 100); });
         air.run();
         for (const test::Heard& heard : sniffer.heard) {
-            if (heard.sender == station.id()) {
+            if (heard.sender == station.id() && heard.start >= time) {
                 return heard.start;
             }
         }
@@ -145,6 +145,7 @@ protected:
         MacConfig config;
         config.cw_min = 0;
         config.cw_max = 0;
+        config.short_retry_limit = 1;
         return config;
     }
 
@@ -178,6 +179,15 @@ TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameUntilThatIsOver) {
     sends_at(add_sender(6e-11), us(20), us(200));
     sends_at(add_sender(6e-11), us(20), us(300));
     EXPECT_EQ(sent(us(250)), us(221) + timing.eifs);
+}
+
+TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameInPlaceOfTheLastAck) {
+    const Mode& mode = mode_set(MacConfig().op_mode).mode_for_bitrate(MacConfig().bitrate_bps);
+    const SimTime no_ack = us(10) + mode.duration(data_psdu_bytes(100)) + us(10);
+    sends_at(add_sender(2e-9), no_ack, us(100));
+    sends_at(add_sender(2e-9), no_ack + us(40), us(20));
+    air.at(us(10), [this] { station.send(1, 100); });
+    EXPECT_EQ(sent(no_ack + us(120)), no_ack + us(101) + timing.eifs);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hearings, StationBesideEnergy,

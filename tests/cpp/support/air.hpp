@@ -61,10 +61,8 @@ public:
 // A radio without a MAC.
 struct BareRadio {
     BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
-              Position place, std::uint64_t seed, FrameFates& fates, Fingerprint& fingerprint)
-        : trajectory(place),
-          radio(simulator, medium, interface, config, trajectory, seed, fates, fingerprint),
-          log(simulator) {
+              Position place, std::uint64_t seed)
+        : trajectory(place), radio(simulator, medium, interface, config, trajectory, seed), log(simulator) {
         radio.set_listener(log);
     }
 
@@ -109,11 +107,10 @@ struct Received {
 // A radio with a MAC.
 struct Station final : LinkListener {
     Station(Simulator& simulator_, Medium& medium, InterfaceId interface, const RadioConfig& radio_config,
-            const MacConfig& mac_config, Position place, std::uint64_t seed, FrameFates& frame_fates,
-            MessageFates& message_fates, Fingerprint& fingerprint)
+            const MacConfig& mac_config, Position place, std::uint64_t seed, MessageFates& message_fates)
         : simulator(simulator_),
           trajectory(place),
-          radio(simulator_, medium, interface, radio_config, trajectory, seed, frame_fates, fingerprint),
+          radio(simulator_, medium, interface, radio_config, trajectory, seed),
           dcf(simulator_, radio, mac_config, seed, message_fates, *this) {}
 
     NodeId id() const { return radio.node(); }
@@ -154,15 +151,14 @@ public:
         return InterfaceId{node_count_++, 0};
     }
     BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
-        return radios_.emplace_back(simulator, medium, next_node(), config, place, seed_, frame_fates,
-                                    fingerprint);
+        return radios_.emplace_back(simulator, medium, next_node(), config, place, seed_);
     }
     // The channel has always been idle: what it sends first leaves at once.
     Station& add_station(Position place, MacConfig mac = MacConfig(),
                          const RadioConfig& radio = RadioConfig()) {
         mac.initial_channel_busy = false;
-        return stations_.emplace_back(simulator, medium, next_node(), radio, mac, place, seed_, frame_fates,
-                                      message_fates, fingerprint);
+        return stations_.emplace_back(simulator, medium, next_node(), radio, mac, place, seed_,
+                                      message_fates);
     }
     Sniffer& add_sniffer(Position place, const RadioConfig& radio = RadioConfig()) {
         Sniffer& sniffer = sniffers_.emplace_back(place);

@@ -44,8 +44,7 @@ struct Device final : LinkListener {
            std::uint64_t seed)
         : air(air_),
           trajectory(place),
-          radio(air.simulator, air.medium, air.next_node(), radio_config, trajectory, seed, air.frame_fates,
-                air.fingerprint),
+          radio(air.simulator, air.medium, air.next_node(), radio_config, trajectory, seed),
           csma(air.simulator, radio, config, seed, air.message_fates, *this) {}
 
     NodeId id() const { return radio.node(); }
