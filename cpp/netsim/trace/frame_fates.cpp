@@ -9,11 +9,11 @@ namespace netsim {
 void FrameFates::book(NodeId receiver, FrameLabel label, FrameFate fate) {
     auto& sums = label.is_for(receiver) ? addressed_ : overheard_;
     ++sums[index(label.kind)].counts[index(fate)];
-    std::vector<Counts>& rows = at_nodes_[index(label.kind)];
-    if (rows.size() <= static_cast<std::size_t>(receiver)) {
-        rows.resize(interferers_.size());
+    Column& column = at_nodes_[index(label.kind)][index(fate)];
+    if (column.size() <= static_cast<std::size_t>(receiver)) {
+        column.resize(interferers_.size());
     }
-    ++rows[receiver][index(fate)];
+    ++column[receiver];
 }
 
 void FrameFates::book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers) {
@@ -56,8 +56,12 @@ FrameFates::Counts FrameFates::counts(FrameKind kind, bool overheard) const {
 }
 
 FrameFates::Counts FrameFates::counts_at(NodeId receiver, FrameKind kind) const {
-    const std::vector<Counts>& rows = at_nodes_[index(kind)];
-    return static_cast<std::size_t>(receiver) < rows.size() ? rows[receiver] : Counts{};
+    Counts counts{};
+    for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
+        const Column& column = at_nodes_[index(kind)][fate];
+        counts[fate] = static_cast<std::size_t>(receiver) < column.size() ? column[receiver] : 0;
+    }
+    return counts;
 }
 
 std::map<NodeId, std::uint64_t> FrameFates::interferers_at(NodeId receiver) const {

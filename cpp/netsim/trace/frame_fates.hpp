@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "netsim/kernel/fetch.hpp"
+
 namespace netsim {
 
 using NodeId = std::int32_t;
@@ -69,9 +71,9 @@ public:
 
     // Something is going to be booked there soon: has it brought into the cache.
     void fetch(NodeId receiver, FrameKind kind) const {
-        const std::vector<Counts>& rows = at_nodes_[index(kind)];
-        if (static_cast<std::size_t>(receiver) < rows.size()) {
-            __builtin_prefetch(&rows[receiver], 1);
+        const Column& delivered = at_nodes_[index(kind)][index(FrameFate::delivered)];
+        if (static_cast<std::size_t>(receiver) < delivered.size()) {
+            netsim::fetch(delivered[receiver]);
         }
     }
 
@@ -101,9 +103,11 @@ private:
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
     static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
 
-    // [kind][receiver]: a row of a large network is touched for each copy of a frame, so those of one kind lie side by
-    // side; kinds that nobody sends have none.
-    std::array<std::vector<Counts>, frame_kind_count> at_nodes_;
+    // Of one kind and one fate, by receiver.
+    using Column = std::vector<std::uint64_t>;
+    // [kind][fate]: each copy of a frame adds to one number, mostly among those delivered; side by side, eight of them are in
+    // one cache line. What never happens has none.
+    std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
     // [receiver], by node: maps would take four times as much.
     std::vector<std::vector<Interferer>> interferers_;
     std::array<std::uint64_t, frame_kind_count> frames_{};
