@@ -59,7 +59,7 @@ public:
     void send(NodeId destination, Payload payload) override;
     void fetch() const override {
         netsim::fetch(*this);
-        netsim::fetch(radio_);
+        radio_.fetch();
     }
     std::size_t longest_message_bytes() const override { return mtu_bytes_ - datagram_bytes(0); }
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }

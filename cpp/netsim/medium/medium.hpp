@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "netsim/config/medium_config.hpp"
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/medium/antennas.hpp"
@@ -84,6 +85,11 @@ public:
     // Transmissions after their end, for so long.
     void remember(SimTime duration) { remembered_ = std::max(remembered_, duration); }
 
+    // The radio will probably send soon: has what the medium knows of it brought into the cache (kernel/fetch.hpp).
+    void fetch_sender(RadioId radio) const {
+        netsim::fetch(receivers_[radio]);
+        netsim::fetch(attached_[radio]);
+    }
     // Puts a frame on the air now, at the sender's present position, and sees to its arrivals.
     // `transmission`'s id, start and origin are filled in here.
     void transmit(Transmission transmission);

@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "netsim/config/radio_config.hpp"
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/medium/antenna_pattern.hpp"
 #include "netsim/medium/medium.hpp"
@@ -102,6 +103,12 @@ public:
     void remember_channel(SimTime duration) { medium_.remember(duration); }
     // When a frame that was received broken ends: that no others can make the channel busy together.
     bool are_others_weak() const { return others_are_weak_; }
+
+    // It will probably send soon (Link::fetch).
+    void fetch() const {
+        netsim::fetch(*this);
+        medium_.fetch_sender(id_);
+    }
 
     bool is_transmitting() const { return transmitting_; }
     bool is_receiving() const { return locked_ != nullptr; }
