@@ -157,7 +157,7 @@ def channel_of_2_4_ghz() -> Kind:
 
 def _hint_at_5_ghz(value: Value) -> str:
     """For a number that only the 5 GHz band has: centre 5 GHz + 5 MHz each (IEEE 802.11-2020, annex E)."""
-    if isinstance(value, Quantity) and value.number in range(36, 178):
+    if isinstance(value, Quantity) and value.unit is None and value.number in range(36, 178):
         return (
             f"; channel {value} of the 5 GHz band is `radio.centerFrequency = {5000 + 5 * value.number}MHz`"
         )

@@ -1,5 +1,6 @@
 """What the engine finds wrong with a configuration, told where the .ini file says it, and in its terms."""
 
+import os
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -97,9 +98,10 @@ def _told(text: str, settings: Mapping[str, Setting]) -> ConfigError:
 def _file_meant(target: str, setting: Setting) -> str:
     """A hint at a file beside one that is not there; "" for what is no name of a file, or of one that is."""
     key, file = keys_by_target().get(target), Path(str(setting.value))
-    if key is None or not key.kind.is_file or file.exists():
+    if key is None or not key.kind.is_file or os.path.exists(file):  # False of what no file can be called
         return ""
-    return file_meant(file, (".csv", ".txt"), setting.source.value.strip('"'))
+    written = setting.source.value.strip('"')
+    return file_meant(file, (".csv", ".txt"), written if written.endswith(file.name) else "")
 
 
 def _nearest(named: list[str], settings: Mapping[str, Setting]) -> str:

@@ -134,6 +134,7 @@ def test_says_what_it_expects(kind: Kind, expected: str) -> None:
         ("35", ""),
         ("178", ""),
         ("36.0", "; did you mean `36`?"),
+        ("40s", ""),
     ],
 )
 def test_a_channel_of_the_5_ghz_band_is_told_by_its_frequency(text: str, hint: str) -> None:

@@ -90,16 +90,39 @@ def test_a_malformed_table_of_error_rates_is_refused_where_it_is_named(make_scen
     assert error.value.key == "**.errorModel.berTableFile"
 
 
-@pytest.mark.parametrize("quote", ['"', ""])
-def test_a_missing_error_table_is_told_with_the_one_that_may_be_meant(make_scenario, tmp_path, quote):
+@pytest.mark.parametrize("value", ['"tabel.csv"', "tabel.csv", '${"tabel.csv"}'])
+def test_a_missing_error_table_is_told_with_the_one_that_may_be_meant(make_scenario, tmp_path, value):
     (tmp_path / "table.csv").touch()
     scenario = make_scenario(
         "class Tested(Quiet): pass",
         '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
-        f"**.errorModel.berTableFile = {quote}tabel.csv{quote}",
+        f"**.errorModel.berTableFile = {value}",
     )
     with pytest.raises(ConfigError, match=r"expected a file that can be read; did you mean `table\.csv`\?$"):
         check_scenario(scenario)
+
+
+def test_a_missing_error_table_is_told_with_its_folder(make_scenario, tmp_path):
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "table.csv").touch()
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        "**.errorModel.berTableFile = tables/tabel.csv",
+    )
+    with pytest.raises(ConfigError, match=r"; did you mean `tables/table\.csv`\?$"):
+        check_scenario(scenario)
+
+
+def test_an_error_table_that_no_file_can_be_called_is_refused_where_it_is_named(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet): pass",
+        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        f'**.errorModel.berTableFile = "{"a" * 300}.csv"',
+    )
+    with pytest.raises(ConfigError, match="expected a file that can be read$") as error:
+        check_scenario(scenario)
+    assert error.value.key == "**.errorModel.berTableFile"
 
 
 @pytest.mark.parametrize(
