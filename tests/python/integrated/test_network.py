@@ -120,7 +120,7 @@ def test_an_error_table_that_no_file_can_be_called_is_refused_where_it_is_named(
         '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
         f'**.errorModel.berTableFile = "{"a" * 300}.csv"',
     )
-    with pytest.raises(ConfigError, match="expected a file that can be read$") as error:
+    with pytest.raises(ConfigError, match=r"expected a file that can be read$") as error:
         check_scenario(scenario)
     assert error.value.key == "**.errorModel.berTableFile"
 
