@@ -21,6 +21,7 @@ from gradysim.config.nearest import did_you_mean
 from gradysim.config.pattern import Pattern
 from gradysim.config.protocol_parameters import parameters_of
 from gradysim.config.reader import Entry
+from gradysim.config.source import Source
 from gradysim.protocol.interface import IProtocol
 
 
@@ -52,8 +53,12 @@ def check_option(entry: Entry) -> None:
     )
 
 
-def check_names(lookup: Lookup, groups: list[Group]) -> None:
-    """Raise ConfigError for the first key that names no node, no group and no other part of the network."""
+def check_names(lookup: Lookup, groups: list[Group]) -> list[Source]:
+    """Raise ConfigError for the first key that names no node, no group and no other part of the network.
+
+    Returns the lines about nodes that this run has not, and others may have.
+    """
+    elsewhere: list[Source] = []
     names = {*NETWORK_MODULES, *(group.size_key for group in groups), *(group.name for group in groups)}
     for group in groups:
         names.update(group.node_names() or [f"{group.name}[0]"])
@@ -66,9 +71,13 @@ def check_names(lookup: Lookup, groups: list[Group]) -> None:
             known[name.text] = (
                 any(map(name.matches, names)) if name.literal is None else name.literal in names
             )
-        matches = known[name.text] or _is_of_other_runs(found, groups)
-        if not (matches and found.parts and found.parts[0].matches(lookup.network)):
+        is_of_network = found.parts and found.parts[0].matches(lookup.network)
+        if is_of_network and (known[name.text] or _is_beyond_overridden_size(found, groups)):
+            continue
+        if not (is_of_network and _is_beyond_varying_size(found, groups)):
             raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
+        elsewhere.append(found.entry.source)
+    return elsewhere
 
 
 def check_parameters(
@@ -165,18 +174,21 @@ def _in_order_of_text(lookup: Lookup) -> list[Found]:
     return sorted(lookup.found, key=lambda found: (found.entry.source.line, found.order))
 
 
-def _is_of_other_runs(found: Found, groups: list[Group]) -> bool:
-    """Whether a key names an index that the group has in other runs.
+def _is_beyond_overridden_size(found: Found, groups: list[Group]) -> bool:
+    """Whether a key names an index that the group had until a more specific section made it smaller."""
+    size = _size_of_indexed_group(found, groups)
+    return size is not None and size.rank < found.rank
 
-    It had it until a more specific section made it smaller, or its size is another one in each combination of
-    values.
-    """
+
+def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
+    """Whether a key names an index of a group whose size is another one in each combination of values."""
+    size = _size_of_indexed_group(found, groups)
+    return size is not None and "${" in size.entry.source.value
+
+
+def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:
+    """What says the size of the group of which a key names an index."""
     name = found.name_pattern()
-    prefix = name.literal_prefix().partition("[") if name else ("", "", "")
-    return any(
-        group.name == prefix[0]
-        and prefix[1]
-        and group.size_found
-        and (group.size_found.rank < found.rank or "${" in group.size_found.entry.source.value)
-        for group in groups
-    )
+    group_name, bracket, _ = name.literal_prefix().partition("[") if name else ("", "", "")
+    sizes = (group.size_found for group in groups if bracket and group.name == group_name)
+    return next((size for size in sizes if size), None)

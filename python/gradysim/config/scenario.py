@@ -116,6 +116,8 @@ class _Network:
     communication_medium: CommunicationMediumSpec
     reference_coordinates: tuple[float, float, float]
     obstacles: tuple[ObstacleSpec, ...]
+    lines_of_other_runs: Sequence[Source]
+    """Those about nodes that this run has not, and others may have."""
 
 
 def load_scenarios(
@@ -165,12 +167,14 @@ def load_scenarios(
     ]
     instead = _what_to_run_instead(ini, config, sections)
     in_force = entries_of_the_hash(ranked)
+    elsewhere: list[Sequence[Source]] = []
     scenarios = []
     for number, repetition, iterations in numbered:
         values = run_variables(config, number, repetition, iterations)
         alike = tuple(substitute(entry, values).text for entry in varying)
         if alike not in networks:
             networks = {alike: _network(_substituted(ranked, values), loader, instead, source)}
+            elsewhere.append(networks[alike].lines_of_other_runs)
         options = _options(_substituted(only_options, values))
         scenario = _scenario(file, config, number, options, networks[alike], sections)
         scenarios.append(
@@ -182,7 +186,18 @@ def load_scenarios(
                 run_count=run_count,
             )
         )
+    if len(numbered) == run_count:  # or the others may have those nodes
+        _check_lines_of_other_runs(elsewhere)
     return scenarios
+
+
+def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
+    """Raise ConfigError for the first line that each of the runs leaves to others."""
+    for line in elsewhere[0]:
+        if all(line in lines for lines in elsewhere):
+            raise ConfigError(
+                f"`{line.key}` matches no node in any run; expected a node that some run has", line
+            )
 
 
 def _numbered_runs(
@@ -292,7 +307,7 @@ def _network(
     settings = SettingReader()
     groups = find_groups(lookup, settings)
     try:
-        check_names(lookup, groups)
+        lines_of_other_runs = check_names(lookup, groups)
     except ConfigError as error:
         if instead and "matches no node" in error.message:
             raise ConfigError(error.message + instead, error.source) from None
@@ -327,4 +342,5 @@ def _network(
             if {"latitude_deg", "longitude_deg"} <= reference.keys()
             else None,
         ),
+        lines_of_other_runs=lines_of_other_runs,
     )

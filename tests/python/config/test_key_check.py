@@ -107,6 +107,18 @@ def test_a_line_about_a_node_that_only_some_runs_have_concerns_those(folder: Any
     assert speeds(three) == [None, None, None, 3.0]
 
 
+def test_a_line_about_a_node_that_no_run_has_is_refused(folder: Any) -> None:
+    folder.load("[X]\n*.numUavs = ${1, 3}\n*.uavs[3].mobility.speed = 3mps\n", "X")
+    with pytest.raises(ConfigError, match=r":8: `\*\.uavs\[3\]\.mobility\.speed` matches no node in any run"):
+        load_scenarios(folder.ini, "X")
+
+
+def test_of_some_runs_alone_it_is_not_known_whether_others_have_a_node(folder: Any) -> None:
+    folder.load("[X]\n*.numUavs = ${1, 3}\n*.uavs[2].mobility.speed = 3mps\n", "X")
+    (one,) = load_scenarios(folder.ini, "X", "0")
+    assert speeds(one) == [None, None]
+
+
 def test_a_variable_in_a_key_is_refused_on_the_command_line_too(folder: Any) -> None:
     assert folder.error("", "General", "*.uavs[${n}].mobility.speed=1mps") == (
         "--set *.uavs[${n}].mobility.speed=1mps: `*.uavs[${n}].mobility.speed` has a variable;"
