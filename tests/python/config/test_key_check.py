@@ -2,6 +2,7 @@ from typing import Any
 
 import pytest
 
+from gradysim.config.error import ConfigError
 from gradysim.config.scenario import Scenario, load_scenarios
 
 
