@@ -30,8 +30,9 @@ def _nodes_of(scenario: Scenario, name: str, option: str) -> Iterable[NodeSpec]:
     groups = list(dict.fromkeys(node.group for node in scenario.nodes))
     candidates = [*groups, *(node.name for node in scenario.nodes), ALL]
     suggestion = did_you_mean(name, candidates)
+    where = f" in run {scenario.run_number}" if scenario.run_count > 1 else ""  # others may have it
     raise ConfigError(
-        f"{option} {name}: no such node; expected a node such as {scenario.nodes[0].name}, "
+        f"{option} {name}: no such node{where}; expected a node such as {scenario.nodes[0].name}, "
         f"a group ({', '.join(groups)}) or {ALL}{suggestion}"
         if scenario.nodes
         else f"{option} {name}: no such node; the scenario has none"

@@ -32,7 +32,7 @@ def test_resumed_runs_are_repeated_for_nodes_that_were_not_told_of(gradysim):
 def test_a_wrong_node(gradysim):
     done = gradysim("run", "test.ini", "--fates-at", "uavs[7]")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("--fates-at uavs[7]: no such node; expected a node such as uavs[0]")
+    assert done.stderr.startswith("--fates-at uavs[7]: no such node in run 0; expected a node such as")
 
 
 def test_prototype_mode_has_no_frames(gradysim):

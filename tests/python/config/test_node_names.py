@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 
 from gradysim.config.error import ConfigError
@@ -38,3 +40,9 @@ def test_an_unknown_name_says_what_there_is(scenario):
         "--fates-at groundstation: no such node; expected a node such as uavs[0],"
         " a group (uavs, groundStation) or all; did you mean `groundStation`?"
     )
+
+
+def test_of_several_runs_the_one_without_such_a_node_is_named(scenario):
+    one_of_two = replace(scenario, run_number=1, run_count=2)
+    with pytest.raises(ConfigError, match=r"^--pcap uavs\[7\]: no such node in run 1; expected"):
+        nodes_named(one_of_two, ["uavs[7]"], "--pcap")
