@@ -91,8 +91,8 @@ class StatisticsProtocolWrapper:
         """Write both files to the working directory; files of these names are replaced."""
         protocol = self.protocol
         names = (self._file_name_part, type(protocol).__name__, str(protocol.provider.get_id()))
-        run = getattr(protocol.provider, "run_name", "")  # users' own providers may be older
-        suffix = "_".join((run, *names) if run else names) + ".csv"
+        run = getattr(protocol.provider, "run_name", "")  # users' own providers may be older, or mocks
+        suffix = "_".join((run, *names) if run and isinstance(run, str) else names) + ".csv"
         _write(f"simulation_real_time_{suffix}", ["real_time"], self._times)
         names_of_all = dict.fromkeys(name for _, values in self._tracked for name in values)
         _write(f"tracked_variables_{suffix}", list(names_of_all), self._tracked)

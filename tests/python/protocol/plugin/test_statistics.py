@@ -1,6 +1,7 @@
 import csv
 import math
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import pytest
 
@@ -253,6 +254,13 @@ def test_a_bad_interval_is_refused(protocol, interval):
 def test_a_part_that_is_no_part_of_a_name_is_refused(protocol, part):
     with pytest.raises(ValueError, match="file_name_part"):
         create_statistics(protocol, part)
+
+
+def test_a_mock_of_a_provider_has_no_name_of_a_run(protocol, provider, working_directory):
+    provider.run_name = MagicMock()
+    create_statistics(protocol, "part")
+    finish_statistics(protocol)
+    assert {path.name for path in working_directory.iterdir()} == {TIMES, TRACKED}
 
 
 def test_a_run_of_several_is_in_the_names(protocol, provider, working_directory):
