@@ -48,7 +48,9 @@ protected:
     SimTime busy_until = SimTime::from_ps(-1);
 };
 
-const std::vector<RadioEvent> busy_while_both_last{{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}};
+std::vector<RadioEvent> busy_while_both_last() {
+    return {{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}};
+}
 
 TEST_F(WatchedEnergy, IsNotToldToWhoDoesNotWatch) {
     air.run();
@@ -58,19 +60,19 @@ TEST_F(WatchedEnergy, IsNotToldToWhoDoesNotWatch) {
 TEST_F(WatchedEnergy, IsToldToWhoBeganBeforeIt) {
     begins_to_watch_at(us(5), us(5));
     air.run();
-    EXPECT_EQ(bare.log.events, busy_while_both_last);
+    EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
 TEST_F(WatchedEnergy, IsToldToWhoBeganBesideTheFirstFrame) {
     begins_to_watch_at(us(30), us(30));
     air.run();
-    EXPECT_EQ(bare.log.events, busy_while_both_last);
+    EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
 TEST_F(WatchedEnergy, IsToldToWhoBeganBeforeTheSecondFrameCame) {
     begins_to_watch_at(us(61), us(61));
     air.run();
-    EXPECT_EQ(bare.log.events, busy_while_both_last);
+    EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
 TEST_F(WatchedEnergy, MakesTheChannelBusyOfWhoBeginsMeanwhile) {
@@ -92,7 +94,7 @@ TEST_F(WatchedEnergy, IsToldToWhoStoppedAndBeganAgain) {
     air.at(us(30), [this] { receiver.stop_watching_channel(); });
     begins_to_watch_at(us(40), us(40));
     air.run();
-    EXPECT_EQ(bare.log.events, busy_while_both_last);
+    EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
 TEST_F(WatchedEnergy, AfterwardsItIsKnownWhenItWasOver) {
