@@ -108,16 +108,16 @@ def environment() -> dict[str, str]:
     return {**inherited, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"}
 
 
+def run_command(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
+    """Run any command in a folder, a minute at most."""
+    return subprocess.run(
+        command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=60, check=False
+    )
+
+
 def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     """Run the command in a folder."""
-    return subprocess.run(
-        [sys.executable, "-m", "gradysim", *arguments],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    return run_command(folder, sys.executable, "-m", "gradysim", *arguments)
 
 
 def objects(output: str) -> list[dict]:

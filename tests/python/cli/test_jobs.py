@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from python.cli.command import both_modes, environment, objects
+from python.cli.command import both_modes, environment, objects, run_command
 
 COSTS = ("wall_s", "cpu_s")
 
@@ -131,14 +131,7 @@ def test_a_process_that_cannot_begin_is_told(folder):
         "real_fork, os.fork = os.fork, fork\n"
         "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '--json', '-j', '2']))"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    done = run_command(folder, sys.executable, "-c", code)
     assert done.returncode == 2
     assert [run["run"] for run in objects(done.stdout)] == [0]
     assert done.stderr.splitlines()[-2:] == [
@@ -154,14 +147,7 @@ def test_many_runs_may_end_before_the_first_one_does(folder):
     settings = [part for line in lines for part in ("--set", f"*.uavs[*].protocol.{line}")]
     few_files = ["sh", "-c", 'ulimit -n 60 && exec "$@"', "sh"]
     arguments = ["test.ini", "--mode", "prototype", "--json", "-j", "2", "--set", "repeat=40"]
-    done = subprocess.run(
-        [*few_files, sys.executable, "-m", "gradysim", "run", *arguments, *settings],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    done = run_command(folder, *few_files, sys.executable, "-m", "gradysim", "run", *arguments, *settings)
     assert done.returncode == 0
     assert [run["run"] for run in objects(done.stdout)] == list(range(40))
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from python.cli.command import compiled, environment
+from python.cli.command import compiled, environment, run_command
 
 FULL_DISK = Path("/dev/full")
 
@@ -64,14 +64,8 @@ def test_a_full_disk_is_told_in_one_line(folder, arguments, buffering):
 def test_a_closed_output_is_one_that_nobody_reads(folder, arguments, closed):
     if arguments[0] == "run":
         arguments = [*arguments, "--mode", "prototype"]
-    done = subprocess.run(
-        ["sh", "-c", f'exec "$@" {closed}>&-', "sh", sys.executable, "-m", "gradysim", *arguments],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    shell = ["sh", "-c", f'exec "$@" {closed}>&-', "sh"]
+    done = run_command(folder, *shell, sys.executable, "-m", "gradysim", *arguments)
     assert (done.returncode, done.stderr) == (0, "")
     assert ("Traceback" in done.stdout, bool(done.stdout)) == (False, closed == "2")
 
@@ -95,13 +89,6 @@ def test_an_error_about_something_else_is_not_told_as_one_of_the_output(folder):
             "run.warn_of_equal_seeds = fail\n"
             "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '--quiet']))"
         )
-        done = subprocess.run(
-            [sys.executable, "-c", code],
-            cwd=folder,
-            env=environment(),
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        done = run_command(folder, sys.executable, "-c", code)
         assert (done.returncode, done.stdout) == (2, "")
         assert done.stderr == "try again (in fail, <string>:2)\n"

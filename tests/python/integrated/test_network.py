@@ -77,14 +77,19 @@ def test_noise_of_a_receiver_that_would_keep_its_channel_busy_is_an_error_there(
     assert error.value.key == "*.uavs[1].wlan[*].radio.receiver.energyDetection"
 
 
+def with_error_table(make_scenario, value):
+    """Return a scenario whose radios have that table of error rates, as it stands in a file."""
+    return make_scenario(
+        "class Tested(Quiet): pass",
+        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        f"**.errorModel.berTableFile = {value}",
+    )
+
+
 def test_a_malformed_table_of_error_rates_is_refused_where_it_is_named(make_scenario, tmp_path):
     table = tmp_path / "table.csv"
     table.write_text("bitrate_mbps,psdu_bytes,snir_db,success\n24,100,ten,0.5\n")
-    scenario = make_scenario(
-        "class Tested(Quiet): pass",
-        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
-        f'**.errorModel.berTableFile = "{table}"',
-    )
+    scenario = with_error_table(make_scenario, f'"{table}"')
     with pytest.raises(ConfigError, match=r'table.csv": line 2: "ten": expected a number') as error:
         check_scenario(scenario)
     assert error.value.key == "**.errorModel.berTableFile"
@@ -93,11 +98,7 @@ def test_a_malformed_table_of_error_rates_is_refused_where_it_is_named(make_scen
 @pytest.mark.parametrize("value", ['"tabel.csv"', "tabel.csv", '${"tabel.csv"}'])
 def test_a_missing_error_table_is_told_with_the_one_that_may_be_meant(make_scenario, tmp_path, value):
     (tmp_path / "table.csv").touch()
-    scenario = make_scenario(
-        "class Tested(Quiet): pass",
-        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
-        f"**.errorModel.berTableFile = {value}",
-    )
+    scenario = with_error_table(make_scenario, value)
     with pytest.raises(ConfigError, match=r"expected a file that can be read; did you mean `table\.csv`\?$"):
         check_scenario(scenario)
 
@@ -105,21 +106,13 @@ def test_a_missing_error_table_is_told_with_the_one_that_may_be_meant(make_scena
 def test_a_missing_error_table_is_told_with_its_folder(make_scenario, tmp_path):
     (tmp_path / "tables").mkdir()
     (tmp_path / "tables" / "table.csv").touch()
-    scenario = make_scenario(
-        "class Tested(Quiet): pass",
-        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
-        "**.errorModel.berTableFile = tables/tabel.csv",
-    )
+    scenario = with_error_table(make_scenario, "tables/tabel.csv")
     with pytest.raises(ConfigError, match=r"; did you mean `tables/table\.csv`\?$"):
         check_scenario(scenario)
 
 
 def test_an_error_table_that_no_file_can_be_called_is_refused_where_it_is_named(make_scenario):
-    scenario = make_scenario(
-        "class Tested(Quiet): pass",
-        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
-        f'**.errorModel.berTableFile = "{"a" * 300}.csv"',
-    )
+    scenario = with_error_table(make_scenario, f'"{"a" * 300}.csv"')
     with pytest.raises(ConfigError, match=r"expected a file that can be read$") as error:
         check_scenario(scenario)
     assert error.value.key == "**.errorModel.berTableFile"
