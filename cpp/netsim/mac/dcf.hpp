@@ -114,8 +114,9 @@ private:
     Radio& radio_;
     LinkListener& listener_;
     SimTime nav_end_ = SimTime::long_ago();
-    bool watches_channel_ = false;        // and contention is told of it
-    bool last_frame_was_broken_ = false;  // of those that the radio received
+    bool watches_channel_ = false;  // and contention is told of it
+    // If not, contention, which lies farther away, need not learn of one that is received well.
+    bool last_frame_was_broken_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     bool own_frames_set_nav_;

@@ -29,27 +29,28 @@ if TYPE_CHECKING:
 
     CarryOut = Callable[[Scenario, StopOnInterrupt, TextIO], int]
 
-PcapOption = Annotated[
-    tuple[str, ...],
-    Parameter(
+
+def _of_nodes(help_text: str) -> Parameter:
+    """Describe an option that takes the names of nodes."""
+    return Parameter(
         negative="",
         consume_multiple=(1, None),
         show_default=False,
-        help="NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap"
-        " (that of its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a"
-        " group (uavs), or all.",
+        help=f"NODE...: {help_text} A node (uavs[0]), a group (uavs), or all.",
+    )
+
+
+PcapOption = Annotated[
+    tuple[str, ...],
+    _of_nodes(
+        "write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap"
+        " (that of its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results)."
     ),
 ]
 
 FatesAtOption = Annotated[
     tuple[str, ...],
-    Parameter(
-        negative="",
-        consume_multiple=(1, None),
-        show_default=False,
-        help="NODE...: tell what became of the frames that reached these nodes, and who interfered. A node"
-        " (uavs[0]), a group (uavs), or all.",
-    ),
+    _of_nodes("tell what became of the frames that reached these nodes, and who interfered."),
 ]
 
 
