@@ -21,7 +21,7 @@ def print_means(
     from gradysim.config.error import ConfigError
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
-    from gradysim.results.means import means, of_different_settings, read_results
+    from gradysim.results.means import means, of_different_files, of_different_settings, read_results
 
     try:
         if not directory.is_dir():
@@ -39,6 +39,13 @@ def print_means(
         print(
             f"{directory}: warning: {two[0]} and {two[1]} are of different settings (`settings_hash`), and"
             " their mean is one of both; expected a folder for each",
+            file=sys.stderr,
+        )
+    elif (of_files := of_different_files(results)) is not None:
+        print(
+            f"{directory}: warning: {of_files[2]} changed between {of_files[0]} and {of_files[1]}"
+            " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
+            f" `gradysim run FILE --result-dir {directory} --resume` makes",
             file=sys.stderr,
         )
     found = means(results)

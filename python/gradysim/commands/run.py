@@ -78,7 +78,8 @@ def run(
         bool,
         Parameter(
             negative="",
-            help="Leave out runs whose file in --result-dir is complete and of the same settings and seed.",
+            help="Leave out runs whose file in --result-dir is complete and of the same settings, seed and"
+            " files (protocols, obstacles).",
         ),
     ] = False,
     jobs: Annotated[
@@ -196,23 +197,32 @@ def make_result_dir(directory: Path) -> None:
 def left_to_do(
     scenarios: "Sequence[Scenario]", mode: Mode, result_dir: Path | None, fates_at: Sequence[str]
 ) -> "list[Scenario]":
-    """Return the runs that have no result yet, and say which have one.
+    """Return the runs that have no result yet, and say which have one, and which an outdated one.
 
     Raises ConfigError without a folder, and for names in `fates_at` that are none of nodes.
     """
     from gradysim.config.error import ConfigError
     from gradysim.config.run_numbers import text_of_runs
-    from gradysim.results.run_file import is_done
+    from gradysim.results.run_file import files_changed_since
 
     if result_dir is None:
         raise ConfigError("--resume: there is no folder to look into; expected --result-dir DIR, too")
-    left = [
-        scenario
-        for scenario in scenarios
-        if not is_done(scenario, mode, result_dir, ids_of_fates(scenario, fates_at))
-    ]
-    to_do = {scenario.run_number for scenario in left}
-    done = [scenario.run_number for scenario in scenarios if scenario.run_number not in to_do]
+    left, done = [], []
+    outdated: dict[tuple[str, ...], list[int]] = {}
+    for scenario in scenarios:
+        changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, fates_at))
+        if changed == ():
+            done.append(scenario.run_number)
+            continue
+        left.append(scenario)
+        if changed is not None:
+            outdated.setdefault(changed, []).append(scenario.run_number)
+    for files, runs in outdated.items():
+        print(
+            f"{scenarios[0].config}: {' and '.join(files)} changed after {len(runs)} of {len(scenarios)} runs"
+            f" in {result_dir} ({text_of_runs(runs)}), which begin anew",
+            file=sys.stderr,
+        )
     if done:
         print(
             f"{scenarios[0].config}: {len(done)} of {len(scenarios)} runs {'is' if len(done) == 1 else 'are'}"

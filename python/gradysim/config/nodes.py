@@ -6,6 +6,7 @@ more than one.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.groups import Group
@@ -48,10 +49,11 @@ class _Shared:
 
 @dataclass(frozen=True, eq=False)
 class ChosenProtocol:
-    """The protocol of some nodes, and the line that says so."""
+    """The protocol of some nodes, the line that says so, and the files that it consists of."""
 
     cls: type[IProtocol]
     source: Source
+    files: tuple[Path, ...] = ()
 
 
 def load_protocols(
@@ -73,7 +75,7 @@ def load_protocols(
             _, key, found = min(given, key=lambda each: each[0])
             if found not in by_entry:
                 load = _load_class if key is PROTOCOL_CLASS else _native_class
-                by_entry[found] = ChosenProtocol(load(found, settings, loader), found.entry.source)
+                by_entry[found] = load(found, settings, loader)
             protocols[name] = by_entry[found]
     return protocols
 
@@ -200,21 +202,23 @@ def _coordinate(node: str, index: int, axis: str, line: tuple[float, float], ste
     return coordinate
 
 
-def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> type[IProtocol]:
+def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> ChosenProtocol:
     entry = found.entry
     reference = str(settings.scalar(entry, PROTOCOL_CLASS.kind))
+    folder = entry.source.file.parent
     try:
-        return loader.load(reference, entry.source.file.parent)
+        return ChosenProtocol(loader.load(reference, folder), entry.source, loader.files(reference, folder))
     except BadValue as error:
         expected = error.expected or 'a protocol as "file.py:Class" or "package.module:Class"'
         text = f"{error.problem}; expected {expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 
 
-def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> type[IProtocol]:
+def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> ChosenProtocol:
     entry = found.entry
     try:
-        return native_protocol(str(settings.scalar(entry, PROTOCOL_TYPENAME.kind)))
+        cls = native_protocol(str(settings.scalar(entry, PROTOCOL_TYPENAME.kind)))
+        return ChosenProtocol(cls, entry.source)
     except BadValue as error:
         text = f"{error.problem}; expected one that `gradysim keys protocol` lists{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from pathlib import Path
 
 from gradysim.config.error import ConfigError
 from gradysim.config.geojson import read_geojson
@@ -21,6 +22,12 @@ def obstacle_count(lookup: Lookup, settings: SettingReader) -> int:
     """How many obstacles the configuration says itself."""
     setting = _setting(lookup, settings, NUM_OBSTACLES, NUM_OBSTACLES.path)
     return int(setting.value) if setting else 0
+
+
+def obstacle_files(lookup: Lookup, settings: SettingReader) -> list[Path]:
+    """The file that has obstacles, if the configuration names one."""
+    setting = _setting(lookup, settings, OBSTACLE_FILE, OBSTACLE_FILE.path)
+    return [setting.source.file.parent / str(setting.value)] if setting else []
 
 
 def read_obstacles(

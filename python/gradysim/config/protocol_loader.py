@@ -3,11 +3,13 @@
 import importlib
 import inspect
 import os
+import sys
 import traceback
 from pathlib import Path
 from types import ModuleType
 
 from gradysim.config.error import BadValue
+from gradysim.config.imported_files import files_of_python, root_of_module
 from gradysim.config.nearest import did_you_mean, misspelt
 from gradysim.config.neighbours import file_meant
 from gradysim.config.protocol_contract import check_contract
@@ -30,11 +32,20 @@ class ProtocolLoader:
         place, colon, class_name = reference.rpartition(":")
         if not (colon and place and class_name.isidentifier()):
             raise BadValue(f"`{reference}` names no class", _class_meant(reference, folder))
-        if place.endswith(".py") or "/" in place or "\\" in place:
-            module = self._from_file(place, folder)
-        else:
-            module = _from_name(place, folder, class_name)
+        module = self._from_file(place, folder) if _is_file(place) else _from_name(place, folder, class_name)
         return _protocol_in(module, class_name, place)
+
+    def files(self, reference: str, folder: Path) -> tuple[Path, ...]:
+        """The files that the protocol of a reference consists of, once it is loaded."""
+        place = reference.rpartition(":")[0]
+        if _is_file(place):
+            file = (folder / place).resolve()
+            return files_of_python(file, file.parent)
+        file_of_module = getattr(sys.modules.get(place), "__file__", None)
+        if file_of_module is None:  # one that is built in
+            return ()
+        file = Path(file_of_module).resolve()
+        return files_of_python(file, root_of_module(place, file))
 
     def _from_file(self, place: str, folder: Path) -> ModuleType:
         file = folder / place
@@ -48,6 +59,11 @@ class ProtocolLoader:
             return self._modules.load(file)
         except (Exception, SystemExit) as error:
             raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
+
+
+def _is_file(place: str) -> bool:
+    """Whether what stands before the colon is a file, and no module."""
+    return place.endswith(".py") or "/" in place or "\\" in place
 
 
 def _from_name(name: str, folder: Path, class_name: str) -> ModuleType:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from gradysim.config.constraint import holds
 from gradysim.config.error import ConfigError
+from gradysim.config.file_hashes import FileHashes
 from gradysim.config.groups import find_groups
 from gradysim.config.interfaces import interface_counts
 from gradysim.config.iterations import (
@@ -23,7 +24,7 @@ from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.nodes import build_nodes, load_protocols
 from gradysim.config.obstacle_spec import ObstacleSpec
-from gradysim.config.obstacles import obstacle_count, read_obstacles
+from gradysim.config.obstacles import obstacle_count, obstacle_files, read_obstacles
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
 from gradysim.config.run_numbers import select_runs
@@ -78,6 +79,8 @@ class Scenario:
         iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
         settings_hash: Of all that the file and the command line say of this run, the seed of `--seed` apart.
             It is the same for all repetitions.
+        file_hashes: {name, seen from the folder of the .ini file: hash} of the files that settings name:
+            protocols with what they import from their folder, obstacles, error rates.
         run_count: How many runs the configuration has, this one and those that were not asked for included.
     """
 
@@ -96,6 +99,7 @@ class Scenario:
     repetition: int = 0
     iterations: Mapping[str, str] = field(default_factory=dict)
     settings_hash: str = ""
+    file_hashes: Mapping[str, str] = field(default_factory=dict)
     run_count: int = 1
 
 
@@ -116,6 +120,7 @@ class _Network:
     communication_medium: CommunicationMediumSpec
     reference_coordinates: tuple[float, float, float]
     obstacles: tuple[ObstacleSpec, ...]
+    file_hashes: Mapping[str, str]
     lines_of_other_runs: Sequence[Source]
     """Those about nodes that this run has not, and others may have."""
 
@@ -158,7 +163,7 @@ def load_scenarios(
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
     numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source)
 
-    loader = ProtocolLoader()
+    loader, hashes = ProtocolLoader(), FileHashes(file.parent)
     networks: dict[tuple[str, ...], _Network] = {}
     varying = [
         entry
@@ -173,7 +178,7 @@ def load_scenarios(
         values = run_variables(config, number, repetition, iterations)
         alike = tuple(substitute(entry, values).text for entry in varying)
         if alike not in networks:
-            networks = {alike: _network(_substituted(ranked, values), loader, instead, source)}
+            networks = {alike: _network(_substituted(ranked, values), loader, hashes, instead, source)}
             elsewhere.append(networks[alike].lines_of_other_runs)
         options = _options(_substituted(only_options, values))
         scenario = _scenario(file, config, number, options, networks[alike], sections)
@@ -278,6 +283,7 @@ def _scenario(
         communication_medium=network.communication_medium,
         reference_coordinates=network.reference_coordinates,
         obstacles=network.obstacles,
+        file_hashes=network.file_hashes,
         sections=tuple(sections),
     )
 
@@ -301,7 +307,11 @@ def _description(entry: Entry) -> str:
 
 
 def _network(
-    ranked: list[tuple[int, Entry]], loader: ProtocolLoader, instead: str, source: Source
+    ranked: list[tuple[int, Entry]],
+    loader: ProtocolLoader,
+    hashes: FileHashes,
+    instead: str,
+    source: Source,
 ) -> _Network:
     lookup = Lookup(ranked)
     settings = SettingReader()
@@ -328,19 +338,21 @@ def _network(
         float(reference[field].value) if field in reference else 0.0
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
     )
+    nodes = build_nodes(lookup, groups, protocols, counts, settings)
+    obstacles = read_obstacles(
+        lookup,
+        settings,
+        (latitude, longitude, altitude) if {"latitude_deg", "longitude_deg"} <= reference.keys() else None,
+    )
+    files = [file for protocol in set(protocols.values()) for file in protocol.files]
     return _Network(
-        nodes=build_nodes(lookup, groups, protocols, counts, settings),
+        nodes=nodes,
         medium=read_struct("medium", found, settings),
         communication_medium=CommunicationMediumSpec(
             **{field: float(setting.value) for field, setting in communication.items()}
         ),
         reference_coordinates=(latitude, longitude, altitude),
-        obstacles=read_obstacles(
-            lookup,
-            settings,
-            (latitude, longitude, altitude)
-            if {"latitude_deg", "longitude_deg"} <= reference.keys()
-            else None,
-        ),
+        obstacles=obstacles,
+        file_hashes=hashes.of([*files, *obstacle_files(lookup, settings), *settings.files()]),
         lines_of_other_runs=lines_of_other_runs,
     )

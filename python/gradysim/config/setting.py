@@ -1,6 +1,7 @@
 """Reads the value of an entry as what its key wants it to be."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.expression import Value, parse_value
@@ -31,6 +32,14 @@ class SettingReader:
             # Entry and kind are kept beside the value, so that their ids are not given to others.
             known = self._settings[key] = (entry, kind, Setting(read_scalar(entry, kind), entry.source))
         return known[2]
+
+    def files(self) -> list[Path]:
+        """The files that the values read up to now name."""
+        return [
+            Path(str(setting.value))
+            for _, kind, setting in self._settings.values()
+            if kind.is_file and setting.value
+        ]
 
     def scalar(self, entry: Entry, kind: Kind) -> Scalar:
         """Only the value."""

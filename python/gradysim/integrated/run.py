@@ -183,6 +183,7 @@ class IntegratedRun:
             repetition=scenario.repetition,
             iterations=scenario.iterations,
             settings_hash=scenario.settings_hash,
+            file_hashes=scenario.file_hashes,
             seed=scenario.seed,
             mode="integrated",
             sim_time_s=network.now,

@@ -82,6 +82,7 @@ class PrototypeRun:
             repetition=scenario.repetition,
             iterations=scenario.iterations,
             settings_hash=scenario.settings_hash,
+            file_hashes=scenario.file_hashes,
             seed=scenario.seed,
             mode="prototype",
             sim_time_s=simulator.current_time,

@@ -62,8 +62,28 @@ def of_different_settings(results: Iterable[Mapping[str, Any]]) -> tuple[str, st
     for result in results:
         other = first.setdefault(_values_of(result), result)
         if other.get("settings_hash") != result.get("settings_hash"):
-            return f"{other['config']}-#{other['run']}", f"{result['config']}-#{result['run']}"
+            return _name(other), _name(result)
     return None
+
+
+def of_different_files(results: Iterable[Mapping[str, Any]]) -> tuple[str, str, str] | None:
+    """Name two runs of one configuration, and a file of that name that differs between them, if there is one.
+
+    They may be of different values: these are there to be compared.
+    """
+    first: dict[tuple[str, str], tuple[str, Mapping[str, Any]]] = {}
+    for result in results:
+        hashes = result.get("file_hashes")
+        for name, file_hash in hashes.items() if isinstance(hashes, dict) else ():
+            known, other = first.setdefault((result["config"], name), (file_hash, result))
+            if known != file_hash:
+                one, another = (f"{_name(each)}.{each['mode']}" for each in (other, result))
+                return one, another, name
+    return None
+
+
+def _name(result: Mapping[str, Any]) -> str:
+    return f"{result['config']}-#{result['run']}"
 
 
 def _values_of(result: Mapping[str, Any]) -> str:

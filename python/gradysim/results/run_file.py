@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from gradysim.config.scenario import Scenario
@@ -23,17 +23,19 @@ def _stem(config: str, run: int, mode: Mode) -> str:
     return f"{config}-#{run}.{mode}"
 
 
-def is_done(scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[int] = ()) -> bool:
-    """Whether `directory` has the result of just this run, with the same settings and seed, to its end.
+def files_changed_since(
+    scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[int] = ()
+) -> tuple[str, ...] | None:
+    """Return which files that settings name, such as protocols, the result in `directory` is older than.
 
-    It has to tell the fates of frames at the nodes `fates_at`, by their ids. What is no such file counts as
-    none. Of changes in files that settings name, such as protocols, it knows nothing.
+    It is done if there are none. The result is that of just this run, with the same settings and seed, to its
+    end, and tells the fates of frames at the nodes `fates_at`, by their ids; None if there is no such result.
     """
     file = run_file(directory, scenario.config, scenario.run_number, mode)
     try:
         result = json.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError, RecursionError):  # none, no JSON, or too deep
-        return False
+        return None
     expected = {
         "interrupted": False,
         "seed": scenario.seed,
@@ -41,11 +43,18 @@ def is_done(scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[
         "repetition": scenario.repetition,  # another `repeat` numbers the runs anew
         "iterations": plain_iterations(scenario.iterations),
     }
-    return (
+    if not (
         isinstance(result, dict)
         and expected.items() <= {name: result.get(name) for name in expected}.items()
         and _has_fates_at(fates_at, result.get("nodes"))
-    )
+    ):
+        return None
+    return _changed(result.get("file_hashes"), scenario.file_hashes)
+
+
+def _changed(before: object, now: Mapping[str, str]) -> tuple[str, ...]:
+    known = before if isinstance(before, dict) else {}
+    return tuple(sorted(name for name in {*known, *now} if known.get(name) != now.get(name)))
 
 
 def _has_fates_at(fates_at: Iterable[int], nodes: object) -> bool:

@@ -117,6 +117,8 @@ class RunResult:
     """{name of an iteration variable, `${x=1, 2}`: its value in this run, as a text}."""
     settings_hash: str = ""
     """Hash of what the .ini file and the command line say of this run, but for its seed."""
+    file_hashes: Mapping[str, str] = field(default_factory=dict)
+    """{name of a file that settings name, seen from the folder of the .ini file: its hash}."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the result as plain dicts, lists, text and numbers."""
@@ -136,4 +138,5 @@ class RunResult:
             "repetition": self.repetition,
             "iterations": plain_iterations(self.iterations),
             "settings_hash": self.settings_hash,
+            "file_hashes": dict(self.file_hashes),
         }

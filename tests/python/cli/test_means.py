@@ -31,6 +31,20 @@ def test_results_of_an_earlier_study_are_warned_of(gradysim):
     )
 
 
+def test_results_of_different_protocols_are_warned_of(gradysim, folder):
+    arguments = ("run", "test.ini", "--mode", "prototype", "--result-dir", "out", "--quiet")
+    gradysim(*arguments, "-r", "0,1")
+    (folder / "protocol.py").write_text((folder / "protocol.py").read_text() + "\n# edited")
+    gradysim(*arguments, "-r", "2")
+    done = gradysim("means", "out")
+    assert done.returncode == 0
+    assert done.stderr == (
+        "out: warning: protocol.py changed between General-#0.prototype and General-#2.prototype"
+        " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
+        " `gradysim run FILE --result-dir out --resume` makes\n"
+    )
+
+
 def test_a_folder_without_results(gradysim, folder):
     done = gradysim("means", ".")
     assert (done.returncode, done.stdout) == (2, "")

@@ -36,6 +36,33 @@ def test_a_result_of_other_settings_is_replaced(gradysim, folder):
     assert result["sim_time_s"] == 2
 
 
+def test_runs_of_an_edited_protocol_begin_anew(gradysim, folder):
+    arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out")
+    gradysim(*arguments, "-r", "0,1")
+    protocol = folder / "protocol.py"
+    protocol.write_text(protocol.read_text().replace('["said"] += 1', '["said"] += 2'))
+    done = gradysim(*arguments, "--resume")
+    assert done.returncode == 0
+    assert "General: protocol.py changed after 2 of 3 runs in out (0..1), which begin anew\n" in done.stderr
+    said = {
+        node["tracked_variables"]["said"] for result in results(folder).values() for node in result["nodes"]
+    }
+    assert said == {20}
+    again = gradysim(*arguments, "--resume")
+    assert again.stderr.endswith("General: 3 of 3 runs are in out (0..2) and left out\n")
+
+
+def test_runs_of_an_edited_included_file_begin_anew(gradysim, folder):
+    (folder / "limit.ini").write_text("sim-time-limit = 3s\n")
+    text = (folder / "test.ini").read_text().replace("sim-time-limit = 10.5s", "include limit.ini", 1)
+    (folder / "test.ini").write_text(text)
+    arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out")
+    gradysim(*arguments)
+    (folder / "limit.ini").write_text("sim-time-limit = 2s\n")
+    gradysim(*arguments, "--resume")
+    assert {result["sim_time_s"] for result in results(folder).values()} == {2}
+
+
 def test_it_takes_a_folder(gradysim):
     done = gradysim("run", "test.ini", "--resume")
     assert (done.returncode, done.stdout) == (2, "")

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.results.means import Mean, means, of_different_settings, read_results
+from gradysim.results.means import Mean, means, of_different_files, of_different_settings, read_results
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -93,6 +93,25 @@ def test_runs_of_equal_values_and_different_settings_are_named() -> None:
 def test_settings_may_differ_with_the_values() -> None:
     results = [result(0, settings_hash="a"), result(1, settings_hash="b", iterations={"jitter": "20ms"})]
     assert of_different_settings(results) is None
+
+
+def test_runs_made_with_different_files_of_one_name_are_told() -> None:
+    results = [
+        result(0, file_hashes={"a.py": "1", "b.py": "1"}),
+        result(1, file_hashes={"a.py": "1"}, iterations={"jitter": "20ms"}),
+        result(2, file_hashes={"a.py": "1", "b.py": "2"}, mode="prototype"),
+    ]
+    assert of_different_files(results) == ("Study-#0.integrated", "Study-#2.prototype", "b.py")
+    assert of_different_files(results[:2]) is None
+
+
+def test_other_configurations_and_results_of_before_say_nothing_of_files() -> None:
+    results = [
+        result(0, file_hashes={"a.py": "1"}),
+        result(0, file_hashes={"a.py": "2"}, config="Other"),
+        result(1),
+    ]
+    assert of_different_files(results) is None
 
 
 def test_results_are_read_in_the_order_of_their_runs(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from gradysim.results.run_file import is_done, run_name, write_run_file
+from gradysim.results.run_file import files_changed_since, run_name, write_run_file
 from gradysim.results.run_result import NodeResult, RunResult
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
@@ -59,6 +59,10 @@ def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):
         write_run_file(RESULT, tmp_path / "taken")
 
 
+def is_done(scenario, mode, folder, fates_at=()):
+    return files_changed_since(scenario, mode, folder, fates_at) == ()
+
+
 @pytest.fixture
 def done(make_scenario, tmp_path):
     """A scenario and a folder with its result."""
@@ -69,6 +73,7 @@ def done(make_scenario, tmp_path):
         run=scenario.run_number,
         seed=scenario.seed,
         settings_hash=scenario.settings_hash,
+        file_hashes=scenario.file_hashes,
     )
     return scenario, result, tmp_path / "results"
 
@@ -96,6 +101,29 @@ def test_a_run_is_not_done_by_another_result(done, change):
     scenario, result, folder = done
     write_run_file(dataclasses.replace(result, **change), folder)
     assert not is_done(scenario, "integrated", folder)
+
+
+@pytest.mark.parametrize(
+    ("hashes", "changed"),
+    [
+        ({"a.py": "1", "b.py": "2"}, ()),
+        ({"a.py": "1", "b.py": "3"}, ("b.py",)),
+        ({"a.py": "1"}, ("b.py",)),
+        ({"a.py": "1", "b.py": "2", "c.py": "3"}, ("c.py",)),
+        ({}, ("a.py", "b.py")),
+    ],
+)
+def test_a_result_is_older_than_files_that_differ(done, hashes, changed):
+    scenario, result, folder = done
+    scenario = dataclasses.replace(scenario, file_hashes={"a.py": "1", "b.py": "2"})
+    write_run_file(dataclasses.replace(result, file_hashes=hashes), folder)
+    assert files_changed_since(scenario, "integrated", folder) == changed
+
+
+def test_a_result_that_is_none_of_this_run_is_not_older(done):
+    scenario, result, folder = done
+    write_run_file(dataclasses.replace(result, seed=99), folder)
+    assert files_changed_since(scenario, "integrated", folder) is None
 
 
 def test_the_values_of_a_run_that_is_done_may_be_numbers_and_texts(done):

@@ -45,6 +45,7 @@ def test_keys_and_values_that_scripts_rely_on():
         ("repetition", 1),
         ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
         ("settings_hash", "0123"),
+        ("file_hashes", {}),
     ]
 
 
