@@ -7,7 +7,9 @@ from gradysim.results.run_result import NodeResult
 
 
 def node(name, frame_fates, interferers=()):
-    return NodeResult(0, name, "Mobile", (0.0, 0.0, 0.0), {}, {}, frame_fates, dict(interferers))
+    return NodeResult(
+        0, name, "Mobile", (0.0, 0.0, 0.0), {}, frame_fates=frame_fates, interferers=dict(interferers)
+    )
 
 
 def lines(renderable, width=100):

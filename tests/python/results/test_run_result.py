@@ -67,13 +67,15 @@ def test_keys_of_a_node():
 
 
 def test_frames_by_bitrate_are_there_if_there_were_any():
-    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, {24_000_000: 3, 6_000_000: 1})
+    node = NodeResult(
+        0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, frames_by_bitrate={24_000_000: 3, 6_000_000: 1}
+    )
     assert node.to_json_object()["frames_by_bitrate"] == {"24000000": 3, "6000000": 1}
 
 
 def test_fates_and_interferers_are_there_if_the_run_was_asked_for_them():
     heard = {"broadcast": {"delivered": 3}}
-    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, {}, heard, {})
+    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, frame_fates=heard, interferers={})
     told = node.to_json_object()
     assert (told["frame_fates"], told["interferers"]) == (heard, {})
 
