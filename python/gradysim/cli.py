@@ -6,7 +6,7 @@
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
-Exit codes: 0 all is well; 1 a protocol failed, or a process of --jobs crashed; 2 a mistake in the arguments
+Exit codes: 0 all is well; 1 a protocol failed, or ended its process; 2 a mistake in the arguments
 or in the .ini file, or what the system refuses: an output that takes no more, another process; 130 Ctrl-C.
 Each command has its own file in `gradysim.commands`.
 """

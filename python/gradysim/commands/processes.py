@@ -11,6 +11,7 @@ import shutil
 import signal
 import sys
 import tempfile
+import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from mmap import mmap
@@ -25,6 +26,9 @@ from gradysim.report.interrupt import StopOnInterrupt
 Work = Callable[[int, StopOnInterrupt, TextIO], int]
 """Carries out the run with an index, prints to the output it is given, and returns an exit code."""
 
+_FINISHED, _RAISED = 1, 2
+"""How a process ends: the run has come to its end, well or not, or something else raised. Else 0."""
+
 
 @dataclass
 class _Running:
@@ -32,8 +36,8 @@ class _Running:
 
     index: int
     process: ForkProcess
-    finished: mmap = field(default_factory=lambda: mmap(-1, 1))
-    """Shared with the process, which sets it to 1 when the run has come to its end, well or not."""
+    ending: mmap = field(default_factory=lambda: mmap(-1, 1))
+    """Shared with the process, which says in it how it ends."""
     output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
     error_output: IO[bytes] = field(default_factory=tempfile.TemporaryFile)
 
@@ -129,12 +133,18 @@ def _begin(work: Work, index: int, output: TextIO) -> _Running:
             os.environ["COLUMNS"] = width
         theirs, sys.stderr = _stream(running.output, 1), _stream(running.error_output, 2)
         sys.stdout = sys.stderr if errors_only else theirs
-        with _InAProcess() as interrupt:
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
-            code = work(index, interrupt, theirs)
-        theirs.flush()
-        sys.stderr.flush()
-        running.finished[0] = 1
+        try:
+            with _InAProcess() as interrupt:
+                signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
+                code = work(index, interrupt, theirs)
+            theirs.flush()
+            sys.stderr.flush()
+        except BaseException:
+            traceback.print_exc(file=sys.stderr)
+            sys.stderr.flush()
+            running.ending[0] = _RAISED
+            os._exit(FAILED)
+        running.ending[0] = _FINISHED
         os._exit(code)
 
     running.process.run = in_the_process  # type: ignore[method-assign]
@@ -161,11 +171,13 @@ def _held_back(number: signal.Signals) -> Iterator[None]:
 def _ending(run: _Running, name: str) -> tuple[int, str]:
     """Return the exit code of a run whose process has ended, and what to say if that was too early."""
     status = run.process.exitcode or OK
-    if run.finished[0] and status >= 0:
+    if run.ending[0] == _FINISHED and status >= 0:
         return status, ""
     if status < 0:
         number = signal.Signals(-status).name if -status in set(signal.Signals) else str(-status)
         how = f"was ended by {number}"
+    elif run.ending[0] == _RAISED:
+        how = "ended with that exception"
     else:
         how = f"ended with exit status {status}, as by os._exit"
     return FAILED, f"{name}: its process {how}, and left no result\n"

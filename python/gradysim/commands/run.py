@@ -5,6 +5,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TextIO
 
@@ -14,6 +15,7 @@ from gradysim.commands.arguments import ConfigOption, FileArgument, Mode, SetOpt
 from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK, say_mistake
 from gradysim.commands.scenarios import load
 from gradysim.commands.simulators import captures, files_written, ids_of_fates, simulator
+from gradysim.commands.sudden_end import tell_of_crashes, told_of_exit
 from gradysim.commands.warnings import (
     warn_of_equal_seeds,
     warn_of_metres_for_times,
@@ -140,18 +142,22 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
     """Carry out runs up to the first that fails or is interrupted; return the exit code of the command."""
     from gradysim.report.interrupt import StopOnInterrupt
 
+    tell_of_crashes()
     with StopOnInterrupt() as interrupt:
         for done, scenario in enumerate(scenarios):
             if interrupt.should_stop():  # pressed between two runs
                 say_unfinished(scenarios, dict.fromkeys(range(done), OK))
                 return INTERRUPTED
+            codes = dict.fromkeys(range(done), OK)
+            say_failed = partial(say_unfinished, scenarios, {**codes, done: FAILED})
             try:
-                code = carry_out(scenario, interrupt, output)
+                with told_of_exit(f"{scenario.config} run {scenario.run_number}", say_failed):
+                    code = carry_out(scenario, interrupt, output)
             except KeyboardInterrupt:  # while it was built
-                say_unfinished(scenarios, dict.fromkeys(range(done), OK))
+                say_unfinished(scenarios, codes)
                 return INTERRUPTED
             if code != OK:
-                say_unfinished(scenarios, {**dict.fromkeys(range(done), OK), done: code})
+                say_unfinished(scenarios, {**codes, done: code})
                 return code
     return OK
 
@@ -175,6 +181,7 @@ def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", outp
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
 
+    tell_of_crashes()
     names = [f"{scenario.config} run {scenario.run_number}" for scenario in scenarios]
     codes = in_processes(work, names, jobs, output)
     if len(codes) < len(scenarios) or any(codes.values()):

@@ -1,7 +1,10 @@
 """What a user sees of a protocol that fails."""
 
+import signal
 import subprocess
 import sys
+
+import pytest
 
 from python.cli.command import both_modes, environment, objects
 
@@ -55,3 +58,69 @@ def test_a_protocol_that_cannot_be_made(gradysim, mode):
     assert "RuntimeError: no constructor" in done.stderr
     assert "node 0 (Unmakeable 0)" in done.stderr
     assert done.stdout == ""
+
+
+ENDS = """
+import ctypes
+import multiprocessing
+import os
+
+from protocol import Talker
+
+
+class EndsItself(Talker):
+    status = 0
+
+    def handle_timer(self, timer):
+        os._exit(self.status)
+
+
+class Forks(Talker):
+    def handle_timer(self, timer):
+        child = multiprocessing.get_context("fork").Process(target=print)
+        child.start()
+        child.join()
+        self.provider.tracked_variables["code"] = child.exitcode
+
+
+class Crashes(Talker):
+    def handle_timer(self, timer):
+        ctypes.string_at(0)
+"""
+
+
+@both_modes
+@pytest.mark.parametrize("status", [0, 3])
+def test_a_protocol_that_ends_the_process(gradysim, folder, mode, status):
+    (folder / "ends.py").write_text(ENDS)
+    settings = ('class="ends.py:EndsItself"', f"status={status}")
+    arguments = [part for line in settings for part in ("--set", f"*.uavs[*].protocol.{line}")]
+    done = gradysim("run", "test.ini", "--mode", mode, *arguments)
+    assert done.returncode == 1
+    assert done.stdout == "printed by a protocol\n" * 2
+    assert [line.strip() for line in done.stderr.splitlines()] == [
+        f"General run 0: os._exit({status}) ends the process, and leaves no result",
+        f'File "{folder / "ends.py"}", line 13, in handle_timer',
+        "os._exit(self.status)",
+        "General: run 0 failed, 0 of 3 runs are done, 2 were not begun (1..2)",
+    ]
+
+
+def test_a_process_that_a_protocol_began_ends_as_it_wants_to(gradysim, folder):
+    (folder / "ends.py").write_text(ENDS)
+    name = '*.uavs[*].protocol.class="ends.py:Forks"'
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0", "--json", "--set", name)
+    assert done.returncode == 0
+    assert "os._exit" not in done.stderr
+    (run,) = objects(done.stdout)
+    assert [node["tracked_variables"]["code"] for node in run["nodes"]] == [0, 0]
+
+
+@both_modes
+def test_a_crash_of_the_interpreter_is_told_with_its_line(gradysim, folder, mode):
+    (folder / "ends.py").write_text(ENDS)
+    name = '*.uavs[*].protocol.class="ends.py:Crashes"'
+    done = gradysim("run", "test.ini", "--mode", mode, "--set", name)
+    assert done.returncode == -signal.SIGSEGV
+    assert done.stderr.startswith("Fatal Python error: Segmentation fault")
+    assert f'File "{folder / "ends.py"}", line 26 in handle_timer' in done.stderr

@@ -121,6 +121,21 @@ def test_a_process_that_ends_itself_is_no_run_that_is_done(gradysim, folder, sta
     assert done.stderr.endswith("General: run 1 failed, run 2 failed, 0 of 2 runs are done\n")
 
 
+def test_an_exception_outside_of_protocols_is_not_told_as_an_exit(folder):
+    code = (
+        "import sys; from gradysim.cli import main; from gradysim.report import summary\n"
+        "def print_summary(*_): raise RuntimeError('no summary')\n"
+        "summary.print_summary = print_summary\n"
+        "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '-r', '0', '-j', '2']))"
+    )
+    done = run_command(folder, sys.executable, "-c", code)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-2:] == [
+        "RuntimeError: no summary",
+        "General run 0: its process ended with that exception, and left no result",
+    ]
+
+
 def test_a_process_that_cannot_begin_is_told(folder):
     code = (
         "import errno, os, sys; from gradysim.cli import main\n"
