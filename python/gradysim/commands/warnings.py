@@ -1,10 +1,11 @@
 """What is told before runs that go on all the same."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from gradysim.config.node_spec import NodeSpec
     from gradysim.config.scenario import Scenario
 
 
@@ -35,8 +36,21 @@ def warn_of_metres_for_times(scenarios: "Sequence[Scenario]") -> None:
     """Say on the error output, once for all runs, which times of protocols are given in metres."""
     from gradysim.config.metres_for_times import metres_for_times
 
+    _tell_of_nodes(scenarios, metres_for_times)
+
+
+def warn_of_mission_speeds(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which speeds missions override by their default."""
+    from gradysim.config.mission_speeds import mission_speeds
+
+    _tell_of_nodes(scenarios, mission_speeds)
+
+
+def _tell_of_nodes(
+    scenarios: "Sequence[Scenario]", texts_of: "Callable[[Sequence[NodeSpec]], Iterable[str]]"
+) -> None:
     networks = {id(scenario.nodes): scenario.nodes for scenario in scenarios}
-    for text in dict.fromkeys(text for nodes in networks.values() for text in metres_for_times(nodes)):
+    for text in dict.fromkeys(text for nodes in networks.values() for text in texts_of(nodes)):
         print(text, file=sys.stderr)
 
 

@@ -66,3 +66,17 @@ def test_a_time_in_metres_is_told_once_for_all_runs(
     arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", interval, "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
     assert capsys.readouterr().err.count("`interval` is given in metres, `m`; a minute is `min`") == 1
+
+
+def test_a_speed_that_missions_override_is_told_once_for_all_runs(
+    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    make_scenario(
+        "from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin\n"
+        "class Tested(Talker):\n"
+        "    def initialize(self): MissionMobilityPlugin(self).start_mission([(9, 9, 9)])"
+    )
+    arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", "**.speed=12mps", "--quiet"]
+    assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
+    told = "--set **.speed=12mps: warning: missions of Tested do not fly at this speed, but at 5 m/s"
+    assert capsys.readouterr().err.count(told) == 1
