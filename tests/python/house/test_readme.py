@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from gradysim.config import load_scenarios
+from gradysim.config.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
 
 README = Path(__file__).parents[3] / "README.md"
 
@@ -58,6 +59,14 @@ def test_the_radio_reaches_as_far_as_it_says(first_protocol: Path) -> None:
     scenario = load_scenarios(first_protocol)[0]
     here, one_metre_on = (calibrate(scenario, range_m=int(reach_m) + more).tx_power_w for more in (0, 1))
     assert here <= 0.020 < one_metre_on  # W, the default
+
+
+def test_who_changes_the_mode_learns_of_the_ranges_elsewhere_too(root: Path) -> None:
+    told = re.findall(r"broadcasts of the real radio (\d+ m)", README.read_text())
+    transmission_range = COMMUNICATION_MEDIUM_KEYS[0].meaning
+    assert re.findall(r"reach (\d+ m) by default", transmission_range) == told
+    migration = (root / "docs/migration.md").read_text()
+    assert re.findall(r"its broadcasts reach (\d+ m), and those of the prototype 60 m", migration) == told
 
 
 def test_one_line_gives_both_modes_one_range(first_protocol: Path) -> None:
