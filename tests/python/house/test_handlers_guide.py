@@ -85,6 +85,10 @@ def test_heights_once_a_second(watch: Any) -> None:
         assert heights == pytest.approx([min(10 * time, 50)] * 3, abs=0.01)
 
 
+def test_careful_climbers_are_on_the_ground_in_both_modes(watch: Any) -> None:
+    assert watch.heights_at_the_end("watch.ini") == pytest.approx([0] * 6, abs=0.01)
+
+
 def test_its_types_hold(folder: Path, root: Path) -> None:
     check = subprocess.run(
         [sys.executable, "-m", "mypy", "--strict", "--config-file=", "watch.py"],

@@ -1,6 +1,7 @@
 """The base of extensions."""
 
 import warnings
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from gradysim.encapsulator.python import PythonProvider
@@ -10,8 +11,10 @@ from gradysim.protocol.interface import IProtocol, IProvider
 class Extension:
     """Reaches what is behind a protocol's provider.
 
-    An extension of one's own finds the handlers of prototype mode in `self._provider.handlers`. Elsewhere
-    `_provider` is None, which is told by a warning, and the extension should do nothing.
+    An extension of one's own finds the handlers of prototype mode, those of communication, timers and
+    mobility among them, in `self._provider.handlers`. Elsewhere `_provider` is None, which is told by a
+    warning. What needs no more than a handler that was given to the run takes `handler_of`, and
+    works in integrated mode, too.
     """
 
     _provider: PythonProvider | None
@@ -43,6 +46,16 @@ def provider_of(protocol: IProtocol) -> IProvider:
             "not in the constructor"
         )
     return provider
+
+
+def handler_of(protocol: IProtocol, label: str) -> Any:
+    """Return the handler with that label of the run that a protocol belongs to; None if there is none.
+
+    In prototype mode and in integrated mode; elsewhere there are no handlers. ReferenceError if the protocol
+    has no provider yet, as in its constructor.
+    """
+    handlers: Mapping[str, Any] = getattr(provider_of(protocol), "handlers", {})
+    return handlers.get(label)
 
 
 def mode_of(provider: Any) -> str:

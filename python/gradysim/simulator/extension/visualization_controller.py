@@ -1,11 +1,10 @@
 """Lets a protocol change what the viewers of the simulation show."""
 
 import math
-from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.simulator.extension.extension import Extension, provider_of
+from gradysim.simulator.extension.extension import Extension, handler_of
 from gradysim.simulator.number_range import is_in_range
 
 Color = tuple[float, float, float]
@@ -24,8 +23,7 @@ class VisualizationController(Extension):
     def __init__(self, protocol: IProtocol) -> None:
         """Take the protocol of a node; ReferenceError if it has no provider yet, as in its constructor."""
         super().__init__(protocol)
-        handlers: Mapping[str, Any] = getattr(provider_of(protocol), "handlers", {})
-        self._handler = handlers.get("visualization")
+        self._handler = handler_of(protocol, "visualization")
 
     def paint_node(self, node_id: int, color: Color) -> None:
         """Give a node a colour; each part from 0 to 255."""
