@@ -7,6 +7,8 @@ BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 comma := ,
 FUZZ_SECONDS ?= 60
+# Of `make test-cpp`: a filter of GoogleTest; of `make test-python`: what pytest takes. All tests, if nothing is said.
+ONLY ?=
 
 # cmake and ninja come from .venv, whatever the machine has.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
@@ -30,13 +32,13 @@ demo: build  ## Run ZigZag in both modes and print the comparison.
 
 test: test-cpp test-python  ## Build and run all tests, C++ and Python.
 
-test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer.
+test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer; some: ONLY='Contention*'.
 	cmake -S cpp --preset asan --log-level=WARNING
 	cmake --build build/asan
-	ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error
+	$(if $(ONLY),build/asan/netsim_tests --gtest_brief=1 --gtest_filter='$(ONLY)',ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error)
 
-test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel.
-	$(BIN)/python -m pytest --numprocesses=auto
+test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel; some: ONLY='FILE -k NAME'.
+	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=auto)
 
 test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
 	cmake -S cpp --preset tsan --log-level=WARNING
