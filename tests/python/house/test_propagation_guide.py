@@ -1,9 +1,15 @@
 """The lines that docs/guides/propagation.md shows are understood, and the engine takes them."""
 
+import re
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
+from gradysim.config.key import Key
+from gradysim.config.keys.antenna import ANTENNA_KEYS
+from gradysim.config.keys.environment import MATERIALS, OBSTACLE_LOSS_KEYS
+from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
 from gradysim.config.scenario import Scenario
 
 
@@ -22,3 +28,18 @@ def test_its_lines_run(
     assert len(obstacles.obstacles) == 2
     for scenario in (fading, antennas, obstacles):
         assert run(scenario).fates["messages"]["broadcast"]["sent"] > 0
+
+
+@pytest.fixture
+def guide(root: Path) -> str:
+    return (root / "docs/guides/propagation.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("key", [PATH_LOSS_KEYS[0], ANTENNA_KEYS[0], OBSTACLE_LOSS_KEYS[0]])
+def test_every_model_has_a_row(guide: str, key: Key) -> None:
+    rows = re.findall(r'^\| `"?(\w*)"?` \|', guide, re.MULTILINE)
+    assert set(re.findall(r'"([^"]*)"', key.kind.expected)) - set(rows) == set()
+
+
+def test_every_material_is_named(guide: str) -> None:
+    assert f"P.2040-3: {', '.join(MATERIALS)}." in guide

@@ -12,6 +12,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.config import load_scenarios
+from gradysim.config.keys.rate_control import RATE_CONTROL_KEYS
 from gradysim.integrated.run import run
 
 
@@ -50,8 +51,11 @@ def test_the_rate_falls_on_the_way(scenario_file: Path) -> None:
     assert sum(ground_station.frames_by_bitrate.values()) == 0
 
 
-@pytest.mark.parametrize("typename", ["", "ArfRateControl", "AarfRateControl", "MinstrelRateControl"])
-def test_every_rate_control_that_it_names_exists(guide: str, scenario_file: Path, typename: str) -> None:
+RATE_CONTROLS = re.findall(r'"([^"]*)"', RATE_CONTROL_KEYS[0].kind.expected)
+
+
+@pytest.mark.parametrize("typename", RATE_CONTROLS)
+def test_every_rate_control_is_in_its_table_and_works(guide: str, scenario_file: Path, typename: str) -> None:
     assert f'| `"{typename}"` |' in guide
     settings = [f'**.rateControl.typename = "{typename}"', "sim-time-limit = 1s"]
     (scenario,) = load_scenarios(scenario_file, overrides=settings)
