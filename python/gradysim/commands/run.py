@@ -69,8 +69,8 @@ def run(
     mode: Annotated[
         Mode,
         Parameter(
-            help="The 802.11 network of the compiled engine, or the plain simulator in Python. Their messages reach"
-            " 786 m and 60 m by default: `gradysim keys range`."
+            help="The 802.11 network of the compiled engine, or the plain simulator in Python. Their messages"
+            " reach 786 m and 60 m by default: `gradysim keys range`."
         ),
     ] = "integrated",
     settings: SetOption = (),
@@ -98,7 +98,9 @@ def run(
         bool,
         Parameter(name="--json", negative="", help="Print one JSON object per run, one per line, no more."),
     ] = False,
-    quiet: Annotated[bool, Parameter(negative="", help="No progress bar.")] = False,
+    quiet: Annotated[
+        bool, Parameter(negative="", help="No progress bar and no summaries: warnings and failures only.")
+    ] = False,
 ) -> int:
     """Run the runs of a configuration and say what came out."""
     from gradysim.config.error import ConfigError
@@ -131,8 +133,8 @@ def run(
 
             def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
                 outcome = run_one(build, scenario, interrupt, bar=bar and jobs == 1)
-                code = report(outcome, output, result_dir, as_json=as_json)
-                if pcap and outcome.result is not None:
+                code = report(outcome, output, result_dir, as_json=as_json, quiet=quiet)
+                if pcap and outcome.result is not None and not quiet:
                     for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
                         print(f"captured in {capture}")
                 return code
@@ -265,8 +267,8 @@ def run_one(
     return carry_out(build_it, scenario, interrupt.should_stop, console)
 
 
-def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool) -> int:
-    """Show and write what came out of a run, and return the exit code.
+def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool, quiet: bool) -> int:
+    """Show and write what came out of a run, and return the exit code; show only JSON if it is to be `quiet`.
 
     Why it failed comes last, where somebody looks whose screen the tables fill.
     """
@@ -275,9 +277,11 @@ def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_js
 
     try:
         if outcome.result is not None:
-            show(outcome.result, output, as_json=as_json)
-            if result_dir is not None:
-                print(f"written to {write_run_file(outcome.result, result_dir)}")
+            if as_json or not quiet:
+                show(outcome.result, output, as_json=as_json)
+            written = None if result_dir is None else write_run_file(outcome.result, result_dir)
+            if written is not None and not quiet:
+                print(f"written to {written}")
             output.flush()
     finally:  # also if the output takes no more
         if outcome.failure is not None:

@@ -108,7 +108,7 @@ def test_what_it_shows_of_single_nodes_is_the_end_of_the_summary(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], hidden: Path
 ) -> None:
     shown = [line for line in code_blocks(GUIDE, "text")[0].splitlines() if line]
-    printed = shell("gradysim run hello.ini -c Hidden --fates-at nodes --quiet", hidden).splitlines()
+    printed = shell("gradysim run hello.ini -c Hidden --fates-at nodes", hidden).splitlines()
     assert [line.rstrip() for line in printed if line.strip()][-len(shown) :] == shown
 
 
