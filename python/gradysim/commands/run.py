@@ -17,8 +17,8 @@ from gradysim.commands.scenarios import load
 from gradysim.commands.simulators import captures, files_written, ids_of_fates, simulator
 from gradysim.commands.sudden_end import tell_of_crashes, told_of_exit
 from gradysim.commands.warnings import (
+    warn_of_doubtful_times,
     warn_of_equal_seeds,
-    warn_of_metres_for_times,
     warn_of_mission_speeds,
     warn_of_shadowed_lines,
     warn_of_what_is_seldom_meant,
@@ -123,7 +123,7 @@ def run(
                 if not scenarios:
                     return OK
             warn_of_shadowed_lines(scenarios[0])
-            warn_of_metres_for_times(scenarios)
+            warn_of_doubtful_times(scenarios)
             warn_of_mission_speeds(scenarios)
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:

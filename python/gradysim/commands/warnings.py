@@ -32,11 +32,11 @@ def warn_of_shadowed_lines(scenario: "Scenario") -> None:
         print(text, file=sys.stderr)
 
 
-def warn_of_metres_for_times(scenarios: "Sequence[Scenario]") -> None:
-    """Say on the error output, once for all runs, which times of protocols are given in metres."""
-    from gradysim.config.metres_for_times import metres_for_times
+def warn_of_doubtful_times(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which times of protocols are given as something else."""
+    from gradysim.config.doubtful_times import doubtful_times
 
-    _tell_of_nodes(scenarios, metres_for_times)
+    _tell_of_nodes(scenarios, doubtful_times)
 
 
 def warn_of_mission_speeds(scenarios: "Sequence[Scenario]") -> None:

@@ -65,7 +65,7 @@ def test_a_time_in_metres_is_told_once_for_all_runs(
     interval = "*.uavs[*].protocol.interval=5m"
     arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", interval, "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    assert capsys.readouterr().err.count("`interval` is given in metres, `m`; a minute is `min`") == 1
+    assert capsys.readouterr().err.count("`interval` is given in `m`, and by its name it is a time") == 1
 
 
 def test_a_speed_that_missions_override_is_told_once_for_all_runs(

@@ -30,7 +30,9 @@ PROTOCOL_PARAMETER = _protocol(
     "attribute",
     si_number(),
     "A public class attribute of the protocol, int, float, str or bool; quantities become SI units,"
-    ' or what its annotation says, `Annotated[float, "ms"]`, or its name ends in: `_ms`, `_km`, `_dbm`',
+    ' or what its annotation says, `Annotated[float, "ms"]`, or its name ends in: `_ms`, `_km`, `_dbm`.'
+    " One whose unit is said so takes no quantity of another kind. Of the others, one whose name ends in"
+    " interval, timeout, period, delay or duration should be a time, or a warning says so; the rest take any",
     default="the class's",
 )
 """Stands for all of them in lists of keys; `parameters_of` knows a class's."""

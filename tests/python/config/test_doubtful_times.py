@@ -2,7 +2,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.config.metres_for_times import metres_for_times
+from gradysim.config.doubtful_times import doubtful_times
 
 PROTOCOLS = """
 from typing import Annotated
@@ -25,19 +25,24 @@ class Timed(Sensor):
 def told(folder: Any, line: str) -> list[str]:
     folder.write("timed.py", PROTOCOLS)
     chosen = '[X]\n*.uavs[*].protocol.class = "timed.py:Timed"\n'
-    return list(metres_for_times(folder.load(f"{chosen}{line}\n", "X").nodes))
+    return list(doubtful_times(folder.load(f"{chosen}{line}\n", "X").nodes))
 
 
 def test_a_time_in_metres_is_told_once_with_its_line(folder: Any) -> None:
     (text,) = told(folder, "*.uavs[*].protocol.interval = 5m")
     assert text == (
-        f"{folder.ini}:8: warning: `interval` is given in metres, `m`; a minute is `min`"
-        ' (in Timed, `interval: Annotated[float, "m"]` says that metres are meant)'
+        f"{folder.ini}:8: warning: `interval` is given in `m`, and by its name it is a time;"
+        ' a minute is `min` (in Timed, `interval: Annotated[float, "m"]` says that it is none)'
     )
 
 
-def test_a_jitter_is_one_of_times(folder: Any) -> None:
-    assert len(told(folder, "*.uavs[*].protocol.jitter = 100m")) == 1
+@pytest.mark.parametrize(("value", "unit"), [("5km", "km"), ("2 * 5Hz", "Hz"), ("-3dBm", "dBm")])
+def test_a_time_in_another_unit_is_told_too(folder: Any, value: str, unit: str) -> None:
+    (text,) = told(folder, f"*.uavs[*].protocol.interval = {value}")
+    assert text.endswith(
+        f" warning: `interval` is given in `{unit}`, and by its name it is a time"
+        f' (in Timed, `interval: Annotated[float, "{unit}"]` says that it is none)'
+    )
 
 
 @pytest.mark.parametrize("values", ["${5m, 10m}", "${interval=10s, 5m}", "${5, 10}m", "${5..10 step 5}m"])
@@ -54,9 +59,9 @@ def test_different_lines_are_told_each(folder: Any) -> None:
     "line",
     [
         "interval = 5min",
+        "jitter = 5m",
         "position_jitter = 5m",
         "interval = 5",
-        "interval = 5km",
         "interval = ${runnumber}m",
         "interval = ${5min, 10ms, 1 km}",
         "interval = ${5, 10}min",
