@@ -1,8 +1,10 @@
 #include "netsim/config/check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "netsim/config/nearest_name.hpp"
 #include "netsim/error.hpp"
@@ -70,17 +72,21 @@ void check_default_or_between(std::string_view field, int value, std::string_vie
 }
 
 void check_name(std::string_view field, std::string_view value, std::span<const std::string_view> names) {
+    if (std::ranges::find(names, value) != names.end()) {
+        return;
+    }
     std::string expected;
+    std::vector<std::string_view> candidates;
     for (const std::string_view name : names) {
-        if (name == value) {
-            return;
+        expected.append(expected.empty() ? "" : ", ").append(name.empty() ? "\"\" (none)" : name);
+        if (!name.empty()) {  // which nobody writes by a slip
+            candidates.push_back(name);
         }
-        expected.append(expected.empty() ? "" : ", ").append(name);
     }
     if (names.size() > 1) {
         expected.insert(0, "one of ")
             .append("; did you mean ")
-            .append(nearest_name(value, names))
+            .append(nearest_name(value, candidates))
             .append("?");
     }
     refuse(field, std::string("\"").append(value).append("\""), expected);

@@ -1,5 +1,10 @@
 #include "netsim/config/interface_config.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
 
@@ -8,13 +13,16 @@ namespace {
 
 // A model of another modulation could only make up an answer.
 void check_error_model(const std::string& interface_type, const std::string& error_model) {
-    const std::string fitting = RadioConfig(interface_type).error_model;
-    const bool fits = interface_type == ieee80211_interface
-                          ? error_model == fitting || error_model == ber_table_error_model
-                          : error_model == fitting;
-    if (!fits) {
-        throw ConfigError("radio.error_model = \"" + error_model + "\": expected \"" + fitting +
-                          "\", the one for an " + interface_type);
+    std::vector<std::string> fitting{RadioConfig(interface_type).error_model};
+    if (interface_type == ieee80211_interface) {
+        fitting.emplace_back(ber_table_error_model);
+    }
+    if (std::ranges::find(fitting, error_model) == fitting.end()) {
+        std::string text = "radio.error_model = \"" + error_model + "\": expected \"" + fitting.front();
+        for (std::size_t i = 1; i < fitting.size(); ++i) {
+            text += "\" or \"" + fitting[i];
+        }
+        throw ConfigError(text + "\" for an " + interface_type);
     }
 }
 

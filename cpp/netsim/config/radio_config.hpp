@@ -37,7 +37,7 @@ struct RadioConfig {
     // Linear ratio at or below which every frame fails; ≥ 0; 4 dB; 802.15.4: -8 dB.
     double snir_threshold = 2.5118864315095801;
 
-    std::string error_model = "Ieee80211NistErrorModel";  // one of error_model_names; 802.15.4: the other
+    std::string error_model = "Ieee80211NistErrorModel";  // of error_model_names; 802.15.4: its own
     AntennaConfig antenna;
 
     // What the receiver adds to thermal noise (MediumConfig::background_noise), a linear ratio; ≥ 1; 7 dB.

@@ -1,7 +1,7 @@
-// How a node obeys mobility commands.
+// How a node obeys mobility commands. Plans, such as random waypoints, are no models: protocols make them.
 //
-// A model turns commands into legs of a Trajectory. Models are chosen by name in make_mobility; adding one is
-// one file, one line in that table, one test and one row in the reference of configuration keys.
+// A model turns commands into legs of a Trajectory. Models are chosen by name in make_mobility;
+// docs/guides/extending.md says what adding one takes.
 #pragma once
 
 #include <memory>

@@ -24,7 +24,7 @@ MediumConfig validated(MediumConfig config) {
 
 Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing)
     : seed_(seed),
-      perfect_channel_(validated(medium).type_name == "UnitDiskRadioMedium"),
+      perfect_channel_(validated(medium).type_name == unit_disk_medium),
       medium_(simulator_, medium, frame_fates_, fingerprint_, hearing, seed) {}
 
 Node& Network::add_node(const NodeConfig& config) {

@@ -60,6 +60,14 @@ TEST(Check, NameOffersTheTableAndTheNearest) {
         "did you mean FreeSpacePathLoss?");
 }
 
+TEST(Check, NoNameIsShownAndNeverMeant) {
+    constexpr std::array<std::string_view, 2> names{"", "SimpleFrameCapture"};
+    EXPECT_NO_THROW(check_name("radio.frame_capture", "", names));
+    EXPECT_EQ(error_text([&] { check_name("radio.frame_capture", "on", names); }),
+              "radio.frame_capture = \"on\": expected one of \"\" (none), SimpleFrameCapture; did you mean "
+              "SimpleFrameCapture?");
+}
+
 TEST(Check, NameFromATableOfOne) {
     constexpr std::array<std::string_view, 1> names{"IsotropicAntenna"};
     EXPECT_EQ(error_text([&] { check_name("radio.antenna", "Dipole", names); }),

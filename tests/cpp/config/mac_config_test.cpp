@@ -45,8 +45,8 @@ TEST(MacConfig, ValidateNamesTheField) {
 
 TEST(MacConfig, ValidateNamesTheParameterOfRateControl) {
     EXPECT_EQ(text_with<std::string>(&MacConfig::rate_control, "AarfControl"),
-              "mac.rate_control = \"AarfControl\": expected one of ArfRateControl, AarfRateControl, "
-              "MinstrelRateControl; did you mean AarfRateControl?");
+              "mac.rate_control = \"AarfControl\": expected one of \"\" (none), ArfRateControl, "
+              "AarfRateControl, MinstrelRateControl; did you mean AarfRateControl?");
     EXPECT_EQ(text_with(&MacConfig::initial_rate_bps, 0.0),
               "mac.initial_rate_bps = 0 bps: expected more than 0 bps");
     EXPECT_EQ(text_with(&MacConfig::rate_interval_s, 0.0),

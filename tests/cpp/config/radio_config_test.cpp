@@ -75,7 +75,7 @@ TEST(RadioConfig, ValidateNamesTheFieldOfAnOption) {
     EXPECT_EQ(text_with<std::string>(&RadioConfig::snir_mode, "mean"),
               "radio.snir_mode = \"mean\": expected one of min, chunks; did you mean min?");
     EXPECT_EQ(text_with<std::string>(&RadioConfig::preamble_detection, "TresholdPreambleDetection"),
-              "radio.preamble_detection = \"TresholdPreambleDetection\": expected one of "
+              "radio.preamble_detection = \"TresholdPreambleDetection\": expected one of \"\" (none), "
               "ThresholdPreambleDetection; did you mean ThresholdPreambleDetection?");
     EXPECT_EQ(text_with(&RadioConfig::preamble_threshold, -1.0),
               "radio.preamble_threshold = -1: expected at least 0");
@@ -84,7 +84,7 @@ TEST(RadioConfig, ValidateNamesTheFieldOfAnOption) {
     EXPECT_EQ(text_with(&RadioConfig::preamble_duration_s, 0.0),
               "radio.preamble_duration_s = 0 s: expected from 1e-12 s to 1 s");
     EXPECT_EQ(text_with<std::string>(&RadioConfig::frame_capture, "SimpleCapture"),
-              "radio.frame_capture = \"SimpleCapture\": expected one of SimpleFrameCapture; "
+              "radio.frame_capture = \"SimpleCapture\": expected one of \"\" (none), SimpleFrameCapture; "
               "did you mean "
               "SimpleFrameCapture?");
     EXPECT_EQ(text_with(&RadioConfig::capture_margin, 0.5),

@@ -1,7 +1,52 @@
+import re
+
+import pytest
+
+from gradysim import _netsim
 from gradysim.config.expression import parse_value
 from gradysim.config.key_list import OWN_STRUCTS, UNKNOWN, key_sections
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.integrated.engine_defaults import engine_defaults
+
+MADE_WITH = {
+    "medium.typename": _netsim.MediumConfig,
+    "interface.typename": lambda name: _netsim.NodeConfig("node", [name]),
+}
+"""What takes a name at the start only."""
+
+NOT_NAMES_OF_THE_ENGINE = {"radio.carrier_hz", "obstacle.typename"}
+"""The name of a band becomes a frequency, boxes become prisms."""
+
+CHOICES = {
+    key.target: re.findall(r'"([^"]*)"', key.kind.expected)
+    for key in (*NODE_KEYS, *NETWORK_KEYS)
+    if key.kind.expected.startswith(("one of", '"')) and key.target not in NOT_NAMES_OF_THE_ENGINE
+}
+"""{"struct.field": the names that a file may write there}"""
+
+
+def a_valid_obstacle():
+    obstacle = _netsim.ObstacleConfig()
+    obstacle.rings, obstacle.base_m, obstacle.top_m = [[(0, 0), (1, 0), (0, 1)]], 0, 1
+    return obstacle
+
+
+def give_a_wrong_name(target):
+    if target in MADE_WITH:
+        MADE_WITH[target]("?")
+    struct, _, field = target.partition(".")
+    config = a_valid_obstacle() if struct == "obstacle" else engine_defaults()[struct][""]
+    setattr(config, field, "?")
+    config.validate(*([2.4e9] if struct == "antenna" else []))
+
+
+@pytest.mark.parametrize("target", CHOICES)
+def test_names_that_a_file_may_write_are_those_of_the_engine(target):
+    with pytest.raises(ValueError, match=r" = \"\?\": expected ") as error:
+        give_a_wrong_name(target)
+    told = re.search(r"expected (?:one of )?(.*?)(?:; did you mean .*)?$", str(error.value))
+    known = [name.removeprefix('"" (none)') for name in told[1].split(", ")]
+    assert CHOICES[target] == known
 
 
 def test_every_default_is_known() -> None:
