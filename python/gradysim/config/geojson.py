@@ -16,13 +16,12 @@ from typing import Any
 
 from gradysim.config.error import ConfigError
 from gradysim.config.keys.environment import OBSTACLE_FILE
-from gradysim.config.kinds import LARGEST_COORDINATE_M
 from gradysim.config.nearest import misspelt
 from gradysim.config.neighbours import file_meant
 from gradysim.config.obstacle_spec import DEFAULT_MATERIAL, ObstacleSpec
 from gradysim.config.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.source import Source
-from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
 
 LOCAL_CRS = "local"
 

@@ -12,13 +12,11 @@ from gradysim.config.expression import Value
 from gradysim.config.nearest import did_you_mean
 from gradysim.config.quantity import Quantity
 from gradysim.config.units import UNITS, Dimension
+from gradysim.protocol.position import LARGEST_COORDINATE_M
 
 Scalar = float | int | str | bool
 
 MAX_INTEGER = 2**31 - 1
-
-LARGEST_COORDINATE_M = 10_000_000
-"""The engine's bound, which holds in both modes."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from gradysim.config.key import Key
 from gradysim.config.key_suggestion import is_misspelt_class
 from gradysim.config.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
-from gradysim.config.kinds import LARGEST_COORDINATE_M, Kind
+from gradysim.config.kinds import Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
 from gradysim.config.native_protocol import native_protocol
 from gradysim.config.nearest import nearest
@@ -27,6 +27,7 @@ from gradysim.config.setting import Setting, SettingReader
 from gradysim.config.source import Source
 from gradysim.config.struct_reader import read_struct
 from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.position import LARGEST_COORDINATE_M
 
 _AXES = ("x", "y", "z")
 

@@ -3,7 +3,7 @@
 import math
 
 from gradysim.protocol.messages.mobility import MobilityCommand
-from gradysim.protocol.position import Position
+from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
 
 
 def finite_number(value: float | None) -> float | None:
@@ -12,6 +12,11 @@ def finite_number(value: float | None) -> float | None:
         return float(value) if value is not None and math.isfinite(value) else None
     except (TypeError, ValueError, OverflowError):
         return None
+
+
+def is_in_scene(point: Position) -> bool:
+    """Return whether each coordinate is near enough to the origin."""
+    return all(abs(coordinate) <= LARGEST_COORDINATE_M for coordinate in point)
 
 
 def three_numbers(command: MobilityCommand) -> Position | None:

@@ -1,9 +1,14 @@
 """Where a command to geographic coordinates sends a vehicle, in both modes."""
 
-from gradysim.encapsulator.command_numbers import three_numbers
+import math
+
+from gradysim.encapsulator.command_numbers import is_in_scene, three_numbers
 from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand
-from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
+
+_FAR_M = 100e3
+"""Farther than any node flies to."""
 
 
 def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Position) -> Position:
@@ -15,7 +20,8 @@ def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Po
         reference_coordinates: The same three of the origin of the frame.
 
     Raises:
-        MasslessMobilityException: They are not three finite numbers, or the latitude is off the globe.
+        MasslessMobilityException: They are not three finite numbers, the latitude is off the globe, the place
+            is too far away, or latitude and longitude are exchanged: far away so, and near the other way.
     """
     place = three_numbers(command)
     if place is None:
@@ -27,4 +33,25 @@ def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Po
         raise MasslessMobilityException(
             f"node {node_id} was sent to latitude {command.param_1!r}: expected -90 to 90 degrees"
         )
-    return geo_to_cartesian(reference_coordinates, place)
+    target = geo_to_cartesian(reference_coordinates, place)
+    if not is_in_scene(target):
+        raise MasslessMobilityException(
+            f"{_far_away(command, node_id, target)}; expected at most {LARGEST_COORDINATE_M} m on each axis"
+        )
+    latitude, longitude, altitude = place
+    if math.hypot(*target[:2]) > _FAR_M and -90 <= longitude <= 90:
+        exchanged = geo_to_cartesian(reference_coordinates, (longitude, latitude, altitude))
+        if math.hypot(*exchanged[:2]) <= _FAR_M:
+            raise MasslessMobilityException(
+                f"{_far_away(command, node_id, target)}; expected latitude before longitude: did you mean "
+                f"latitude {longitude!r}, longitude {latitude!r}?"
+            )
+    return target
+
+
+def _far_away(command: MobilityCommand, node_id: int, target: Position) -> str:
+    return (
+        f"node {node_id} was sent to latitude {command.param_1!r}, longitude {command.param_2!r}, "
+        f"altitude {command.param_3!r}, which is {math.hypot(*target) / 1000:.0f} km from the origin of the"
+        " scene"
+    )

@@ -10,6 +10,9 @@ from collections.abc import Sequence
 Position = tuple[float, float, float]
 """(x, y, z) in metres."""
 
+LARGEST_COORDINATE_M = 10_000_000
+"""How far each coordinate of a node or a target is from the origin at most, in both modes."""
+
 EARTH_RADIUS_M = 6_371_000.0
 """Mean radius of the Earth (IUGG R1, rounded)."""
 

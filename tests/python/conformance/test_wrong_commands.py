@@ -85,6 +85,12 @@ TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, wha
     (steer(GotoCoordsMobilityCommand(0, 0, cast("float", "5"))), STEER, ["'5'", "number"]),
     (steer(GotoCoordsMobilityCommand(10**400, 0, 0)), STEER, ["1000", "number"]),
     (steer(MobilityCommand(cast("Any", 1), 1, 2)), STEER, ["None", "number"]),
+    (
+        steer(GotoCoordsMobilityCommand(0, 0, -1e8)),
+        STEER,
+        ["-1(00000000|e8)", "-1(0000000|e7) to 1(0000000|e7)"],
+    ),
+    (steer(GotoGeoCoordsMobilityCommand(0, 160, 0)), STEER, ["160", "at most 10000000 m"]),
     (steer(GotoGeoCoordsMobilityCommand(91, 0, 0)), STEER, ["91", "-90 to 90"]),
     (steer(GotoGeoCoordsMobilityCommand(0, math.nan, 0)), STEER, ["nan", "three"]),
     (steer(GotoGeoCoordsMobilityCommand(0, 10**400, 0)), STEER, ["1000", "number"]),

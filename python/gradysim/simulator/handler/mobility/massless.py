@@ -4,11 +4,11 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from gradysim.encapsulator.command_numbers import finite_number, three_numbers
+from gradysim.encapsulator.command_numbers import finite_number, is_in_scene, three_numbers
 from gradysim.encapsulator.geo_target import geo_target
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
-from gradysim.protocol.position import Position
+from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
@@ -149,7 +149,8 @@ class MasslessMobilityHandler(INodeHandler):
 
         Raises:
             MasslessMobilityException: The node is not registered or stationary, the command is unknown, or
-                its parameters are not finite numbers in their range.
+                its parameters are not finite numbers in their range. A target is at most 1e7 m from the
+                origin on each axis, as in integrated mode.
         """
         if node.id not in self.nodes:
             raise MasslessMobilityException(f"node {node.id} is not registered with the mobility handler")
@@ -215,10 +216,11 @@ def _in_updates(interval_s: float, update_rate_s: float) -> float:
 
 def _point(command: MobilityCommand, node: Node[Any]) -> Position:
     point = three_numbers(command)
-    if point is None:
+    if point is None or not is_in_scene(point):
+        expected = f" of metres, each from -{LARGEST_COORDINATE_M} to {LARGEST_COORDINATE_M}" if point else ""
         raise MasslessMobilityException(
             f"node {node.id} was sent to ({command.param_1!r}, {command.param_2!r}, {command.param_3!r}): "
-            "expected three finite numbers"
+            f"expected three finite numbers{expected}"
         )
     return point
 
