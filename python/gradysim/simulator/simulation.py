@@ -174,7 +174,7 @@ class Simulator:
             return False
         try:
             if not self._initialized:
-                self._initialize()
+                self._initialize_simulation()
             self._formatter.thread = threading.get_ident()
             self._execute(count)
             done = self.is_simulation_done()
@@ -242,7 +242,16 @@ class Simulator:
             self._live_handlers.pop(0).finalize()
         self._log_end()
 
-    def _initialize(self) -> None:
+    # The names that scripts of 0.8, where there are no public ones, take for the time and the end of a
+    # simulation that they run step by step: environments of reinforcement learning, plots of trajectories.
+    @property
+    def _current_timestamp(self) -> float:
+        return self.current_time
+
+    def _finalize_simulation(self) -> None:
+        self.finalize()
+
+    def _initialize_simulation(self) -> None:
         self._initialized = True
         loop = self._event_loop
         configuration = self._configuration

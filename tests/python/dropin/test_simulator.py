@@ -2,6 +2,7 @@
 
 import logging
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -31,6 +32,50 @@ def test_the_protocol_of_a_node_can_be_reached_from_outside() -> None:
     simulator = simulation(Quiet)
     simulator.start_simulation()
     assert isinstance(simulator.get_node(0).protocol_encapsulator.protocol, Quiet)
+
+
+def test_a_loop_around_single_events_works_with_the_names_it_has_in_published_scripts() -> None:
+    """As environments of reinforcement learning run a simulation, and end it when their episode is over."""
+    finished = []
+
+    class Ticking(Quiet):
+        def initialize(self) -> None:
+            self.provider.schedule_timer("", self.provider.current_time() + 1)
+
+        def handle_timer(self, timer: str) -> None:
+            self.initialize()
+
+        def finish(self) -> None:
+            finished.append(self.provider.current_time())
+
+    simulator: Any = simulation(Ticking, duration=100)
+    simulator._event_loop.schedule_event(0, lambda: None)
+    assert simulator._current_timestamp == 0
+    times = []
+    while simulator._current_timestamp < 3:
+        upcoming = simulator._event_loop.peek_event().timestamp
+        assert simulator.step_simulation()
+        times.append(simulator._current_timestamp)
+        assert times[-1] == upcoming
+    assert times == [0, 1, 2, 3]
+    for _ in range(2):
+        simulator._finalize_simulation()
+    assert finished == [3]
+    assert simulator.step_simulation() is False
+
+
+def test_a_simulation_can_be_initialised_before_its_first_event() -> None:
+    begun = []
+
+    class Begins(Quiet):
+        def initialize(self) -> None:
+            begun.append(self.provider.get_id())
+
+    simulator: Any = simulation(Begins)
+    simulator._initialize_simulation()
+    assert begun == [0]
+    simulator.start_simulation()
+    assert begun == [0]
 
 
 def test_a_command_without_its_handler_is_a_warning(caplog: pytest.LogCaptureFixture) -> None:
