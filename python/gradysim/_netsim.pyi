@@ -144,7 +144,6 @@ class RadioConfig:
     snir_threshold: float
     error_model: str
     antenna: AntennaConfig
-    def __init__(self, interface: str = ...) -> None: ...
     noise_figure: float
     snir_mode: str
     ber_table_file: str
@@ -155,6 +154,8 @@ class RadioConfig:
     frame_capture: str
     capture_margin: float
     capture_window_s: float
+    def __init__(self, interface: str = ...) -> None: ...
+    def validate(self) -> None: ...
 
 class MacConfig:
     op_mode: str
@@ -182,6 +183,7 @@ class MacConfig:
     rate_update_interval_s: float
     look_around_share: float
     ewma_weight: float
+    def validate(self) -> None: ...
 
 class CsmaConfig:
     use_acks: bool
@@ -202,6 +204,7 @@ class CsmaConfig:
     cca_whole_window: bool
     turnaround_s: float
     queue_capacity: int
+    def validate(self) -> None: ...
 
 class MobilityConfig:
     typename: str
@@ -211,6 +214,7 @@ class MobilityConfig:
     initial_heading_rad: float
     initial_elevation_rad: float
     initial_bank_rad: float
+    def validate(self) -> None: ...
 
 class InterfaceConfig:
     """Its type chooses the MAC and the defaults of the radio, so it stays what it was at the start."""

@@ -1,0 +1,25 @@
+"""The stub of the compiled part says what there is in it."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+PACKAGE = Path(__file__).parents[3] / "python"
+
+OF_PYBIND11 = re.compile(r"metaclass differs|stub does not have \*args parameter")
+"""Its metaclass has no name, and a class without a constructor is one that takes anything and refuses it."""
+
+
+def test_it_is_that_of_the_module(tmp_path: Path) -> None:
+    said = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", "gradysim._netsim", "--concise"],
+        cwd=tmp_path,  # else it leaves a cache here
+        env={**os.environ, "MYPYPATH": str(PACKAGE), "PYTHONPATH": str(PACKAGE)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert said.stderr == ""
+    assert [line for line in said.stdout.splitlines() if not OF_PYBIND11.search(line)] == []
