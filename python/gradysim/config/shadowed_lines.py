@@ -92,7 +92,7 @@ def _deprived_by(
     """The line above that is in force instead, wherever this one fits, and that says something else."""
     for key in (entry.key, *others):
         above = same_key.get(key) or _first_that_covers(compile_pattern(key), general)
-        if above is None or (key == entry.key and above.text == entry.text):
+        if above is None or (above.text == entry.text and (key == entry.key or _COUNT.fullmatch(key))):
             continue
         if key == entry.key or above.text != "default" or not key.endswith(_NONE_BY_DEFAULT):
             return above

@@ -101,6 +101,11 @@ def test_a_line_that_says_the_same_does_no_harm(write_ini: Write) -> None:
     assert told(file) == []
 
 
+@pytest.mark.parametrize("lines", [["*.numUavs", "*.uavs.count"], ["*.uavs.count", "*.numUavs"]])
+def test_two_equal_counts_of_a_group_do_no_harm(write_ini: Write, lines: list[str]) -> None:
+    assert told(write_ini("".join(f"{line} = 2\n" for line in lines))) == []
+
+
 def test_another_section_and_an_included_file_are_there_to_be_overridden(write_ini: Write) -> None:
     write_ini("**.speed = 1mps\n", "base.ini")
     file = write_ini("**.speed = 2mps\ninclude base.ini\n[Config A]\n**.speed = 3mps\n")
