@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -86,6 +88,20 @@ TEST_P(EveryPathLoss, NothingReachesForEverButNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Names, EveryPathLoss, testing::ValuesIn(path_loss_names),
                          [](const auto& name) { return std::string(name.param); });
+
+// What nobody tells apart would be free space, without a word.
+TEST(Propagation, EveryNameIsAModelOfItsOwn) {
+    MediumConfig config;
+    config.shape_factor = 2;
+    std::map<double, std::string_view> names;  // by gain
+    for (const std::string_view name : path_loss_names) {
+        config.path_loss = name;
+        const Position place{2000, 0, 1};  // two-ray: beyond the crossover
+        const double gain = Propagation(config, 1).gain(sent_from({0, 0, 1}), {1, 0}, place, 2000);
+        const auto [other, is_new] = names.try_emplace(gain, name);
+        EXPECT_TRUE(is_new) << name << " is the same as " << other->second;
+    }
+}
 
 TEST(Propagation, FadingIsAFactorOnFreeSpace) {
     MediumConfig config;
