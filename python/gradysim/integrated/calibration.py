@@ -43,6 +43,7 @@ class Calibration:
         deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise, or None.
         curve: Distances in m with the share received there, from 0 to 1.
         sender_interface: Index of the interface that sends.
+        obstacles_left_out: How many obstacles take power from frames in a run; here none does.
     """
 
     sender: str
@@ -58,6 +59,7 @@ class Calibration:
     deciding_sensitivity_w: float | None
     curve: tuple[tuple[float, float], ...]
     sender_interface: int = 0
+    obstacles_left_out: int = 0
 
 
 def calibrate(
@@ -125,6 +127,7 @@ def calibrate(
         ),
         curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
         sender_interface=from_index,
+        obstacles_left_out=len(scenario.obstacles) if medium_config(scenario).obstacle_loss else 0,
     )
 
 

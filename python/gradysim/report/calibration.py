@@ -28,6 +28,7 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
         f"    *.{c.sender}.{wlan}.radio.transmitter.power = {c.tx_power_w * 1000:.6g}mW",
         "",
         *_what_decides(c.deciding_sensitivity_w),
+        *_what_is_left_out(c.obstacles_left_out),
         "distance   received",
     ]
     block = "█" if "█".encode(encoding, errors="ignore") else "#"
@@ -56,6 +57,13 @@ def _what_decides(sensitivity_w: float | None) -> list[str]:
         "do with less power.",
         "",
     ]
+
+
+def _what_is_left_out(obstacles: int) -> list[str]:
+    if not obstacles:
+        return []
+    these = "The obstacle is" if obstacles == 1 else f"The {obstacles:,} obstacles are"
+    return [f"{these} left out: nothing stands in between.", ""]
 
 
 def check_picture(path: Path) -> None:

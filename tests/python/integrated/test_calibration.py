@@ -193,3 +193,11 @@ def test_heights_count() -> None:
     crossover_m = 4 * math.pi * 1.0 * 1.0 / (299_792_458 / 2.412e9)
     factor = calibrate(flat, 800).tx_power_w / calibrate(scenario, 800).tx_power_w
     assert factor == pytest.approx((800 / crossover_m) ** 2, rel=1e-6)
+
+
+@pytest.mark.parametrize(("loss", "left_out"), [("", 0), ("IdealObstacleLoss", 2)])
+def test_obstacles_that_a_run_would_heed_are_counted(loss: str, left_out: int) -> None:
+    lengths = {"minX": 1, "maxX": 2, "minY": 1, "maxY": 2, "minZ": 0, "maxZ": 3}
+    boxes = [f"*.environment.obstacle[*].{key} = {metres}m" for key, metres in lengths.items()]
+    settings = ["*.environment.numObstacles = 2", f'*.radioMedium.obstacleLoss.typename = "{loss}"', *boxes]
+    assert calibrate(link(*settings), 150).obstacles_left_out == left_out

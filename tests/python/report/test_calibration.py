@@ -46,6 +46,17 @@ def test_a_sensitivity_that_decides_is_told() -> None:
 
 
 @pytest.mark.parametrize(
+    ("obstacles", "told"),
+    [(1, "The obstacle is left"), (2, "The 2 obstacles are left")],
+)
+def test_obstacles_that_are_left_out_are_told(obstacles: int, told: str) -> None:
+    assert f"\n{told} out: nothing stands in between.\n" in text(
+        replace(calibration(), obstacles_left_out=obstacles)
+    )
+    assert "left out" not in text(calibration())
+
+
+@pytest.mark.parametrize(
     ("distance_m", "written"),
     [(2.5, "   2.5 m"), (2561.725, "2561.7 m"), (99_999.6, "100000 m"), (1_234_567.8, "1234568 m")],
 )
