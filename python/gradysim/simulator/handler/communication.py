@@ -75,8 +75,8 @@ class CommunicationSource:
         self._without_delay = InstantCount()
 
     def hand_over_message(self, message: str, endpoint: "CommunicationDestination") -> None:
-        """Have the endpoint receive the message now."""
-        endpoint.receive_message(message, self)
+        """Note in the log that a message is on its way to the endpoint. It does not deliver it."""
+        _logger.debug("%s sends to %s: %s", self.node.id, endpoint.node.id, message)
 
     def count_at(self, now: float, medium: CommunicationMedium) -> None:
         """Count a message that arrives at once. Raises CommunicationException if they do not end."""
@@ -122,6 +122,8 @@ class CommunicationHandler(INodeHandler):
         self._event_loop: EventLoop | None = None
         self._sources: dict[int, CommunicationSource] = {}
         self._destinations: dict[int, CommunicationDestination] = {}
+        overridden = type(self)._transmit_message is not CommunicationHandler._transmit_message
+        self._transmits_one_by_one = overridden
 
     @staticmethod
     def get_label() -> str:
@@ -190,16 +192,35 @@ class CommunicationHandler(INodeHandler):
             raise CommunicationException(f"node {sender.id} gave an unknown communication command: {kind!r}")
         _logger.debug("%s sends to %s: %s", sender.id, command.destination, message)
         medium = medium or self.default_medium
-        copies, lost = _copies(message, self._sources[sender.id], destinations, medium)
+        source = self._sources[sender.id]
+        if self._transmits_one_by_one:
+            for destination in destinations:
+                if destination.node is not source.node:
+                    self._transmit_message(message, source, destination, medium)
+            return
+        copies, lost = _copies(message, source, destinations, medium)
         if self._ledger is not None:
             addressed = len(destinations) - (kind == CommunicationCommandType.BROADCAST)
             out_of_range = addressed - len(copies) - lost
             copies = self._ledger.note(kind, copies, lost=lost, out_of_range=out_of_range)
-        if copies:
-            arrival = event_loop.current_time + medium.delay
-            if arrival == event_loop.crowded_instant:
-                self._sources[sender.id].count_at(arrival, medium)
-            event_loop.schedule_events(arrival, copies)
+        _schedule(copies, source, medium, event_loop)
+
+    def _transmit_message(
+        self,
+        message: str,
+        source: CommunicationSource,
+        destination: CommunicationDestination,
+        medium: CommunicationMedium,
+    ) -> None:
+        """Send the copy of a message that is for one destination.
+
+        For handlers of one's own: one that overrides it is asked for each copy, and may pass it on with
+        another medium, or not at all. Where nobody does, all copies of a message are sent at once, which is
+        faster, and only these are in the ledger.
+        """
+        assert self._event_loop is not None
+        copies, _ = _copies(message, source, (destination,), medium)
+        _schedule(copies, source, medium, self._event_loop)
 
     def _destination_of(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationDestination:
         if command.destination is None:
@@ -217,6 +238,20 @@ class CommunicationHandler(INodeHandler):
                 f"there are {len(known)} nodes, {known[0]} to {known[-1]}"
             )
         return destination
+
+
+def _schedule(
+    copies: list[ScheduledEvent],
+    source: CommunicationSource,
+    medium: CommunicationMedium,
+    event_loop: EventLoop,
+) -> None:
+    """Have the copies of a message arrive after the delay of the medium."""
+    if copies:
+        arrival = event_loop.current_time + medium.delay
+        if arrival == event_loop.crowded_instant:
+            source.count_at(arrival, medium)
+        event_loop.schedule_events(arrival, copies)
 
 
 def _copies(

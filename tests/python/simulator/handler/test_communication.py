@@ -115,6 +115,41 @@ def test_a_command_can_have_a_medium_of_its_own(world, network):
     assert received(nodes) == [[], [(0, "hi")], [(0, "hi")]]
 
 
+class Farther(CommunicationHandler):
+    """A handler of one's own: reach depends on both ends, 100 m to node 2, and to node 1 nothing gets."""
+
+    asked = ()
+
+    def _transmit_message(self, message, source, destination, medium):
+        self.asked += ((source.node.id, destination.node.id, medium),)
+        source.hand_over_message(message, destination)
+        if destination.node.id == 2:
+            medium = CommunicationMedium(transmission_range=100, delay=0.5)
+        if destination.node.id != 1:
+            super()._transmit_message(message, source, destination, medium)
+
+
+def test_a_handler_of_ones_own_decides_copy_by_copy(world):
+    handler = Farther()
+    handler.inject(world.loop)
+    nodes = [world.node(number, (x, 0, 0), handler) for number, x in enumerate((0, 50, 70, 60, 90))]
+    handler.handle_command(BroadcastMessageCommand("to all"), nodes[0])
+    handler.handle_command(SendMessageCommand("to one", 2), nodes[3])
+    world.run()
+    assert received(nodes) == [[], [], [(0.5, "to all"), (0.5, "to one")], [(0, "to all")], []]
+    medium = handler.default_medium
+    assert handler.asked == (*((0, other, medium) for other in (1, 2, 3, 4)), (3, 2, medium))
+
+
+def test_a_handler_of_ones_own_is_told_of_the_medium_of_a_command(world):
+    handler = Farther()
+    handler.inject(world.loop)
+    nodes = [world.node(number, (0, 0, 0), handler) for number in range(2)]
+    own = CommunicationMedium(transmission_range=1)
+    handler.handle_command(BroadcastMessageCommand("hi"), nodes[0], own)
+    assert handler.asked == ((0, 1, own),)
+
+
 def test_messages_of_one_instant_arrive_in_the_order_of_sending(world, network):
     handler, nodes = network(xs=(0, 0, 0))
     for text in "abc":
