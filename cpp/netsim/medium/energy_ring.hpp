@@ -1,8 +1,8 @@
 // Who may find the channel busy because of one transmission and others together, it being the strongest of them there,
 // though none does it alone.
 //
-// The receivers around the transmission are told apart in zones by the power that it brings them: at least nine tenths
-// of the level that is noticed, at least eight tenths, and so on. In a zone it brings less than the zone before begins
+// The receivers around the transmission are told apart in zones by the power that it brings them: at least four fifths
+// of the level that is noticed, at least three fifths, and so on. In a zone it brings less than the zone before begins
 // with, and none of the others brings more than it does; what else they can bring follows from how far away they are.
 // As long as the sum stays below the level, nobody in the zone needs to be looked at. The zones up to the outermost one
 // of which that is not true are the ring. Its receivers are watched, each with what is missing until its channel is
@@ -35,7 +35,7 @@ public:
     };
 
     // Who gets so much that it is in the first zone or further in.
-    static double first_zone_w(double level_w) { return level_w * tenths / (tenths + 1); }
+    static double first_zone_w(double level_w) { return level_w * (1 - 1.0 / fifths); }
     // Who gets less is nobody's concern beside few others: one of those is stronger there, or all together are too weak.
     static double outer_w(double level_w) { return level_w / (few + 1); }
 
@@ -75,7 +75,7 @@ private:
         double reach_m = 0;
         double others_w = 0;  // what the others bring there, at most
     };
-    static constexpr std::size_t tenths = 9;
+    static constexpr std::size_t fifths = 5;
     static constexpr std::size_t few = 4;
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -121,8 +121,9 @@ void EnergyRing::forget_others(std::size_t count, const Reach& reach_m) {
     // Of k powers that reach the level together, the largest reaches a k-th of it. Twice as many may come.
     const double enough_w = level_w_ / static_cast<double>(2 * count + 4);
     while (zones_.back().least_w >= enough_w) {
-        const double least_w = zones_.size() < tenths
-                                   ? level_w_ * static_cast<double>(tenths - zones_.size()) / (tenths + 1)
+        const std::size_t fifths_less = zones_.size() + 1;
+        const double least_w = fifths_less < fifths
+                                   ? level_w_ * static_cast<double>(fifths - fifths_less) / fifths
                                    : zones_.back().least_w / 2;
         zones_.push_back(Zone{least_w, reach_m(least_w), 0});
     }

@@ -37,29 +37,39 @@ void InterferenceSum::add(const Arrival& other) {
     }
 }
 
-template <typename Visitor>
-void InterferenceSum::sweep(Visitor&& visitor) {
-    changes_.clear();
+void InterferenceSum::find_changes() {
+    starts_.clear();
+    ends_.clear();
     for (const Arrival& other : others_) {
-        changes_.push_back({std::max(other.start, start_), true, other.power_w});
+        starts_.push_back({std::max(other.start, start_), other.power_w});
         if (other.end < end_) {
-            changes_.push_back({other.end, false, other.power_w});
+            ends_.push_back({other.end, other.power_w});
         }
     }
-    std::sort(changes_.begin(), changes_.end(),
-              [](const Change& a, const Change& b) { return a.time < b.time; });
-    CompensatedSum sum;
-    int count = 0;
-    for (auto change = changes_.begin(); change != changes_.end();) {
-        const SimTime time = change->time;
-        for (; change != changes_.end() && change->time == time; ++change) {
-            sum.add(change->is_start ? change->power_w : -change->power_w);
-            count += change->is_start ? 1 : -1;
+    // Mostly they are, as those that began earlier end earlier.
+    const auto put_in_order = [](std::vector<Change>& changes) {
+        if (!std::ranges::is_sorted(changes, {}, &Change::time)) {
+            std::ranges::sort(changes, {}, &Change::time);
         }
-        if (count == 0) {
-            sum = CompensatedSum();  // exactly nothing
+    };
+    put_in_order(starts_);
+    put_in_order(ends_);
+}
+
+void InterferenceSum::find_moments() {
+    find_changes();
+    moments_.clear();
+    double sum_w = 0;
+    auto end = ends_.begin();
+    for (const Change& start : starts_) {
+        for (; end != ends_.end() && end->time <= start.time; ++end) {
+            sum_w -= end->power_w;
         }
-        visitor(time, sum.value());
+        sum_w += start.power_w;
+        if (moments_.empty() || moments_.back().time != start.time) {
+            moments_.push_back({start.time, 0});
+        }
+        moments_.back().sum_w = sum_w;
     }
 }
 
@@ -73,43 +83,43 @@ double InterferenceSum::sum_w_at(SimTime moment) const {
     return sum_w;
 }
 
+SimTime InterferenceSum::worst_moment() {
+    if (others_.size() == 1) {
+        return std::max(others_.front().start, start_);
+    }
+    find_moments();  // it is one of them, as the sum falls where one ends
+    const double most_w = std::ranges::max(moments_, {}, &Moment::sum_w).sum_w;
+    // Those that differ by no more than rounding are told apart by their exact sums.
+    constexpr double nearly = 1 - 1e-9;
+    std::erase_if(moments_, [most_w](const Moment& moment) { return moment.sum_w < most_w * nearly; });
+    if (moments_.size() == 1) {
+        return moments_.front().time;
+    }
+    SimTime worst = start_;
+    double largest_w = 0;
+    for (const Arrival& candidate : others_) {
+        const SimTime time = std::max(candidate.start, start_);
+        const auto found = std::ranges::find(moments_, time, &Moment::time);
+        if (found == moments_.end()) {
+            continue;
+        }
+        moments_.erase(found);
+        const double sum_w = sum_w_at(time);
+        if (sum_w > largest_w) {
+            largest_w = sum_w;
+            worst = time;
+        }
+    }
+    return worst;
+}
+
 const Interference& InterferenceSum::worst() {
     worst_.max_power_w = 0;
     worst_.interferers.clear();
     if (others_.empty()) {
         return worst_;
     }
-    SimTime worst = std::max(others_.front().start, start_);
-    if (others_.size() > 1) {
-        // Moments that differ by no more than rounding are told apart by their exact sums.
-        constexpr double nearly = 1 - 1e-9;
-        double most_w = 0;
-        sweep([&](SimTime, double sum_w) { most_w = std::max(most_w, sum_w); });
-        moments_.clear();
-        sweep([&](SimTime time, double sum_w) {
-            if (sum_w >= most_w * nearly) {
-                moments_.push_back(time);
-            }
-        });
-        if (moments_.size() == 1) {
-            worst = moments_.front();
-        } else {
-            double largest_w = 0;
-            for (const Arrival& candidate : others_) {
-                const SimTime moment = std::max(candidate.start, start_);
-                const auto found = std::find(moments_.begin(), moments_.end(), moment);
-                if (found == moments_.end()) {
-                    continue;
-                }
-                moments_.erase(found);
-                const double sum_w = sum_w_at(moment);
-                if (sum_w > largest_w) {
-                    largest_w = sum_w;
-                    worst = moment;
-                }
-            }
-        }
-    }
+    const SimTime worst = worst_moment();
     for (const Arrival& other : others_) {
         if (other.start > worst || worst >= other.end) {
             continue;
@@ -126,13 +136,32 @@ const Interference& InterferenceSum::worst() {
 
 const std::vector<InterferenceStep>& InterferenceSum::steps() {
     steps_.assign(1, InterferenceStep{start_, 0});
-    sweep([this](SimTime time, double power_w) {
-        if (time == start_) {
-            steps_.front().power_w = power_w;
-        } else if (power_w != steps_.back().power_w) {
-            steps_.push_back({time, power_w});
+    find_changes();
+    CompensatedSum sum;
+    int count = 0;
+    auto start = starts_.begin();
+    auto end = ends_.begin();
+    while (start != starts_.end() || end != ends_.end()) {
+        const SimTime time = end == ends_.end() || (start != starts_.end() && start->time < end->time)
+                                 ? start->time
+                                 : end->time;
+        for (; start != starts_.end() && start->time == time; ++start) {
+            sum.add(start->power_w);
+            ++count;
         }
-    });
+        for (; end != ends_.end() && end->time == time; ++end) {
+            sum.add(-end->power_w);
+            --count;
+        }
+        if (count == 0) {
+            sum = CompensatedSum();  // exactly nothing
+        }
+        if (time == start_) {
+            steps_.front().power_w = sum.value();
+        } else if (sum.value() != steps_.back().power_w) {
+            steps_.push_back({time, sum.value()});
+        }
+    }
     return steps_;
 }
 

@@ -42,21 +42,28 @@ public:
 private:
     struct Change {  // of the sum
         SimTime time;
-        bool is_start = false;
         double power_w = 0;
     };
+    struct Moment {
+        SimTime time;
+        double sum_w = 0;
+    };
 
-    // Calls visitor(time, sum from then on), in order, once for each time at which something changes.
-    template <typename Visitor>
-    void sweep(Visitor&& visitor);
+    // Sorts the starts and the ends within the period.
+    void find_changes();
+    // When the others begin, with the sums from then on: right but for rounding, in proportion to the largest of them.
+    void find_moments();
+    // Of at least one other.
+    SimTime worst_moment();
     // Exactly what adding up in the order of transmissions gives.
     double sum_w_at(SimTime moment) const;
 
     SimTime start_;
     SimTime end_;
     std::vector<Arrival> others_;
-    std::vector<Change> changes_;
-    std::vector<SimTime> moments_;
+    std::vector<Change> starts_;
+    std::vector<Change> ends_;
+    std::vector<Moment> moments_;
     std::vector<InterferenceStep> steps_;
     Interference worst_;
 };

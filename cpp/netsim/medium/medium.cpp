@@ -94,6 +94,8 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.last_end = now;
     entry.reach_m = 0;
     entry.others_w = 0;
+    entry.close.clear();
+    entry.far_w = 0;
     entry.first_place = simulator_.reserve_places(2 * attached_.size());
     entry.odometer_m = odometer_.reading_m(now);
     entry.heard.clear();
@@ -113,6 +115,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
 void Medium::tell_everybody(OnAir& entry) {
     const Transmission& sent = entry.transmission;
     entry.others_w = std::numeric_limits<double>::infinity();
+    entry.far_w = entry.others_w;
     entry.heard_is_complete = true;  // nobody: each is told apart
     CopyCount addressed;
     CopyCount overheard;
@@ -193,7 +196,10 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
     --copies;  // the sender hears its band, but not itself
     entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
     if (!beside_.empty()) {
-        bound_interference(entry);
+        for (OnAir* other : beside_) {
+            bound_interference(entry, *other);
+            bound_interference(*other, entry);
+        }
         for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
             if (entry.shares[audience] > 0) {
                 tell_where_energy_adds_up(entry, audience);
@@ -355,6 +361,17 @@ void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
                                      const Arrival ended = on_air.told_apart[apart];
                                      attached_[radio].listener->arrival_ended(ended);
                                  });
+}
+
+double Medium::most_interference_w(RadioId receiver, const Arrival& arrival) const {
+    const OnAir& here = on_air_of(arrival);
+    double most_w = here.far_w;
+    for (const OnAir* other : here.close) {
+        if (other->transmission.radio != receiver) {
+            most_w += arrival_at(*other, receiver, arrival.place).power_w;
+        }
+    }
+    return most_w * (1 + margin);
 }
 
 InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arrival, SimTime start,

@@ -100,9 +100,9 @@ public:
 
     // In W, no less than its largest sum over the time of the arrival, for one that reached the sensitivity: known at
     // once. Infinite if that says nothing.
-    double most_interference_w(const Arrival& arrival) const {
-        return on_air_[arrival.transmission->id - on_air_.front()->transmission.id]->others_w;
-    }
+    double most_interference_w(const Arrival& arrival) const { return on_air_of(arrival).others_w; }
+    // The same at that receiver, once the arrival has ended: nearer to the truth, and more to work out.
+    double most_interference_w(RadioId receiver, const Arrival& arrival) const;
 
     // To which the radios add, too.
     FrameFates& fates() { return fates_; }
@@ -169,6 +169,8 @@ private:
         double odometer_m = 0;              // at its start
         double reach_m = 0;                 // nobody locks on to it farther away
         double others_w = 0;                // within that, at most, of all that are on the air beside it
+        std::vector<const OnAir*> close;    // of those, where that bound says little of any one place,
+        double far_w = 0;                   // and at most what all the others bring
         std::vector<Heard> heard;           // by those known when it began, in the order of their events
         bool heard_is_complete = false;     // who comes to notice it later is told apart
         std::vector<Position> places;       // of theirs, at its start
@@ -197,6 +199,9 @@ private:
     };
 
     OnAir& put_on_air(Transmission transmission);
+    const OnAir& on_air_of(const Arrival& arrival) const {
+        return *on_air_[arrival.transmission->id - on_air_.front()->transmission.id];
+    }
     // In the header, as sums over all that is on the air call it for each.
     Arrival arrival_at(const OnAir& on_air, RadioId radio) const {
         return arrival_at_place(on_air, radio,
@@ -266,8 +271,8 @@ private:
     // Sums of energy: medium_energy.cpp.
     // Collects in `beside_` the others that are not over everywhere.
     void find_those_beside(const OnAir& newest);
-    // Adds to what the others can bring to the receivers of each.
-    void bound_interference(OnAir& newest);
+    // Adds what `there` can bring to the receivers of `here`.
+    void bound_interference(OnAir& here, const OnAir& there) const;
     void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
     // Those whom the ring of `here` watches miss less by what `there` brings. One of the two is the newest.
     void add_to_ring(OnAir& here, const OnAir& there, std::size_t audience);

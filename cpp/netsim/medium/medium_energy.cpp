@@ -34,14 +34,19 @@ void Medium::find_those_beside(const OnAir& newest) {
     }
 }
 
-void Medium::bound_interference(OnAir& newest) {
-    const bool is_known = antennas_.all_isotropic();
-    for (OnAir* other : beside_) {
-        const double infinite = std::numeric_limits<double>::infinity();
-        newest.others_w +=
-            is_known ? most_brought_w(*other, newest, other->transmission.power_w)(newest.reach_m) : infinite;
-        other->others_w +=
-            is_known ? most_brought_w(newest, *other, newest.transmission.power_w)(other->reach_m) : infinite;
+void Medium::bound_interference(OnAir& here, const OnAir& there) const {
+    const double most_w = antennas_.all_isotropic()
+                              ? most_brought_w(there, here, there.transmission.power_w)(here.reach_m)
+                              : std::numeric_limits<double>::infinity();
+    here.others_w += most_w;
+    // From six times the reach away, in free space, the nearest receiver gets twice what the farthest gets.
+    constexpr double close = 6;
+    if (propagation_.is_random() || most_w == std::numeric_limits<double>::infinity() ||
+        squared_distance(here.transmission.origin, there.transmission.origin) <
+            close * close * here.reach_m * here.reach_m) {
+        here.close.push_back(&there);
+    } else {
+        here.far_w += most_w;
     }
 }
 

@@ -210,7 +210,8 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& cul
     const double draw = reception_draws_.uniform();
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
     // not be known.
-    if (draw < reception_.least_success(arrival, medium_.most_interference_w(arrival))) {
+    if (draw < reception_.least_success(arrival, medium_.most_interference_w(arrival)) ||
+        draw < reception_.least_success(arrival, medium_.most_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
     const Interference& interference = interference_in(arrival, {arrival.start, arrival.end}).worst();
