@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import TypedDict
+from typing import Any, TypedDict
 
 from gradysim.encapsulator.node_positions import NodePositions
 from gradysim.protocol.interface import IProtocol
@@ -70,8 +70,24 @@ class CameraHardware(Extension):
         provider.node_positions()  # Says now what is missing, not at the first picture.
         self._world = provider
         self._node_id = protocol.provider.get_id()
+        # These names, and `_mobility`, are what cameras of one's own that derive from this one look with.
         self._configuration = checked_configuration(configuration, CameraConfiguration)
-        self._axis = _axis(configuration)
+        self._camera_vector = _axis(configuration)
+        self._camera_theta = math.radians(configuration.camera_theta)
+
+    @property
+    def _mobility(self) -> Any:
+        """The mobility handler, whose `nodes` are all there are.
+
+        Raises:
+            RuntimeError: Not in prototype mode, where nodes are not Python's.
+        """
+        if self._provider is None:
+            raise RuntimeError(
+                f"{type(self).__name__} looks at the nodes of the mobility handler, which there is in "
+                "prototype mode only; super().take_picture() tells in both modes what is seen"
+            )
+        return self._provider.handlers["mobility"]
 
     def take_picture(self) -> list[DetectedNode]:
         """Return the other nodes within reach and within the cone, in the order of their making.
@@ -91,7 +107,7 @@ class CameraHardware(Extension):
         self._configuration = replace(
             self._configuration, facing_elevation=facing_elevation, facing_rotation=facing_rotation
         )
-        self._axis = _axis(self._configuration)
+        self._camera_vector = _axis(self._configuration)
 
     def _sees(self, place: Position, position: Position) -> bool:
         dx, dy, dz = position[0] - place[0], position[1] - place[1], position[2] - place[2]
@@ -100,11 +116,11 @@ class CameraHardware(Extension):
             return False
         if distance == 0:  # which has no direction: products of -0 and 0 would tell one
             return True
-        ax, ay, az = self._axis
+        ax, ay, az = self._camera_vector
         # The arcus tangent knows every angle; the arcus cosine fails where its argument rounds to > 1.
         across = math.hypot(ay * dz - az * dy, az * dx - ax * dz, ax * dy - ay * dx)
         along = ax * dx + ay * dy + az * dz
-        return math.atan2(across, along) - _EDGE <= math.radians(self._configuration.camera_theta)
+        return math.atan2(across, along) - _EDGE <= self._camera_theta
 
 
 def _axis(configuration: CameraConfiguration) -> tuple[float, float, float]:

@@ -13,6 +13,7 @@ from gradysim.simulator.handler.mobility import (
     MobilityHandler,
 )
 from gradysim.simulator.node import Node
+from python.quiet_protocol import Quiet
 
 POINTS = {
     "camera": (0, 0, 0),
@@ -173,3 +174,27 @@ def test_it_cannot_be_turned_to_nowhere(protocols):
     camera = CameraHardware(*protocols([(0, 0, 0)], MobilityHandler()), CameraConfiguration(10, 30, 0, 0))
     with pytest.raises(ValueError, match="facing_rotation"):
         camera.change_facing(0, math.nan)
+
+
+class Thermal(CameraHardware):
+    """A camera of one's own: it sees what is warm, however far aside, and says how warm it is."""
+
+    def take_picture(self):
+        assert self._camera_vector == pytest.approx((0, 0, -1))
+        assert self._camera_theta == pytest.approx(math.pi / 4)
+        place = self._provider.node.position
+        return [
+            {"warmth": node.protocol_encapsulator.protocol.warmth, "type": node.id}
+            for node in self._mobility.nodes.values()
+            if math.dist(place, node.position) <= self._configuration.camera_reach
+        ]
+
+
+class Warm(Quiet):
+    warmth = 37
+
+
+def test_a_camera_of_ones_own_finds_the_nodes_and_their_protocols(protocols):
+    protocol, *_ = protocols([(0, 0, 0), (5, 0, 0), (50, 0, 0)], MobilityHandler(), protocol=Warm)
+    camera = Thermal(protocol, CameraConfiguration(10, 45, 180, 0))
+    assert camera.take_picture() == [{"warmth": 37, "type": 0}, {"warmth": 37, "type": 1}]
