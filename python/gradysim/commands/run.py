@@ -127,7 +127,7 @@ def run(
             warn_of_mission_speeds(scenarios)
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
-                    check(scenario)
+                    check(scenario, is_built_next=len(scenarios) == 1)
             if mode == "integrated":
                 warn_of_what_is_seldom_meant(scenarios)
 

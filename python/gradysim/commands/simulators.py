@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from gradysim.commands.arguments import Mode
 
@@ -11,9 +11,16 @@ if TYPE_CHECKING:
     from gradysim.report.supervised_run import Run
 
 
+class Check(Protocol):
+    """Checks a scenario, and says what is wrong by a ConfigError."""
+
+    def __call__(self, scenario: "Scenario", *, is_built_next: bool) -> None:
+        """Check it, but for what its run checks when `is_built_next`: a network is checked by building it."""
+
+
 def simulator(
     mode: Mode, pcap: Sequence[str] = (), fates_at: Sequence[str] = (), result_dir: Path | None = None
-) -> "tuple[Callable[[Scenario], None], Callable[[Scenario], Run]]":
+) -> "tuple[Check, Callable[[Scenario], Run]]":
     """Return what checks a scenario for `mode` and what builds its run; the other mode is not imported.
 
     Raises ConfigError for options that need frames and a mode without.
@@ -24,13 +31,18 @@ def simulator(
 
         require_no_names("--pcap", pcap, "no frames to capture")
         require_no_names("--fates-at", fates_at, "no fates of frames")
-        return check_scenario, PrototypeRun
+
+        def check_all(scenario: "Scenario", *, is_built_next: bool) -> None:
+            check_scenario(scenario)
+
+        return check_all, PrototypeRun
 
     from gradysim.integrated.network import check_scenario as check_network
     from gradysim.integrated.run import IntegratedRun
 
-    def check(scenario: "Scenario") -> None:
-        check_network(scenario)
+    def check(scenario: "Scenario", *, is_built_next: bool) -> None:
+        if not is_built_next:
+            check_network(scenario)
         captures(scenario, pcap, result_dir)
         ids_of_fates(scenario, fates_at)
 

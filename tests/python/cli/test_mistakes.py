@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, environment
+from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, environment, run_command
 
 
 def test_a_wrong_key_is_named_with_its_place(gradysim):
@@ -30,6 +30,31 @@ def test_a_mistake_in_a_later_run_is_found_before_the_first_one(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "LateMistake", "--mode", mode)
     assert done.returncode == 2
     assert done.stdout == ""
+
+
+@compiled
+def test_a_mistake_that_only_the_whole_network_shows_is_found_before_a_single_run(gradysim):
+    done = gradysim("run", "test.ini", "-c", "LateMistake", "-r", "2")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "cwMin = 20000 * ${runnumber}: " in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@compiled
+@pytest.mark.parametrize(("runs", "built"), [("0", 1), ("0..2", 6)])
+def test_a_single_network_is_built_once(folder, runs, built):
+    code = (
+        "import sys; from gradysim.cli import main; from gradysim.integrated import network, run\n"
+        "built = []\n"
+        "def build_network(scenario, build=network.build_network):\n"
+        "    built.append(scenario)\n"
+        "    return build(scenario)\n"
+        "network.build_network = run.build_network = build_network\n"
+        f"main(['run', 'test.ini', '-r', '{runs}', '--quiet'])\n"
+        "print('networks:', len(built))"
+    )
+    done = run_command(folder, sys.executable, "-c", code)
+    assert done.stdout.splitlines()[-1] == f"networks: {built}"
 
 
 @pytest.mark.parametrize(
