@@ -1,5 +1,6 @@
 """The handler that shows a simulation while it runs."""
 
+import logging
 import time
 import weakref
 import webbrowser
@@ -10,9 +11,11 @@ from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.visualization.command_queue import CommandQueue
 from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
-from gradysim.simulator.handler.visualization.server import VisualizationServer
+from gradysim.simulator.handler.visualization.server import VisualizationException, VisualizationServer
 from gradysim.simulator.handler.visualization.wire import greeting, snapshot
 from gradysim.simulator.node import Node
+
+_logger = logging.getLogger(__name__)
 
 VIEWER_URL = "https://project-gradys.github.io/gradys-sim-nextgen-visualization/"
 """The public viewer. It connects to localhost, port 5678."""
@@ -62,17 +65,21 @@ class VisualizationHandler(INodeHandler):
         self.nodes[node.id] = node
 
     def initialize(self) -> None:
-        """Start to serve viewers.
+        """Start to serve viewers; if the address cannot be used the log says so, and nobody watches.
 
         Raises:
-            VisualizationException: The address of the configuration cannot be used.
             ModuleNotFoundError: The package `websockets`, an optional dependency, is not installed.
         """
         self.held_up_s = 0.0
         self._start_wall_s = time.monotonic()
         welcome = greeting(self._configuration, list(self.nodes.values()))
         server = VisualizationServer(self._configuration, welcome, self.command_queue)
-        server.start()
+        try:
+            server.start()
+        except VisualizationException as error:
+            # As a rule another simulation is watched there: several side by side must not end each other.
+            _logger.warning("%s; the simulation goes on without viewers", error)
+            return
         # Who drops a simulation half-way leaves no thread behind.
         self._guard = weakref.finalize(self, server.stop)
         self._server = server

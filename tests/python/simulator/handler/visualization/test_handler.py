@@ -10,7 +10,6 @@ from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import (
     VisualizationConfiguration,
-    VisualizationException,
     VisualizationHandler,
 )
 from gradysim.simulator.handler.visualization import handler as handler_module
@@ -254,11 +253,20 @@ def test_it_does_not_keep_a_simulation_going_by_itself():
     assert simulation.iteration == 1
 
 
-def test_an_address_in_use_is_an_error_that_names_it(shown):
+def test_a_simulation_whose_address_is_in_use_goes_on_without_viewers(shown, caplog, monkeypatch):
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
     first = shown()
     first.start()
-    with pytest.raises(VisualizationException, match=f"'127.0.0.1' port {first.handler.port}"):
-        shown(port=first.handler.port).start()
+    second = shown(port=first.handler.port, open_browser=True)
+    simulator = second.start()
+    simulator.start_simulation()
+    assert simulator.current_time == 100
+    assert second.handler.port is None
+    assert opened == []
+    (warning,) = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
+    assert warning.startswith(f"cannot listen for viewers on '127.0.0.1' port {first.handler.port}: ")
+    assert warning.endswith("; the simulation goes on without viewers")
 
 
 def test_without_websockets_the_error_says_what_to_install(shown, monkeypatch):
