@@ -5,16 +5,18 @@ more than one.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gradysim.config.error import BadValue, ConfigError
+from gradysim.config.grid import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
 from gradysim.config.groups import Group
 from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.interfaces import InterfaceBuilder
 from gradysim.config.key import Key
 from gradysim.config.key_suggestion import is_misspelt_class
 from gradysim.config.keys import NODE_KEYS, WLAN_KEYS
+from gradysim.config.keys.mobility import MOBILITY_KEYS, STATIC_GRID
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
 from gradysim.config.kinds import Kind
 from gradysim.config.lookup import Candidates, Found, Lookup
@@ -30,19 +32,24 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import LARGEST_COORDINATE_M
 
 _AXES = ("x", "y", "z")
+_TYPENAME = next(key for key in MOBILITY_KEYS if key.target == "mobility.typename")
+_NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
 
 @dataclass(frozen=True)
 class _Shared:
     """What nodes with the same entries in force have in common; line is start and step for each axis.
 
-    `steps` are the entries that say the steps.
+    `steps` are the entries that say the steps. On an axis without a line they start in a grid, which
+    `grid_settings` and the size of their group make; `grid_line` is where it is asked for.
     """
 
     protocol_parameters: Mapping[str, object]
     protocol_sources: Mapping[str, Source]
-    line: tuple[tuple[float, float], ...]
+    line: tuple[tuple[float, float] | None, ...]
     steps: tuple[Found | None, ...]
+    grid_settings: Mapping[str, Setting]
+    grid_line: Source | None
     mobility: Mapping[str, Setting]
     node: Mapping[str, Setting]
     wlan: tuple[InterfaceSpec, ...]
@@ -94,8 +101,11 @@ def build_nodes(
     for group in groups:
         for index, name in enumerate(group.node_names()):
             shared = builder.shared(name, protocols[name], interface_counts[name])
+            grid = builder.grid(shared, group)
             x, y, z = (
                 _coordinate(name, index, axis, line, step)
+                if line is not None
+                else grid.coordinate_m(index, axis)
                 for axis, line, step in zip(_AXES, shared.line, shared.steps, strict=True)
             )
             nodes.append(
@@ -128,6 +138,7 @@ class _NodeBuilder:
         self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
         self._interfaces = InterfaceBuilder(lookup, settings)
         self._shared: dict[object, _Shared] = {}
+        self._grids: dict[tuple[int, str], Grid] = {}
 
     def shared(self, name: str, protocol: ChosenProtocol, interface_count: int) -> _Shared:
         cls = protocol.cls
@@ -156,6 +167,16 @@ class _NodeBuilder:
             )
         return shared
 
+    def grid(self, shared: _Shared, group: Group) -> Grid:
+        """Return the grid of those nodes of a group; one that nobody reads if they are in none."""
+        if shared.grid_line is None:
+            return _NO_GRID
+        grid = self._grids.get((id(shared), group.name))
+        if grid is None:
+            grid = read_grid(shared.grid_settings, group, shared.grid_line)
+            self._grids[id(shared), group.name] = grid
+        return grid
+
     def _make(
         self,
         found: dict[Key, Found],
@@ -166,27 +187,48 @@ class _NodeBuilder:
         parameters = {name: setting.value for name, setting in protocol_settings.items()}
         sources = {name: setting.source for name, setting in protocol_settings.items()}
         position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
-        values = {
-            field: float(setting.value)
-            for field, setting in read_struct("position", found, self._settings).items()
-        }
+        position_settings = read_struct("position", found, self._settings)
+        values = {field: float(setting.value) for field, setting in position_settings.items()}
+        mobility = read_struct("mobility", found, self._settings)
+        typename = mobility.get("typename")
+        is_static_grid = typename is not None and typename.value == STATIC_GRID
+        if is_static_grid:
+            mobility["typename"] = replace(mobility["typename"], value="StationaryMobility")
+            position[STATIC_GRID] = found[_TYPENAME]
         line = tuple(_axis_line(axis, position, values) for axis in _AXES)
         steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
+        asked_for = [entry for axis in AXES_OF_GRID for entry in _grid_entries(axis, position)]
+        first = min(asked_for, key=lambda entry: entry.order) if None in line else None
         return _Shared(
             parameters,
             {"": chosen_at, **sources},
             line,
             steps,
-            mobility=read_struct("mobility", found, self._settings),
+            position_settings,
+            first.entry.source if first else None,
+            mobility=mobility,
             node=read_struct("node", found, self._settings),
             wlan=wlan,
         )
 
 
-def _axis_line(axis: str, found: Mapping[str, Found], values: Mapping[str, float]) -> tuple[float, float]:
-    """Start and step along one axis in metres. Of `initial` and `line` the first entry is in force."""
+def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:
+    """The entries that place nodes in a grid along an axis."""
+    if axis not in AXES_OF_GRID:
+        return []
+    fields = (STATIC_GRID, *(field.format(axis) for field in GRID_FIELDS))
+    return [entry for field in fields if (entry := found.get(field)) and not entry.is_default]
+
+
+def _axis_line(
+    axis: str, found: Mapping[str, Found], values: Mapping[str, float]
+) -> tuple[float, float] | None:
+    """Start and step along one axis in metres; None in a grid. Of all three the first entry is in force."""
     initial = found.get(f"initial_{axis}")
     line = [entry.order for field in ("start", "step") if (entry := found.get(f"line_{field}_{axis}"))]
+    grid = [entry.order for entry in _grid_entries(axis, found)]
+    if grid and all(min(grid) < order for order in (*line, *([initial.order] if initial else ()))):
+        return None
     if initial is not None and all(initial.order < order for order in line):
         return values.get(f"initial_{axis}", 0.0), 0.0
     return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)

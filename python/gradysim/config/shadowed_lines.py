@@ -27,9 +27,10 @@ _INSTEAD: dict[str, tuple[str, ...]] = {
     end: others
     for axis in "XYZ"
     for end, others in {
-        f"initial{axis}": (f"lineStart{axis}", f"lineStep{axis}"),
-        f"lineStart{axis}": (f"initial{axis}",),
-        f"lineStep{axis}": (f"initial{axis}",),
+        f"initial{axis}": (f"lineStart{axis}", f"lineStep{axis}", f"separation{axis}"),
+        f"lineStart{axis}": (f"initial{axis}", f"separation{axis}"),
+        f"lineStep{axis}": (f"initial{axis}", f"separation{axis}"),
+        f"separation{axis}": (f"initial{axis}", f"lineStart{axis}", f"lineStep{axis}"),
     }.items()
 }
 """By the end of a key those of other keys that set the same."""

@@ -37,6 +37,8 @@ def test_a_special_line_below_a_general_one_is_told(write_ini: Write) -> None:
         ("*.uavs[*].mobility.initialX", "*.uavs[*].mobility.lineStepX"),
         ("*.uavs[*].mobility.lineStepY", "*.uavs[0].mobility.initialY"),
         ("*.uav.mobility.initialZ", "*.uav.mobility.lineStartZ"),
+        ("*.uavs[*].mobility.separationX", "*.uavs[0].mobility.initialX"),
+        ("*.uavs[*].mobility.lineStepY", "*.uavs[*].mobility.separationY"),
         ("**.radio.centerFrequency", "*.uavs[0].wlan[0].radio.channelNumber"),
         ("*.numUavs", "*.uavs.count"),
         ("*.uavs.count", "*.numUavs"),

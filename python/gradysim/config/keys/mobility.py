@@ -2,24 +2,29 @@
 
 from gradysim.config.key import Key
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.kinds import boolean, choice, coordinate, quantity
+from gradysim.config.kinds import boolean, choice, coordinate, integer, quantity
 
 _own = Below("mobility", "mobility")
 _flight = _own.only_for("mobility.typename", "MasslessMobility", shown="")
 _start = Below("mobility", "position")
 
+STATIC_GRID = "StaticGridMobility"
+"""A node that stands still, and starts in a grid."""
+
 MOBILITY_KEYS: tuple[Key, ...] = (
     _own(
         "typename",
         "typename",
-        choice("MasslessMobility", "StationaryMobility"),
-        "How it moves: as its protocol says (missions, random waypoints: docs/guides/plugins.md), or not",
+        choice("MasslessMobility", "StationaryMobility", STATIC_GRID),
+        "How it moves: as its protocol says (missions, random waypoints: docs/guides/plugins.md), or not;"
+        " StaticGridMobility: it does not, and starts in a grid",
     ),
     _start(
         "initialX",
         "initial_x",
         coordinate(),
-        "Where it starts, x; of initialX and lineStartX/lineStepX the one that is written first is in force",
+        "Where it starts, x; of initialX, lineStartX/lineStepX and a grid the one that is written first is in"
+        " force",
         default="0m",
     ),
     _start("initialY", "initial_y", coordinate(), "The same for y", default="0m"),
@@ -42,6 +47,36 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     ),
     _start("lineStepY", "line_step_y", quantity("m"), "The same for y", default="0m"),
     _start("lineStepZ", "line_step_z", quantity("m"), "The same for z", default="0m"),
+    _start(
+        "separationX",
+        "separation_x",
+        quantity("m"),
+        "Nodes in a grid, which may fly from there: x from one column to the next; they start in the middle"
+        " of cells of that size",
+        default="none",
+    ),
+    _start("separationY", "separation_y", quantity("m"), "The same for y and rows", default="none"),
+    _start(
+        "marginX", "margin_x", coordinate(), "Nodes in a grid: x where the first cell begins", default="0m"
+    ),
+    _start("marginY", "margin_y", coordinate(), "The same for y", default="0m"),
+    _start(
+        "columns",
+        "columns",
+        integer(1),
+        "Nodes in a grid: how many are in a row, along x; by default as many as there are rows, or one more",
+        default="none",
+    ),
+    _start(
+        "rows", "rows", integer(1), "How many rows there are; by default as many as it takes", default="none"
+    ),
+    _start(
+        "numHosts",
+        "num_hosts",
+        integer(1),
+        "Nodes in a grid: for how many it is; those of the group by default",
+        default="none",
+    ),
     _flight(
         "speed",
         "speed_mps",
