@@ -31,3 +31,10 @@ class NodeView:
     def position(self) -> Position:
         """(x, y, z) in metres, now. The engine moves the nodes: it cannot be set."""
         return self._node.position
+
+    @position.setter
+    def position(self, _: Position) -> None:
+        raise AttributeError(
+            f"the position of node {self.id} cannot be set in integrated mode, where the engine moves the "
+            "nodes: a handler that moves them works in prototype mode only; a protocol sends mobility commands"
+        )

@@ -30,5 +30,5 @@ def test_nodes_have_id_protocol_seed_and_live_position(make_scenario):
 def test_nodes_cannot_be_moved(make_scenario):
     handler = Watching()
     IntegratedRun(make_scenario(), handlers=[handler])
-    with pytest.raises(AttributeError, match="position"):
-        handler.nodes[0].position = (0, 0, 0)
+    with pytest.raises(AttributeError, match=r"node 1 cannot be set .* prototype mode only; .* commands"):
+        handler.nodes[1].position = (0, 0, 0)

@@ -32,7 +32,8 @@ class Extension:
         self._provider = provider if isinstance(provider, PythonProvider) else None
         if self._provider is None and self._warns_elsewhere:
             warnings.warn(
-                f"{type(self).__name__} works in prototype mode only and does nothing in {mode_of(provider)}",
+                f"{type(self).__name__} finds no handlers of prototype mode in {mode_of(provider)}: "
+                "what it takes from its _provider works in prototype mode only",
                 stacklevel=2,
             )
 
