@@ -16,6 +16,7 @@ from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_history import TrackedHistory
 from gradysim.encapsulator.tracked_variables import TrackedVariables
+from gradysim.encapsulator.wrong_arguments import reword_wrong_arguments
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
@@ -187,6 +188,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
         self.protocol.finish()
 
     def _note(self, failure: BaseException, callback: str) -> None:
+        reword_wrong_arguments(failure)
         add_protocol_note(
             failure,
             node_id=self._node.id,

@@ -139,6 +139,29 @@ def test_it_is_refused_with_the_value_and_what_was_expected(
     assert failure.__notes__ == ["in handle_timer of node 0 (Wrongdoer 0) at 0.25 s of simulated time"]
 
 
+ARGUMENTS: list[tuple[Callable[[Any], object], str, str]] = [  # call, its method, what is wrong
+    (lambda provider: provider.schedule_timer("a"), "schedule_timer", "'timestamp'"),
+    (lambda provider: provider.schedule_timer("a", 1, 2), "schedule_timer", "positional"),
+    (lambda provider: provider.schedule_timer("a", timer="b"), "schedule_timer", "multiple values .*'timer'"),
+    (lambda provider: provider.cancel_timer(), "cancel_timer", "missing .*'timer'"),
+    (lambda provider: provider.current_time(5), "current_time", "positional"),
+    (lambda provider: provider.get_id(5), "get_id", "positional"),
+    (lambda provider: provider.send_communication_command(), "send_communication_command", "'command'"),
+    (lambda provider: provider.send_mobility_command(), "send_mobility_command", "missing .*'command'"),
+]
+
+
+@pytest.mark.parametrize("row", ARGUMENTS, ids=[f"{name} {wrong}" for _, name, wrong in ARGUMENTS])
+@pytest.mark.parametrize("mode", MODES)
+def test_wrong_arguments_are_told_in_one_line(mode: str, row: tuple[Deed, str, str]) -> None:
+    deed, name, wrong = row
+    failure = failure_of(mode, deed)
+    assert type(failure) is TypeError
+    assert re.search(rf"{name}\(.*{wrong}", str(failure))
+    assert "\n" not in str(failure)
+    assert failure.__notes__ == ["in handle_timer of node 0 (Wrongdoer 0) at 0.25 s of simulated time"]
+
+
 MISSIONS = {
     "1,2,3\n4,5\n": r"line 2|:2",
     "1,2,3\n4,5,x\n": r"line 2|:2",
