@@ -35,6 +35,7 @@ class NodeView:
     @position.setter
     def position(self, _: Position) -> None:
         raise AttributeError(
-            f"the position of node {self.id} cannot be set in integrated mode, where the engine moves the "
-            "nodes: a handler that moves them works in prototype mode only; a protocol sends mobility commands"
+            f"the position of node {self.id} cannot be set in integrated mode, where the engine moves "
+            "the nodes: a handler that moves them works in prototype mode only; a protocol sends mobility "
+            "commands"
         )

@@ -32,6 +32,13 @@ def fates_at_nodes(nodes: Iterable[NodeResult], fates: Iterable[str]) -> Rendera
     )
 
 
+def kinds_overheard(nodes: Iterable[NodeResult]) -> str:
+    """Name the kinds of frames that are for one node and that these also heard of others; "" without any."""
+    kinds = dict.fromkeys(kind for node in nodes for kind in node.frame_fates or {} if kind != "broadcast")
+    *others, last = kinds or [""]
+    return f"{', '.join(others)} and {last}" if others else last
+
+
 def interferer_table(nodes: Iterable[NodeResult]) -> Table:
     """Return a row for each node that lost frames to interference: how many, and to whom."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)

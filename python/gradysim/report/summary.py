@@ -12,7 +12,7 @@ from gradysim.config.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
 from gradysim.protocol.readable_number import readable_number
 from gradysim.report.count_tables import CountTables
-from gradysim.report.fates_at_nodes import fates_at_nodes, interferer_table
+from gradysim.report.fates_at_nodes import fates_at_nodes, interferer_table, kinds_overheard
 from gradysim.results.run_result import NodeResult, RunResult
 
 MAX_VALUE_LENGTH = 200
@@ -61,6 +61,8 @@ def at_nodes(result: RunResult) -> list[RenderableType]:
     shown = told if len(told) <= MAX_NODES else told[:NODES_OF_MANY]
     fates = dict.fromkeys(fate for counts in result.fates["frames"].values() for fate in counts)
     parts = [title("Fates of frames at nodes, whoever they were for"), fates_at_nodes(shown, fates)]
+    if overheard := kinds_overheard(shown):
+        parts.append(Text(f"of {overheard}, frames for other nodes that were overheard count, too"))
     if any(node.interferers for node in shown):
         parts += [title("Lost to interference, and to whose frames"), interferer_table(shown)]
     if len(shown) < len(told):

@@ -1,8 +1,9 @@
 from io import StringIO
 
+import pytest
 from rich.console import Console
 
-from gradysim.report.fates_at_nodes import MAX_INTERFERERS, fates_at_nodes, interferer_table
+from gradysim.report.fates_at_nodes import MAX_INTERFERERS, fates_at_nodes, interferer_table, kinds_overheard
 from gradysim.results.run_result import NodeResult
 
 
@@ -46,6 +47,20 @@ def test_nodes_that_nothing_reached_are_told():
     assert lines(fates_at_nodes([node("uavs[0]", {})], ["delivered"])) == [
         ["no", "frame", "was", "strong", "enough", "to", "be", "received", "there"]
     ]
+
+
+@pytest.mark.parametrize(
+    ("kinds", "text"),
+    [
+        (["broadcast"], ""),
+        (["broadcast", "unicast"], "unicast"),
+        (["unicast", "ack"], "unicast and ack"),
+        (["broadcast", "unicast", "ack", "rts"], "unicast, ack and rts"),
+    ],
+)
+def test_kinds_of_frames_that_may_be_for_others_are_named(kinds, text):
+    nodes = [node("a", {}), *(node(f"n[{kind}]", {kind: {"delivered": 1}}) for kind in kinds)]
+    assert kinds_overheard(nodes) == text
 
 
 def test_interferers_by_their_copies():

@@ -169,6 +169,13 @@ def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
     assert "Fates of frames at nodes" not in printed()
 
 
+@pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])
+def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
+    at_node = replace(*nodes(1), frame_fates={kind: {"delivered": 1}})
+    text = f"of {kind}, frames for other nodes that were overheard count, too"
+    assert (text in printed(nodes=(at_node,))) is told
+
+
 @pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
 def test_fates_at_many_nodes_are_cut_short(count, shown):
     _, _, text = printed(nodes=told_nodes(count)).partition("Fates of frames at nodes")
