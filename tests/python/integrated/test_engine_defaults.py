@@ -6,6 +6,7 @@ from gradysim import _netsim
 from gradysim.config.expression import parse_value
 from gradysim.config.key_list import OWN_STRUCTS, UNKNOWN, key_sections
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.config.keys.mobility import STATIC_GRID
 from gradysim.integrated.engine_defaults import engine_defaults
 
 MADE_WITH = {
@@ -17,8 +18,13 @@ MADE_WITH = {
 NOT_NAMES_OF_THE_ENGINE = {"radio.carrier_hz", "obstacle.typename"}
 """The name of a band becomes a frequency, boxes become prisms."""
 
+SAID_IN_OTHER_WORDS = {STATIC_GRID}
+"""Names that the reader of files turns into what the engine knows."""
+
 CHOICES = {
-    key.target: re.findall(r'"([^"]*)"', key.kind.expected)
+    key.target: [
+        name for name in re.findall(r'"([^"]*)"', key.kind.expected) if name not in SAID_IN_OTHER_WORDS
+    ]
     for key in (*NODE_KEYS, *NETWORK_KEYS)
     if key.kind.expected.startswith(("one of", '"')) and key.target not in NOT_NAMES_OF_THE_ENGINE
 }
