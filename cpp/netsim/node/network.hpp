@@ -83,6 +83,7 @@ private:
     Simulator simulator_;
     std::uint64_t seed_;
     Fingerprint fingerprint_;
+    PayloadHash payload_hash_;
     FrameFates frame_fates_;
     MessageFates message_fates_;
     bool perfect_channel_;

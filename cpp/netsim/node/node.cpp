@@ -15,9 +15,10 @@ constexpr std::uint64_t timer_word = 0x74696D6572;
 }  // namespace
 
 Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-           Fingerprint& fingerprint)
+           Fingerprint& fingerprint, PayloadHash& payload_hash)
     : simulator_(simulator),
       fingerprint_(fingerprint),
+      payload_hash_(payload_hash),
       id_(id),
       mobility_(make_mobility(config.mobility, config.initial_position)),
       name_(config.name),
@@ -100,7 +101,7 @@ void Node::message_received(NodeId source, const Payload& payload) {
     }
     fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(source) << 40) ^
                      static_cast<std::uint64_t>(id_));
-    fingerprint_.add_text(*payload);
+    fingerprint_.add(payload_hash_.of(payload));
     call_protocol("handle_packet", [&payload](Protocol& protocol) { protocol.handle_packet(payload); });
 }
 

@@ -16,6 +16,7 @@
 #include "netsim/mac/link.hpp"
 #include "netsim/mobility/attitude.hpp"
 #include "netsim/mobility/mobility.hpp"
+#include "netsim/node/payload_hash.hpp"
 #include "netsim/node/protocol.hpp"
 #include "netsim/node/timers.hpp"
 #include "netsim/node/tracked_variables.hpp"
@@ -25,7 +26,7 @@ namespace netsim {
 class alignas(64) Node final : private LinkListener {
 public:
     Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-         Fingerprint& fingerprint);
+         Fingerprint& fingerprint, PayloadHash& payload_hash);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
@@ -92,6 +93,7 @@ private:
     // First what every message touches: one cache line, which the medium fetches ahead.
     Simulator& simulator_;
     Fingerprint& fingerprint_;
+    PayloadHash& payload_hash_;
     NodeId id_;
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Protocol> protocol_;
