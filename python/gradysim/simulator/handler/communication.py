@@ -178,7 +178,8 @@ class CommunicationHandler(INodeHandler):
             ) from None
         if not isinstance(message, str):
             raise CommunicationException(
-                f"node {sender.id} can send text only, got a {type(message).__name__}: {message!r}"
+                f"node {sender.id} can send text only, such as json.dumps makes, "
+                f"got a {type(message).__name__}: {message!r}"
             )
         interface = getattr(command, "interface", 0)  # commands of one's own may have none
         if type(interface) is not int or interface:
