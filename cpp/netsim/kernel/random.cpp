@@ -25,17 +25,18 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
 
 RandomStream::RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpose)
     : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
-      counter_{0, 0, node, static_cast<std::uint32_t>(purpose)} {}
+      node_(node),
+      purpose_(purpose) {}
 
 std::uint32_t RandomStream::next_u32() {
-    if (used_ == block_.size()) {
-        block_ = philox4x32(counter_, key_);
-        used_ = 0;
-        if (++counter_[0] == 0) {
-            ++counter_[1];
-        }
+    const std::uint64_t number = next_word_ / words_of_block;
+    if (number != block_number_) {
+        block_number_ = number;
+        block_ = philox4x32({static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32),
+                             node_, static_cast<std::uint32_t>(purpose_)},
+                            key_);
     }
-    return block_[used_++];
+    return block_[next_word_++ % words_of_block];
 }
 
 double RandomStream::uniform() {

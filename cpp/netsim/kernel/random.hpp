@@ -34,16 +34,23 @@ public:
     std::uint32_t next_u32();
     // Uniform in [0, 1), 53 random bits.
     double uniform();
+    // As if one had been drawn, without working it out.
+    void skip_uniform() { next_word_ += words_of_uniform; }
     // Uniform between two bounds, as Python's random.uniform computes it.
     double uniform(double from, double to) { return from + (to - from) * uniform(); }
     // Uniform among 0 … count − 1, without bias. count > 0.
     std::uint32_t uniform_int(std::uint32_t count);
 
 private:
+    static constexpr unsigned words_of_uniform = 2;
+    static constexpr unsigned words_of_block = 4;
+
     std::array<std::uint32_t, 2> key_;
-    std::array<std::uint32_t, 4> counter_;
-    std::array<std::uint32_t, 4> block_{};
-    unsigned used_ = 4;  // words of block_ already handed out
+    std::uint32_t node_;
+    Purpose purpose_;
+    std::uint64_t next_word_ = 0;
+    std::uint64_t block_number_ = ~0ULL;  // of the one below: none yet
+    std::array<std::uint32_t, words_of_block> block_{};
 };
 
 }  // namespace netsim

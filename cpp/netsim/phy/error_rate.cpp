@@ -177,26 +177,29 @@ double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
 
 // Of n bits that fail independently, each with at most b, all survive with at least 1 − n b.
 double NistErrorModel::least_success(const Mode& mode, double snir, int psdu_bytes) const {
-    constexpr double rounding = 1e-9;
     const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
-    const double most = 1 - rounding;
+    double lost = 1;
     switch (mode.family) {
         case ModeFamily::ofdm: {
             static const BitErrorCeiling& header = ofdm_ceiling(Constellation::bpsk, CodeRate::one_half);
-            return most - ofdm_header_bits * header.at(snir) -
+            lost = ofdm_header_bits * header.at(snir) +
                    bits * ofdm_ceiling(mode.constellation, mode.code_rate).at(snir);
+            break;
         }
         case ModeFamily::dsss: {
             static const BitErrorCeiling slow(dsss_1_bit_error);
             static const BitErrorCeiling fast(dsss_2_bit_error);
-            return most - dsss_header_bits * slow.at(snir) -
+            lost = dsss_header_bits * slow.at(snir) +
                    bits * (mode.bitrate_bps == 1'000'000 ? slow : fast).at(snir);
+            break;
         }
         case ModeFamily::cck:    // its fits need not fall with the SNIR
         case ModeFamily::oqpsk:  // not of 802.11
-            break;
+            return 0;
     }
-    return 0;
+    constexpr double nothing = 0x1p-60;  // a chance of 1 − that is 1 as a double
+    constexpr double rounding = 1e-9;
+    return lost < nothing ? 1 : 1 - rounding - lost;
 }
 
 double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {

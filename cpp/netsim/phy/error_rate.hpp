@@ -34,7 +34,8 @@ public:
     // In [0, 1]. `snir` is a linear ratio ≥ 0, may be infinite; `psdu_bytes` ≥ 0.
     virtual double success_probability(const Mode& mode, double snir, int psdu_bytes) const = 0;
 
-    // Known at once: no more than success_probability at that SNIR and at every larger one. 0 or less, if that is all.
+    // Known at once: no more than success_probability at that SNIR and at every larger one. 0 or less, if that is all; 1 where
+    // those are 1 exactly.
     virtual double least_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const {
         return 0;
     }

@@ -207,10 +207,15 @@ void Radio::end_reception(const Arrival& arrival) {
 // One draw decides for both cases, with interference and without: a frame counts as lost to noise if the same draw
 // would have lost it on a channel without interference.
 FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& culprits) {
-    const double draw = reception_draws_.uniform();
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
-    // not be known.
-    if (draw < reception_.least_success(arrival, medium_.most_interference_w(arrival)) ||
+    // not be known. Mostly not even the draw.
+    const double least_success = reception_.least_success(arrival, medium_.most_interference_w(arrival));
+    if (least_success == 1) {
+        reception_draws_.skip_uniform();
+        return FrameFate::delivered;
+    }
+    const double draw = reception_draws_.uniform();
+    if (draw < least_success ||
         draw < reception_.least_success(arrival, medium_.most_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }

@@ -47,6 +47,24 @@ TEST(RandomStream, IsPhiloxOverACountOfBlocks) {
     EXPECT_EQ(std::vector(words.begin() + 4, words.end()), std::vector(second.begin(), second.end()));
 }
 
+TEST(RandomStream, WhatIsSkippedIsAsIfItHadBeenDrawn) {
+    for (int before = 0; before < 5; ++before) {  // words
+        for (int skipped = 0; skipped < 5; ++skipped) {
+            RandomStream drawn(3, 7, Purpose::reception);
+            RandomStream skips = drawn;
+            for (int i = 0; i < before; ++i) {
+                drawn.next_u32();
+                skips.next_u32();
+            }
+            for (int i = 0; i < skipped; ++i) {
+                drawn.uniform();
+                skips.skip_uniform();
+            }
+            EXPECT_EQ(skips.next_u32(), drawn.next_u32()) << skipped << " after " << before;
+        }
+    }
+}
+
 TEST(RandomStream, HasAStreamForEachName) {
     std::set<std::vector<std::uint32_t>> streams;
     int names = 0;

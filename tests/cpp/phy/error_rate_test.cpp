@@ -230,6 +230,12 @@ TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
     }
 }
 
+TEST(NistErrorModel, TheBoundSaysWhatIsCertain) {
+    for (const Mode& each : bounded_modes()) {
+        EXPECT_EQ(NistErrorModel().least_success(each, 1000, 1000), 1) << each.name;
+    }
+}
+
 // Above some SNIR the model stops computing: there the longest frame succeeds to the last digit already. The
 // SNIR are 0.9 of those at which it stops.
 TEST(NistErrorModel, ShortCutForStrongSignalsChangesNoDigit) {
