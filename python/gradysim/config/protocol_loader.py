@@ -22,6 +22,7 @@ class ProtocolLoader:
 
     def __init__(self) -> None:
         self._modules = ModuleLoader()
+        self._files: dict[tuple[Path, Path], tuple[Path, ...]] = {}
 
     def load(self, reference: str, folder: Path) -> type[IProtocol]:
         """The class of "file.py:Class" (the file relative to `folder`) or "package.module:Class".
@@ -40,12 +41,16 @@ class ProtocolLoader:
         place = reference.rpartition(":")[0]
         if _is_file(place):
             file = (folder / place).resolve()
-            return files_of_python(file, file.parent)
-        file_of_module = getattr(sys.modules.get(place), "__file__", None)
-        if file_of_module is None:  # one that is built in
-            return ()
-        file = Path(file_of_module).resolve()
-        return files_of_python(file, root_of_module(place, file))
+            root = file.parent
+        else:
+            file_of_module = getattr(sys.modules.get(place), "__file__", None)
+            if file_of_module is None:  # one that is built in
+                return ()
+            file = Path(file_of_module).resolve()
+            root = root_of_module(place, file)
+        if (file, root) not in self._files:
+            self._files[file, root] = files_of_python(file, root)
+        return self._files[file, root]
 
     def _from_file(self, place: str, folder: Path) -> ModuleType:
         file = folder / place

@@ -154,3 +154,12 @@ def test_a_callback_that_cannot_be_called_is_refused_with_its_line(folder: Any) 
     assert error.endswith(
         "wrong.py:4) cannot be called with `timer` alone; expected `def handle_timer(self, timer)`"
     )
+
+
+def test_the_files_of_a_protocol_are_looked_for_once(folder: Any) -> None:
+    loader = ProtocolLoader()
+    first = loader.files("protocols.py:Mobile", folder.path)
+    assert [file.name for file in first] == ["protocols.py"]
+    folder.write("helper.py", "")
+    folder.write("protocols.py", "import helper")
+    assert loader.files("protocols.py:Sensor", folder.path) == first
