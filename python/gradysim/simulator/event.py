@@ -136,20 +136,33 @@ class EventLoop:
             current = self._current
             taken = self._taken
             if current is None or taken >= len(current):
-                instant = self._next_instant()
-                if instant is None or instant > until:
+                current = self._turn_to_next(until)
+                if current is None:
                     return
-                heappop(self._instants)
-                self._current_time = instant
-                self._current = current = self._events[instant]
                 taken = 0
             elif taken == _RAN_AT_MOST:
-                del current[:taken]
-                self._held -= taken
+                self._drop_those_that_ran(current)
                 taken = 0
-                self.crowded_instant = self._current_time
             self._taken = taken + 1
             yield current[taken]
+
+    def take_event(self, until: float = math.inf) -> ScheduledEvent | None:
+        """Remove the next event and set the clock to its time; None if there is none up to `until`.
+
+        The same as the first of `take_events`, and faster for one.
+        """
+        current = self._current
+        taken = self._taken
+        if current is None or taken >= len(current):
+            current = self._turn_to_next(until)
+            if current is None:
+                return None
+            taken = 0
+        elif taken == _RAN_AT_MOST:
+            self._drop_those_that_ran(current)
+            taken = 0
+        self._taken = taken + 1
+        return current[taken]
 
     def pop_event(self) -> Event:
         """Remove the next event and set the clock to its time.
@@ -157,7 +170,7 @@ class EventLoop:
         Raises:
             EventLoopException: No event is pending.
         """
-        event = next(self.take_events(), None)
+        event = self.take_event()
         if event is None:
             raise EventLoopException("there is no pending event to pop")
         return Event(self._current_time, *event)
@@ -218,6 +231,22 @@ class EventLoop:
             events = self._events[instant] = []
             heappush(self._instants, instant)
         return events
+
+    def _turn_to_next(self, until: float) -> list[ScheduledEvent] | None:
+        """Go to the next instant with events, as the current one is used up; None if it is after `until`."""
+        instant = self._next_instant()
+        if instant is None or instant > until:
+            return None
+        heappop(self._instants)
+        self._current_time = instant
+        self._current = self._events[instant]
+        return self._current
+
+    def _drop_those_that_ran(self, current: list[ScheduledEvent]) -> None:
+        """Keep the list of the current instant short, however much happens in it."""
+        del current[:_RAN_AT_MOST]
+        self._held -= _RAN_AT_MOST
+        self.crowded_instant = self._current_time
 
     def _close_current(self) -> None:
         if self._current is not None:

@@ -176,7 +176,10 @@ class Simulator:
             if not self._initialized:
                 self._initialize_simulation()
             self._formatter.thread = threading.get_ident()
-            self._execute(count)
+            if count == 1 and self._pacing is None and self._profile is None:
+                self._execute_next()
+            else:
+                self._execute(count)
             done = self.is_simulation_done()
         except KeyboardInterrupt:
             raise  # Nobody's failure: the caller may go on, or finalize.
@@ -320,6 +323,25 @@ class Simulator:
             for hook in hooks:
                 hook(iteration, loop.current_time)
             self._iteration = iteration + 1
+        formatter.iteration = None
+
+    def _execute_next(self) -> None:
+        """Do what `_execute` does for one event, faster: environments of learning step through all events."""
+        iteration = self._iteration
+        limit = self._configuration.max_iterations
+        if limit is not None and iteration >= limit:
+            return
+        loop = self._event_loop
+        event = loop.take_event(self._until_s)
+        if event is None:
+            return
+        formatter = self._formatter
+        formatter.iteration = iteration
+        formatter.context = event[1]
+        event[0]()
+        for hook in self._step_hooks:
+            hook(iteration, loop.current_time)
+        self._iteration = iteration + 1
         formatter.iteration = None
 
     def _log_end(self) -> None:

@@ -186,6 +186,25 @@ def test_taking_stops_before_the_first_event_after_the_limit():
     assert (loop.current_time, loop.next_time()) == (2, 3)
 
 
+def test_taking_one_stops_before_the_first_event_after_the_limit():
+    loop = EventLoop()
+    for time in (1, 3):
+        loop.schedule_event(time, nothing, str(time))
+    assert loop.take_event(until=1) == (nothing, "1")
+    assert loop.take_event(until=2) is None
+    assert (loop.current_time, loop.take_event(), loop.take_event()) == (1, (nothing, "3"), None)
+
+
+def test_one_and_several_can_be_taken_in_turns():
+    loop = EventLoop()
+    for number in range(4):
+        loop.schedule_event(number // 3, nothing, str(number))
+    events = loop.take_events()
+    taken = [next(events), loop.take_event(), next(events), loop.take_event()]
+    assert [context for _, context in taken] == ["0", "1", "2", "3"]
+    assert next(events, None) is None
+
+
 def test_taking_sees_what_is_scheduled_meanwhile():
     loop = EventLoop()
     loop.schedule_event(1, nothing, "first")

@@ -1,3 +1,5 @@
+from hypothesis import given
+from hypothesis import strategies as st
 from simulated import Recorder, build, fired, protocol, timers
 
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
@@ -98,6 +100,27 @@ def test_stepping_gets_to_the_event_at_the_very_end():
     while simulator.step_simulation():
         pass
     assert fired(tested) == ["1", "5"]
+
+
+@given(
+    due=st.lists(st.integers(0, 6), max_size=6),
+    duration=st.none() | st.integers(1, 6),
+    max_iterations=st.none() | st.integers(0, 8),
+)
+def test_stepping_is_the_same_as_running_at_once(due, duration, max_iterations):
+    courses = []
+    for step_by_step in (False, True):
+        tested = timers(*due)
+        recorder = Recorder(tested.calls)
+        limits = {"duration": duration, "max_iterations": max_iterations}
+        simulator = build(tested, nodes=2, handlers=[recorder], execution_logging=False, **limits)
+        if step_by_step:
+            while simulator.step_simulation():
+                pass
+        else:
+            simulator.start_simulation()
+        courses.append((tested.calls, simulator.iteration, simulator.current_time))
+    assert courses[0] == courses[1]
 
 
 def test_running_some_events_says_whether_it_goes_on():
