@@ -361,7 +361,8 @@ class Network:
     def interferers_at(self, receiver: int) -> dict[int, int]:
         """{node: copies that this receiver lost to interference by frames of that node, or of it and others}.
 
-        Meant are those on the air when the interference was at its strongest.
+        Of those on the air when the interference was at its strongest, meant are the strongest, as many as
+        outweigh all the others together.
         """
     def frames_by_bitrate(self, node: int) -> dict[int, int]:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""

@@ -29,11 +29,13 @@ void InterferenceSum::begin(SimTime start, SimTime end) {
     start_ = start;
     end_ = end;
     others_.clear();
+    worst_moment_.reset();
 }
 
 void InterferenceSum::add(const Arrival& other) {
     if (other.start < end_ && other.end > start_ && other.power_w > 0) {
         others_.push_back(other);
+        worst_moment_.reset();
     }
 }
 
@@ -84,6 +86,13 @@ double InterferenceSum::sum_w_at(SimTime moment) const {
 }
 
 SimTime InterferenceSum::worst_moment() {
+    if (!worst_moment_) {
+        worst_moment_ = find_worst_moment();
+    }
+    return *worst_moment_;
+}
+
+SimTime InterferenceSum::find_worst_moment() {
     if (others_.size() == 1) {
         return std::max(others_.front().start, start_);
     }
@@ -113,25 +122,40 @@ SimTime InterferenceSum::worst_moment() {
     return worst;
 }
 
-const Interference& InterferenceSum::worst() {
-    worst_.max_power_w = 0;
-    worst_.interferers.clear();
+double InterferenceSum::worst_w() {
+    return others_.empty() ? 0 : sum_w_at(worst_moment());
+}
+
+const std::vector<NodeId>& InterferenceSum::interferers() {
+    interferers_.clear();
     if (others_.empty()) {
-        return worst_;
+        return interferers_;
     }
+    strongest_.clear();
     const SimTime worst = worst_moment();
     for (const Arrival& other : others_) {
-        if (other.start > worst || worst >= other.end) {
-            continue;
-        }
-        worst_.max_power_w += other.power_w;
-        const NodeId sender = other.transmission->sender.node;
-        auto& interferers = worst_.interferers;
-        if (std::find(interferers.begin(), interferers.end(), sender) == interferers.end()) {
-            interferers.push_back(sender);
+        if (other.start <= worst && worst < other.end) {
+            strongest_.push_back(&other);
         }
     }
-    return worst_;
+    std::ranges::sort(strongest_, [](const Arrival* a, const Arrival* b) {
+        return a->power_w != b->power_w ? a->power_w > b->power_w : a->transmission->id < b->transmission->id;
+    });
+    const double all_w = sum_w_at(worst);
+    double named_w = 0;
+    double last_w = 0;
+    for (const Arrival* other : strongest_) {
+        if (named_w > all_w - named_w && other->power_w < last_w) {
+            break;
+        }
+        named_w += other->power_w;
+        last_w = other->power_w;
+        const NodeId sender = other->transmission->sender.node;
+        if (std::ranges::find(interferers_, sender) == interferers_.end()) {
+            interferers_.push_back(sender);
+        }
+    }
+    return interferers_;
 }
 
 const std::vector<InterferenceStep>& InterferenceSum::steps() {

@@ -5,17 +5,12 @@
 // ends finds all of it: O(m log m) for m frames.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "netsim/medium/transmission.hpp"
 
 namespace netsim {
-
-// What disturbed a reception at its worst.
-struct Interference {
-    double max_power_w = 0;           // the largest sum over the period, without background noise
-    std::vector<NodeId> interferers;  // that made it up, each once, in the order of their transmissions
-};
 
 // From `start` on until the next step, or the end of the period, the others bring `power_w` together.
 struct InterferenceStep {
@@ -32,9 +27,12 @@ public:
     // One that does, in the order of transmissions; no matter whether it lasts into the period.
     void add(const Arrival& other);
 
-    // Of several moments equally bad, that of the earliest transmission's start.
-    // Valid until the next call of begin or worst.
-    const Interference& worst();
+    // The largest sum over the period, in W, without background noise.
+    double worst_w();
+    // Who is to blame for that: of those on the air when the sum is largest, the strongest, as many as outweigh all the others
+    // together, and who is just as strong as the last of them. Nodes, each once, from strong to weak; none if nothing disturbs. Of
+    // several moments equally bad, that of the earliest transmission's start. Valid until the next call of begin or interferers.
+    const std::vector<NodeId>& interferers();
     // At least one, the first at the start of the period, and each different from the one before. Valid until the
     // next call of begin or steps.
     const std::vector<InterferenceStep>& steps();
@@ -53,8 +51,9 @@ private:
     void find_changes();
     // When the others begin, with the sums from then on: right but for rounding, in proportion to the largest of them.
     void find_moments();
-    // Of at least one other.
+    // Of at least one other; worked out once.
     SimTime worst_moment();
+    SimTime find_worst_moment();
     // Exactly what adding up in the order of transmissions gives.
     double sum_w_at(SimTime moment) const;
 
@@ -65,7 +64,9 @@ private:
     std::vector<Change> ends_;
     std::vector<Moment> moments_;
     std::vector<InterferenceStep> steps_;
-    Interference worst_;
+    std::optional<SimTime> worst_moment_;
+    std::vector<const Arrival*> strongest_;
+    std::vector<NodeId> interferers_;
 };
 
 }  // namespace netsim

@@ -183,15 +183,16 @@ void Radio::arrival_ended(const Arrival& arrival) {
 
 void Radio::end_reception(const Arrival& arrival) {
     const Transmission& transmission = *std::exchange(locked_, nullptr);
-    const Interference* culprits = nullptr;
-    const FrameFate fate = by_chunks_ ? decide_data(arrival, culprits) : decide_at_once(arrival, culprits);
+    const std::vector<NodeId>* interferers = nullptr;
+    const FrameFate fate =
+        by_chunks_ ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
     const bool decoded = fate == FrameFate::delivered;
     remember(transmission, fate);
     if (is_observed_) {
         observer_->received(arrival, reception_.noise_w, decoded);
     }
-    if (culprits != nullptr) {
-        medium_.fates().book_interference(node(), transmission.label, culprits->interferers);
+    if (interferers != nullptr) {
+        medium_.fates().book_interference(node(), transmission.label, *interferers);
     } else {
         book(transmission, fate);
     }
@@ -206,7 +207,7 @@ void Radio::end_reception(const Arrival& arrival) {
 
 // One draw decides for both cases, with interference and without: a frame counts as lost to noise if the same draw
 // would have lost it on a channel without interference.
-FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& culprits) {
+FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
     // not be known. Mostly not even the draw.
     const double least_success = reception_.least_success(arrival, medium_.most_interference_w(arrival));
@@ -219,18 +220,19 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const Interference*& cul
         draw < reception_.least_success(arrival, medium_.most_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
-    const Interference& interference = interference_in(arrival, {arrival.start, arrival.end}).worst();
-    if (draw < reception_.success(arrival, interference.max_power_w)) {
+    InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
+    const double interference_w = interference.worst_w();
+    if (draw < reception_.success(arrival, interference_w)) {
         return FrameFate::delivered;
     }
-    if (interference.max_power_w > 0 && draw < reception_.success(arrival, 0)) {
-        culprits = &interference;
+    if (interference_w > 0 && draw < reception_.success(arrival, 0)) {
+        interferers = &interference.interferers();
         return FrameFate::interference;
     }
     return FrameFate::noise;
 }
 
-FrameFate Radio::decide_data(const Arrival& arrival, const Interference*& culprits) {
+FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
     if (simulator_.cancel(header_end_) && !header_survives()) {
         return FrameFate::header_error;  // the frame ends with its header
     }
@@ -240,7 +242,7 @@ FrameFate Radio::decide_data(const Arrival& arrival, const Interference*& culpri
         return FrameFate::delivered;
     }
     if (draw < reception_.success_undisturbed(FramePart::data, arrival)) {
-        culprits = &interference.worst();
+        interferers = &interference.interferers();
         return FrameFate::interference;
     }
     return FrameFate::noise;

@@ -135,9 +135,9 @@ private:
     void give_up_reception();
     void end_header();
     void end_reception(const Arrival& arrival);
-    // Both draw, and fill in interferers only if interference is to blame.
-    FrameFate decide_at_once(const Arrival& arrival, const Interference*& culprits);
-    FrameFate decide_data(const Arrival& arrival, const Interference*& culprits);
+    // Both draw, and find interferers only if interference is to blame.
+    FrameFate decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers);
+    FrameFate decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     bool header_survives();
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
         return medium_.interference_with(id_, arrival, period.start, period.end);

@@ -41,8 +41,9 @@ class NodeResult:
     "ack", "rts", "cts"; copies that are too weak or in air are kept for the whole network only."""
     interferers: Mapping[str, int] | None = None
     """{name of a node: copies that were lost here to interference by frames of that node, or of it and
-    others}, in the order of ids; None as above. Meant are those on the air when the interference was
-    at its strongest; a copy counts once for each of them."""
+    others}, in the order of ids; None as above. Of those on the air when the interference was at its
+    strongest, the strongest are named, as many as outweigh all the others together; a copy counts once
+    for each of them."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the fields as plain values; see `plain_value` for tracked variables of other kinds.

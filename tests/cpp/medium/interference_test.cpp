@@ -39,20 +39,37 @@ double sum_w(const Frames& frames, SimTime moment) {
     return sum_w;
 }
 
-// The definition, without any search: every start is looked at, and everything is added up there.
-Interference plain_worst(const Frames& frames, SimTime start, SimTime end) {
-    Interference worst;
+struct Worst {
+    double sum_w = 0;
+    std::vector<NodeId> interferers;
+};
+
+// The definition, without any search: every start is looked at, and everything is added up there. Those are named of whom as
+// strong ones and stronger ones do not outweigh the rest without it.
+Worst plain_worst(const Frames& frames, SimTime start, SimTime end) {
+    Worst worst;
     SimTime when;
     for (const Arrival& candidate : frames.all) {
         const SimTime moment = std::max(candidate.start, start);
-        if (candidate.start < end && candidate.end > start && sum_w(frames, moment) > worst.max_power_w) {
-            worst.max_power_w = sum_w(frames, moment);
+        if (candidate.start < end && candidate.end > start && sum_w(frames, moment) > worst.sum_w) {
+            worst.sum_w = sum_w(frames, moment);
             when = moment;
         }
     }
+    std::vector<Arrival> present;
     for (const Arrival& frame : frames.all) {
+        if (worst.sum_w > 0 && frame.start <= when && when < frame.end) {
+            present.push_back(frame);
+        }
+    }
+    std::ranges::stable_sort(present, std::greater(), &Arrival::power_w);
+    for (const Arrival& frame : present) {
+        double stronger_w = 0;
+        for (const Arrival& other : present) {
+            stronger_w += other.power_w > frame.power_w ? other.power_w : 0;
+        }
         const NodeId sender = frame.transmission->sender.node;
-        if (worst.max_power_w > 0 && frame.start <= when && when < frame.end &&
+        if (stronger_w <= worst.sum_w - stronger_w &&
             std::ranges::find(worst.interferers, sender) == worst.interferers.end()) {
             worst.interferers.push_back(sender);
         }
@@ -63,7 +80,7 @@ Interference plain_worst(const Frames& frames, SimTime start, SimTime end) {
 TEST(Interference, NothingDisturbsAReceptionAlone) {
     InterferenceSum sum;
     sum.begin(us(0), us(10));
-    EXPECT_EQ(sum.worst().max_power_w, 0);
+    EXPECT_EQ(sum.worst_w(), 0);
     EXPECT_EQ(sum.steps(), (std::vector<InterferenceStep>{{us(0), 0}}));
 }
 
@@ -73,7 +90,7 @@ TEST(Interference, WhatTouchesThePeriodOnlyAtAnEndDoesNotDisturb) {
     sum.begin(us(10), us(20));
     sum.add(frames.add(1, us(0), us(10), 1));
     sum.add(frames.add(2, us(20), us(30), 1));
-    EXPECT_EQ(sum.worst().max_power_w, 0);
+    EXPECT_EQ(sum.worst_w(), 0);
 }
 
 TEST(Interference, StepsFollowStartsAndEnds) {
@@ -93,6 +110,34 @@ TEST(Interference, AWeakFrameIsNotLostBesideAStrongOne) {
     sum.add(frames.add(1, us(0), us(20), 1e-25));
     sum.add(frames.add(2, us(5), us(10), 1));
     EXPECT_EQ(sum.steps().back(), (InterferenceStep{us(10), 1e-25}));
+}
+
+// Interferers 1, 2, … of those powers, all on the air at once.
+std::vector<NodeId> named_of(const std::vector<double>& powers_w) {
+    InterferenceSum sum;
+    Frames frames;
+    sum.begin(us(0), us(20));
+    NodeId sender = 0;
+    for (const double power_w : powers_w) {
+        sum.add(frames.add(++sender, us(5), us(10), power_w));
+    }
+    return sum.interferers();
+}
+
+TEST(Interferers, WhomOneOutweighsTogetherAreNotNamed) {
+    EXPECT_EQ(named_of({1, 2, 10, 3}), (std::vector<NodeId>{3}));
+}
+
+TEST(Interferers, AsManyAreNamedAsOutweighTheRest) {
+    EXPECT_EQ(named_of({1, 5, 4, 3}), (std::vector<NodeId>{2, 3}));
+}
+
+TEST(Interferers, WhoIsAsStrongAsTheLastIsNamedToo) {
+    EXPECT_EQ(named_of({4, 1, 4, 4}), (std::vector<NodeId>{1, 3, 4}));
+}
+
+TEST(Interferers, AreNoneWhereNothingDisturbs) {
+    EXPECT_TRUE(named_of({}).empty());
 }
 
 class RandomFrames : public testing::TestWithParam<std::uint64_t> {
@@ -115,9 +160,9 @@ protected:
 };
 
 TEST_P(RandomFrames, WorstIsThatOfThePlainSearchToTheLastBit) {
-    const Interference expected = plain_worst(frames, us(20), us(40));
-    EXPECT_EQ(sum.worst().max_power_w, expected.max_power_w);
-    EXPECT_EQ(sum.worst().interferers, expected.interferers);
+    const Worst expected = plain_worst(frames, us(20), us(40));
+    EXPECT_EQ(sum.worst_w(), expected.sum_w);
+    EXPECT_EQ(sum.interferers(), expected.interferers);
 }
 
 TEST_P(RandomFrames, StepsAreTheSumAtEveryMoment) {

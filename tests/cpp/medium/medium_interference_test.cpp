@@ -28,7 +28,7 @@ public:
     void arrival_ended(const Arrival& arrival) override {
         if (arrival.lockable) {
             const double most_w =
-                medium_.interference_with(id_, arrival, arrival.start, arrival.end).worst().max_power_w;
+                medium_.interference_with(id_, arrival, arrival.start, arrival.end).worst_w();
             const double bound_w = medium_.most_interference_w(id_, arrival);
             EXPECT_LE(most_w, bound_w);
             EXPECT_LE(bound_w, medium_.most_interference_w(arrival) * (1 + 1e-6));
