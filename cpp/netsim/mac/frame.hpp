@@ -1,7 +1,7 @@
 // The frames of the 802.11 MAC and their sizes; those of 802.15.4 are Frames, too, with the sizes of
 // mac/frame_802154.hpp.
 //
-// A frame is a value: made once for each attempt to send it, never changed, shared by all that hear it.
+// A frame is a value: made once, never changed, shared by all that hear it. A retry is another frame, with its bit set.
 // Source of sizes: IEEE 802.11 frame formats; LLC/SNAP, IPv4 and UDP headers as a datagram over WLAN has them.
 #pragma once
 

@@ -52,7 +52,7 @@ private:
 // The mode of the first frame to a destination. Throws ConfigError for a bitrate that the operation mode has not.
 const Mode& initial_mode(const MacConfig& config);
 
-// The one of MacConfig::rate_control, for station `node`.
+// The one of MacConfig::rate_control, for the station of `interface`.
 std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed,
                                                InterfaceId interface);
 

@@ -154,7 +154,10 @@ private:
         SimTime time;
         Place place = 0;
     };
-    // An arrival to come.
+    // An arrival that matters to the radio by itself, as is known when the transmission begins. The radio is told twice: of its
+    // beginning and of its end, in their order among those of all who hear it (OnAir::told counts them). A radio to which it
+    // comes to matter later, together with others, is told apart. All other radios never learn of it: there it is energy and
+    // interference, summed where somebody asks.
     struct Heard {
         SimTime start;
         double power_w = 0;

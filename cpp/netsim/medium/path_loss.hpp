@@ -82,7 +82,7 @@ inline double PathLoss::gain_at_squared_distance(double squared_distance_m2, dou
     return at_one_metre >= divisor ? 1 : at_one_metre / divisor;
 }
 
-// The table of models: config.path_loss chooses. Throws ConfigError for a name that is not in it.
+// The one that config.path_loss names. Throws ConfigError for a name that is not in it.
 PathLoss make_path_loss(const MediumConfig& config);
 
 }  // namespace netsim

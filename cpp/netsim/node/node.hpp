@@ -1,4 +1,4 @@
-// One node: its protocol above, its mobility and network interface below.
+// One node: its protocol above, its mobility and network interfaces below.
 #pragma once
 
 #include <cstddef>

@@ -161,7 +161,7 @@ void Radio::end_header() {
         return;
     }
     const Transmission& lost = *std::exchange(locked_, nullptr);
-    remember(lost, FrameFate::header_error);
+    add_to_fingerprint(lost, FrameFate::header_error);
     book(lost, FrameFate::header_error);
     listener_->frame_corrupted();
     update_busy();
@@ -187,7 +187,7 @@ void Radio::end_reception(const Arrival& arrival) {
     const FrameFate fate =
         by_chunks_ ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
     const bool decoded = fate == FrameFate::delivered;
-    remember(transmission, fate);
+    add_to_fingerprint(transmission, fate);
     if (is_observed_) {
         observer_->received(arrival, reception_.noise_w, decoded);
     }
@@ -254,7 +254,7 @@ bool Radio::header_survives() {
     return reception_draws_.uniform() < reception_.success(FramePart::header, locked_arrival_, interference);
 }
 
-void Radio::remember(const Transmission& transmission, FrameFate fate) {
+void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
     medium_.fingerprint().add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
     medium_.fingerprint().add(static_cast<std::uint64_t>(interface_.stream()));
 }

@@ -142,7 +142,7 @@ private:
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
         return medium_.interference_with(id_, arrival, period.start, period.end);
     }
-    void remember(const Transmission& transmission, FrameFate fate);
+    void add_to_fingerprint(const Transmission& transmission, FrameFate fate);
     void book(const Transmission& transmission, FrameFate fate);
     void transmission_over();
     void update_busy();
