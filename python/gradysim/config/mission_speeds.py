@@ -1,7 +1,8 @@
 """A mission of the plugin flies at a speed of its own, whatever `mobility.speed` says.
 
 Nobody can mean both a speed in the .ini file and the default of a mission that says none. That it says none
-is found in the text of the protocol's classes, before anything runs.
+is found in the text of the protocol's classes, before anything runs; where that sets some speed, however it
+does, nothing is told.
 """
 
 import ast
@@ -13,9 +14,11 @@ from functools import lru_cache
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.source import Source
 from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
 
 _PLUGIN, _CONFIGURATION = MissionMobilityPlugin.__name__, MissionMobilityConfiguration.__name__
+_COMMAND = SetSpeedMobilityCommand.__name__
 _CONFIGURATION_PLACE = 1  # among the arguments of the plugin
 _SPEED_PLACE = 0  # among those of the configuration
 
@@ -39,8 +42,11 @@ def mission_speeds(nodes: Iterable[NodeSpec]) -> Iterator[str]:
 
 @lru_cache(maxsize=1024)
 def _flies_at_the_default(protocol: type[IProtocol]) -> bool:
-    """Whether it makes a mission plugin, and neither configuration says a speed."""
-    calls = [call for cls in protocol.__mro__ for call in _calls(cls)]
+    """Whether it makes a mission plugin, neither configuration says a speed, and nothing sets one later."""
+    code = [node for cls in protocol.__mro__ for node in _code(cls)]
+    if any(_sets_a_speed(node) for node in code):
+        return False
+    calls = [node for node in code if isinstance(node, ast.Call)]
     plugins = [call for call in calls if _name(call) == _PLUGIN]
     configurations = [call for call in calls if _name(call) == _CONFIGURATION]
     if any(_has(call, "speed", _SPEED_PLACE) for call in configurations):
@@ -48,14 +54,24 @@ def _flies_at_the_default(protocol: type[IProtocol]) -> bool:
     return any(configurations or not _has(call, "configuration", _CONFIGURATION_PLACE) for call in plugins)
 
 
-def _calls(cls: type) -> list[ast.Call]:
+def _code(cls: type) -> list[ast.AST]:
     if cls.__module__.partition(".")[0] in ("gradysim", "builtins", "abc"):
         return []
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(cls)))
     except (OSError, TypeError, SyntaxError):  # there is no text of it
         return []
-    return [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+    return list(ast.walk(tree))
+
+
+def _sets_a_speed(node: ast.AST) -> bool:
+    """As `configuration.speed = 9`, `replace(configuration, speed=9)` or a command to the vehicle do."""
+    match node:
+        case ast.Attribute(attr="speed", ctx=ast.Store()) | ast.keyword(arg="speed"):
+            return True
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            return name == _COMMAND
+    return False
 
 
 def _name(call: ast.Call) -> str:

@@ -61,6 +61,9 @@ def test_ways_to_say_no_speed(folder: Any, code: str) -> None:
         "MissionMobilityPlugin(self, self.configuration)",
         "MissionMobilityPlugin(self, MissionMobilityConfiguration(**self.options))",
         "MissionMobilityPlugin(*self.arguments)",
+        "c = MissionMobilityConfiguration(); c.speed = 9; MissionMobilityPlugin(self, c)",
+        "MissionMobilityPlugin(self, replace(MissionMobilityConfiguration(tolerance=3), speed=9))",
+        "MissionMobilityPlugin(self); self.provider.send_mobility_command(SetSpeedMobilityCommand(9))",
     ],
 )
 def test_a_mission_that_may_say_its_speed_is_not_told(folder: Any, code: str) -> None:
