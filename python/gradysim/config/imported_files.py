@@ -15,11 +15,12 @@ _INSTALLED = ("site-packages", "dist-packages")
 def files_of_python(file: Path, root: Path) -> tuple[Path, ...]:
     """Return `file` and all files below the folder `root` that it imports, or that these import.
 
-    `root` is the folder that imports are seen from; where packages are installed, only those of the file's
-    own package count. A file that cannot be read, or is no Python, imports nothing.
+    `root` is the folder that imports are seen from, and packages between it and the file are imported, too.
+    Where packages are installed, only those of the file's own package count. A file that cannot be read, or
+    is no Python, imports nothing.
     """
-    found = {file: None}
-    waiting = [file]
+    found = dict.fromkeys((file, *_files_on_the_way(list(file.relative_to(root).parts[:-1]), root)))
+    waiting = list(found)
     own = root / file.relative_to(root).parts[0] if root.name in _INSTALLED else root
     while waiting:
         for imported in _imported_files(waiting.pop(), root):

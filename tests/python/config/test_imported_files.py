@@ -38,6 +38,19 @@ def test_modules_of_packages(tmp_path: Path) -> None:
     assert found == {"main.py", "p/__init__.py", "p/a.py", "p/b.py", "p/c.py"}
 
 
+def test_the_packages_around_a_file_count_with_what_they_import(tmp_path: Path) -> None:
+    root, package = tmp_path, tmp_path / "p" / "q"
+    package.mkdir(parents=True)
+    (package / "__init__.py").write_text("from p import a")
+    for name in ("a", "b", "q/main"):
+        (root / "p" / f"{name}.py").write_text("")
+    assert names(root, files_of_python(package / "main.py", root)) == {
+        "p/q/main.py",
+        "p/q/__init__.py",
+        "p/a.py",
+    }
+
+
 def test_folders_without_init(tmp_path: Path) -> None:
     assert files(tmp_path, main="import p.q.a", p__q__a="", p__b="") == {"main.py", "p/q/a.py"}
 
