@@ -217,6 +217,7 @@ def left_to_do(
     Raises ConfigError without a folder, and for names in `fates_at` that are none of nodes.
     """
     from gradysim.config.error import ConfigError
+    from gradysim.config.file_hashes import text_of_files
     from gradysim.config.run_numbers import text_of_runs
     from gradysim.results.run_file import files_changed_since
 
@@ -234,8 +235,8 @@ def left_to_do(
             outdated.setdefault(changed, []).append(scenario.run_number)
     for files, runs in outdated.items():
         print(
-            f"{scenarios[0].config}: {' and '.join(files)} changed after {len(runs)} of {len(scenarios)} runs"
-            f" in {result_dir} ({text_of_runs(runs)}), which begin anew",
+            f"{scenarios[0].config}: {text_of_files(files)} changed after {len(runs)} of {len(scenarios)}"
+            f" runs in {result_dir} ({text_of_runs(runs)}), which begin anew",
             file=sys.stderr,
         )
     if done:

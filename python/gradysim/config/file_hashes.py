@@ -2,11 +2,14 @@
 
 import hashlib
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 _LENGTH = 16
 """Hexadecimal digits, as many as a fingerprint has."""
+
+_MOST_NAMES = 3
+"""Of files that are told."""
 
 
 class FileHashes:
@@ -34,8 +37,18 @@ class FileHashes:
             return file.as_posix()
 
 
+def text_of_files(names: Sequence[str]) -> str:
+    """Return the names of files for a sentence, "a.py and b.py"; of many only the first ones."""
+    left_out = len(names) - _MOST_NAMES
+    if left_out > 1:
+        return f"{', '.join(names[:_MOST_NAMES])} and {left_out} other files"
+    return " and ".join(names)
+
+
 def _hash(file: Path) -> str:
+    if not file.is_file():  # a pipe, of which nothing would be left for whoever needs it, or gone
+        return ""
     try:
         return hashlib.sha256(file.read_bytes()).hexdigest()[:_LENGTH]
-    except OSError:  # gone, or a secret, which whoever needs it will say
+    except OSError:  # a secret, which whoever needs it will say
         return ""

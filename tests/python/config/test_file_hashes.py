@@ -1,6 +1,8 @@
 from pathlib import Path
 
-from gradysim.config.file_hashes import FileHashes
+import pytest
+
+from gradysim.config.file_hashes import FileHashes, text_of_files
 from gradysim.config.scenario import Scenario, load_scenarios
 
 
@@ -22,6 +24,19 @@ def test_equal_content_has_an_equal_hash(tmp_path: Path) -> None:
 
 def test_a_file_that_cannot_be_read_has_none(tmp_path: Path) -> None:
     assert FileHashes(tmp_path).of([tmp_path / "gone"]) == {"gone": ""}
+
+
+def test_what_is_no_regular_file_is_not_read(tmp_path: Path) -> None:
+    (tmp_path / "null").symlink_to("/dev/null")
+    assert list(FileHashes(tmp_path).of([tmp_path / "null"]).values()) == [""]
+
+
+@pytest.mark.parametrize(
+    ("names", "text"),
+    [("a", "a"), ("ab", "a and b"), ("abcd", "a and b and c and d"), ("abcde", "a, b, c and 2 other files")],
+)
+def test_of_many_files_the_first_ones_are_named(names: str, text: str) -> None:
+    assert text_of_files(tuple(names)) == text
 
 
 def load(folder: Path, *lines: str) -> Scenario:
