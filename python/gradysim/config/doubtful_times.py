@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator
 from gradysim.config.error import BadValue
 from gradysim.config.expression import parse_value
 from gradysim.config.node_spec import NodeSpec
+from gradysim.config.parameter_stream import ParameterDraws
 from gradysim.config.parameter_unit import unit_of
 from gradysim.config.quantity import Quantity
 from gradysim.config.source import Source
@@ -55,7 +56,7 @@ def _is_named_like_a_time(name: str) -> bool:
 def _unit_of_no_time(text: str) -> str:
     """The name of the unit that the text has, if it is none of times; else ""."""
     try:
-        value = parse_value(text)
+        value = parse_value(text, ParameterDraws(0, ""))  # whatever is drawn, its unit is the same
     except BadValue:  # with a variable in it, or a list of values
         return "m" if "${" in text and '"' not in text and _METRES_IN_A_LIST.search(text) else ""
     unit: Unit | None = value.unit if isinstance(value, Quantity) else None

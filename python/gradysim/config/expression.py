@@ -5,7 +5,8 @@ Its grammar:
 - sum = product (("+" | "-") product)*
 - product = signed (("*" | "/") signed)*
 - signed = "-" signed | "+" signed | term ["^" signed]
-- term = quantity+ | text | "true" | "false" | "(" sum ")"
+- term = quantity+ | text | "true" | "false" | "(" sum ")" | call
+- call = function "(" [sum ("," sum)*] ")", of a function in drawing_functions
 - quantity = number [unit]; several of different units stand for their sum, as in `1h 5min`
 """
 
@@ -13,7 +14,9 @@ import math
 import re
 from fractions import Fraction
 
+from gradysim.config.drawing_functions import check_function, draw
 from gradysim.config.error import BadValue
+from gradysim.config.parameter_stream import ParameterDraws
 from gradysim.config.quantity import Number, Quantity
 from gradysim.config.stray_token import not_understood
 from gradysim.config.units import unit_named
@@ -25,7 +28,7 @@ _TOKENS = re.compile(
       (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
     | (?P<text>"(?:[^"\\]|\\.)*")
     | (?P<word>[A-Za-z_%]+)
-    | (?P<sign>[-+*/^()])
+    | (?P<sign>[-+*/^(),])
     | (?P<other>\S)
     )""",
     re.VERBOSE | re.ASCII | re.DOTALL,
@@ -38,17 +41,20 @@ _MAX_DEPTH = 50
 _MAX_DIGITS = 300
 
 
-def parse_value(text: str) -> Value:
+def parse_value(text: str, draws: ParameterDraws | None = None) -> Value:
     """The value of a text such as `1h 5min`, `-85dBm`, `2 * 50m`, `"g(mixed)"` or `true`.
+
+    With `draws`, those of the parameter that it is for, it may be drawn: `uniform(0m, 1km)`.
 
     Raises:
         BadValue: It is none.
     """
-    return _Parser(text).parse()
+    return _Parser(text, draws).parse()
 
 
 class _Parser:
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, draws: ParameterDraws | None) -> None:
+        self._draws = draws
         self._tokens = [
             (match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKENS.finditer(text)
         ]
@@ -119,9 +125,25 @@ class _Parser:
             return value
         if kind == "word":
             if self._accept("("):
-                raise BadValue(f"there is no function `{token}`; values are fixed numbers and texts")
+                return self._call(token)
             raise BadValue(f"`{token}` is no value (a text stands in quotes)", self._hint_at(token))
         raise not_understood(token, self._text) if kind else BadValue("the value ends too early")
+
+    def _call(self, name: str) -> Quantity:
+        """What the function draws; its `(` has been read."""
+        check_function(name)
+        if self._draws is None:
+            raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
+        stream = self._draws.next_stream()
+        values: list[Quantity] = []
+        while not self._accept(")"):
+            if values and not self._accept(","):
+                raise BadValue("`(` is not closed")
+            value = self._sum()
+            if not isinstance(value, Quantity):
+                raise BadValue(f"`{name}` takes numbers only")
+            values.append(value)
+        return draw(name, values, stream)
 
     def _hint_at(self, word: str) -> str:
         if word.lower() in _WORDS:

@@ -54,7 +54,7 @@ def find_groups(lookup: Lookup, settings: SettingReader) -> list[Group]:
         entries = [lookup.first(size_key), lookup.first(name, GROUP_SIZE.path)]
         given = sorted((found for found in entries if found), key=lambda found: found.order)
         if given and not given[0].is_default:
-            size = int(settings.scalar(given[0].entry, GROUP_SIZE.kind))
+            size = int(settings.scalar(given[0].entry, GROUP_SIZE.kind, f"{name}.{GROUP_SIZE.path}"))
             groups.append(Group(name, size, given[0], size_key))
         elif name in mentions.with_class:
             groups.append(Group(name, None, None, size_key))

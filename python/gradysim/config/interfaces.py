@@ -35,7 +35,8 @@ def interface_counts(lookup: Lookup, groups: list[Group], settings: SettingReade
             if found is None or found.is_default:
                 counts[name] = 1
             else:
-                counts[name] = int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind))
+                path = f"{name}.{NUM_WLAN_INTERFACES.path}"
+                counts[name] = int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind, path))
     return counts
 
 
@@ -61,13 +62,19 @@ class InterfaceBuilder:
             )
         in_force = [(key, candidates.first(node)) for key, candidates in self._keys[index]]
         found = {key: entry for key, entry in in_force if entry is not None}
-        known = tuple((key.path, entry) for key, entry in found.items())
+        drawn_for = (node, index) if any(entry.draws for entry in found.values()) else None
+        known = (drawn_for, *((key.path, entry) for key, entry in found.items()))
         spec = self._known.get(known)
         if spec is None:
             is_802154 = self._is_802154(found)
             in_band = _of_802154(found) if is_802154 else self._in_its_band(found)
             try:
-                structs = {struct: read_struct(struct, in_band, self._settings) for struct in STRUCTS}
+                structs = {
+                    struct: read_struct(
+                        struct, in_band, self._settings, lambda key: f"{node}.{at_interface(key.path, index)}"
+                    )
+                    for struct in STRUCTS
+                }
             except ConfigError as error:
                 channel = found.get(CHANNEL_NUMBER)
                 if channel is None or channel.entry.source != error.source or not self._has_typenames():

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation, Overflow
 
+from gradysim.config.drawing_functions import drawing_function_in
 from gradysim.config.error import ConfigError
 from gradysim.config.lookup import is_ignored
 from gradysim.config.nearest import did_you_mean
@@ -190,6 +191,12 @@ def _values(part: str, entry: Entry) -> Iterator[str]:
                 entry.source,
                 f"`{part}` is no range; expected plain numbers, and the unit behind the brace:"
                 " `${10..60 step 10}m`",
+            )
+        if function := drawing_function_in(part):
+            raise ConfigError.at(
+                entry.source,
+                f"`{function}` draws the value of one parameter, and a value of `${{...}}` is for a whole"
+                " run; expected the variable inside of the function: `uniform(0s, ${1, 5}s)`",
             )
         yield part
         return

@@ -74,6 +74,8 @@ def check_names(lookup: Lookup, groups: list[Group]) -> list[Source]:
         is_of_network = found.parts and found.parts[0].matches(lookup.network)
         if is_of_network and (known[name.text] or _is_beyond_overridden_size(found, groups)):
             continue
+        if is_of_network and _is_beyond_drawn_size(found, groups):
+            continue
         if not (is_of_network and _is_beyond_varying_size(found, groups)):
             raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
         elsewhere.append(found.entry.source)
@@ -184,6 +186,12 @@ def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
     """Whether a key names an index of a group whose size is another one in each combination of values."""
     size = _size_of_indexed_group(found, groups)
     return size is not None and "${" in size.entry.source.value
+
+
+def _is_beyond_drawn_size(found: Found, groups: list[Group]) -> bool:
+    """Whether a key names an index of a group whose size is drawn: runs of other seeds may have it."""
+    size = _size_of_indexed_group(found, groups)
+    return size is not None and size.draws
 
 
 def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:

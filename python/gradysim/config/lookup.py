@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
+from gradysim.config.drawing_functions import drawing_function_in
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.keys.options import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
 from gradysim.config.pattern import Pattern, compile_pattern
@@ -26,6 +27,7 @@ class Found:
         pattern: Its key, compiled.
         parts: The pattern for the network, for the name below it and for the rest (which may be missing), or
             None if `**` makes them uncertain.
+        draws: Whether its value is drawn, so that no two parameters have the same.
     """
 
     order: int
@@ -33,6 +35,7 @@ class Found:
     entry: Entry
     pattern: Pattern
     parts: list[Pattern] | None
+    draws: bool
 
     @property
     def is_default(self) -> bool:
@@ -153,4 +156,5 @@ def _compile(order: int, rank: int, entry: Entry) -> Found:
     except BadValue as error:
         raise ConfigError(f"{entry.key}: {error}", entry.source) from error
     parts = pattern.split()
-    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None)
+    draws = bool(drawing_function_in(entry.text))
+    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None, draws)

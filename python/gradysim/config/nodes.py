@@ -36,7 +36,7 @@ _TYPENAME = next(key for key in MOBILITY_KEYS if key.target == "mobility.typenam
 _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Shared:
     """What nodes with the same entries in force have in common; line is start and step for each axis.
 
@@ -138,7 +138,7 @@ class _NodeBuilder:
         self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
         self._interfaces = InterfaceBuilder(lookup, settings)
         self._shared: dict[object, _Shared] = {}
-        self._grids: dict[tuple[int, str], Grid] = {}
+        self._grids: dict[tuple[_Shared, str], Grid] = {}
 
     def shared(self, name: str, protocol: ChosenProtocol, interface_count: int) -> _Shared:
         cls = protocol.cls
@@ -153,32 +153,37 @@ class _NodeBuilder:
         found_parameters = [candidates.first(name) for _, _, candidates in parameters]
         wlan = self._interfaces.interfaces(name, interface_count)
         in_force = (protocol, *map(id, wlan), *found, *found_parameters)
+        draws = any(entry.draws for entry in (*found, *found_parameters) if entry)
         shared = self._shared.get(in_force)
-        if shared is None:
-            shared = self._shared[in_force] = self._make(
+        if shared is None or draws:  # the same lines give each node other values if they draw
+            made = self._make(
+                name,
                 {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},
                 wlan,
                 protocol.source,
                 {
-                    parameter: self._settings.setting(entry.entry, kind)
+                    parameter: self._settings.setting(entry.entry, kind, f"{name}.protocol.{parameter}")
                     for (parameter, kind, _), entry in zip(parameters, found_parameters, strict=True)
                     if entry and not entry.is_default
                 },
             )
+            shared = _with_mappings_of(shared, made) if shared else made
+            self._shared[in_force] = shared
         return shared
 
     def grid(self, shared: _Shared, group: Group) -> Grid:
         """Return the grid of those nodes of a group; one that nobody reads if they are in none."""
         if shared.grid_line is None:
             return _NO_GRID
-        grid = self._grids.get((id(shared), group.name))
+        grid = self._grids.get((shared, group.name))
         if grid is None:
             grid = read_grid(shared.grid_settings, group, shared.grid_line)
-            self._grids[id(shared), group.name] = grid
+            self._grids[shared, group.name] = grid
         return grid
 
     def _make(
         self,
+        name: str,
         found: dict[Key, Found],
         wlan: tuple[InterfaceSpec, ...],
         chosen_at: Source,
@@ -187,9 +192,13 @@ class _NodeBuilder:
         parameters = {name: setting.value for name, setting in protocol_settings.items()}
         sources = {name: setting.source for name, setting in protocol_settings.items()}
         position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
-        position_settings = read_struct("position", found, self._settings)
+
+        def path_of(key: Key) -> str:
+            return f"{name}.{key.path}"
+
+        position_settings = read_struct("position", found, self._settings, path_of)
         values = {field: float(setting.value) for field, setting in position_settings.items()}
-        mobility = read_struct("mobility", found, self._settings)
+        mobility = read_struct("mobility", found, self._settings, path_of)
         typename = mobility.get("typename")
         is_static_grid = typename is not None and typename.value == STATIC_GRID
         if is_static_grid:
@@ -207,9 +216,19 @@ class _NodeBuilder:
             position_settings,
             first.entry.source if first else None,
             mobility=mobility,
-            node=read_struct("node", found, self._settings),
+            node=read_struct("node", found, self._settings, path_of),
             wlan=wlan,
         )
+
+
+def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
+    """The same for a node with the same entries in force, sharing what no draw has made another."""
+    return replace(
+        made,
+        protocol_sources=other.protocol_sources,
+        mobility=other.mobility if other.mobility == made.mobility else made.mobility,
+        node=other.node if other.node == made.node else made.node,
+    )
 
 
 def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:

@@ -55,7 +55,7 @@ def read_obstacles(
 
 def _setting(lookup: Lookup, settings: SettingReader, key: Key, path: str) -> Setting | None:
     found = lookup.first(*path.split(".", 1))
-    return None if found is None or found.is_default else settings.setting(found.entry, key.kind)
+    return None if found is None or found.is_default else settings.setting(found.entry, key.kind, path)
 
 
 def _source_of_count(lookup: Lookup) -> Source | None:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from gradysim.config.constraint import holds
+from gradysim.config.drawing_functions import drawing_function_in
 from gradysim.config.error import ConfigError
 from gradysim.config.file_hashes import FileHashes
 from gradysim.config.groups import find_groups
@@ -16,9 +17,10 @@ from gradysim.config.iterations import (
     count_combinations,
     name_iterations,
 )
+from gradysim.config.key import Key
 from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS
-from gradysim.config.keys.options import OPTIONS
+from gradysim.config.keys.options import LARGEST_SEED, OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
@@ -66,7 +68,8 @@ class Scenario:
         config: Name of the configuration.
         run_number: From 0, over all combinations of values that the configuration iterates over, and their
             repetitions.
-        seed: Of all random streams of the run.
+        seed: Of all random streams of the run, those of values that the file draws included: they are drawn
+            when it is read, so that `replace(scenario, seed=...)` leaves them.
         description: What the configuration says of itself, or "".
         sim_time_limit_s: Simulated time at which the run ends.
         nodes: In the order of their ids.
@@ -130,6 +133,7 @@ def load_scenarios(
     config: str = "General",
     runs: str | Iterable[int] | None = None,
     overrides: Iterable[str] = (),
+    seed: int | None = None,
 ) -> list[Scenario]:
     """Read a configuration and check all of it.
 
@@ -138,6 +142,7 @@ def load_scenarios(
         config: Name of the configuration in it.
         runs: Numbers of the runs that are wanted, or a text such as "0,2,5..9"; None for all.
         overrides: "KEY=VALUE" texts that come before all of the file; of several that match, the first.
+        seed: Seed of run 0, to which run N adds N; None for the file's seed-set.
 
     Returns:
         One scenario per run, by run number.
@@ -162,26 +167,32 @@ def load_scenarios(
     ranked, variables = name_iterations(ranked)
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
     numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source)
+    if seed is not None:
+        _check_seed(seed, max((number for number, _, _ in numbered), default=0))
 
     loader, hashes = ProtocolLoader(), FileHashes(file.parent)
-    networks: dict[tuple[str, ...], _Network] = {}
-    varying = [
-        entry
-        for _, entry in ranked
-        if not is_option(entry) and not is_ignored(entry) and depends_on_run(entry)
-    ]
+    networks: dict[tuple[str | int, ...], _Network] = {}
+    parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
+    varying = [entry for entry in parameters if depends_on_run(entry)]
+    always_draws = any(drawing_function_in(entry.text) for entry in parameters)
     instead = _what_to_run_instead(ini, config, sections)
     in_force = entries_of_the_hash(ranked)
     elsewhere: list[Sequence[Source]] = []
     scenarios = []
     for number, repetition, iterations in numbered:
         values = run_variables(config, number, repetition, iterations)
-        alike = tuple(substitute(entry, values).text for entry in varying)
-        if alike not in networks:
-            networks = {alike: _network(_substituted(ranked, values), loader, hashes, instead, source)}
-            elsewhere.append(networks[alike].lines_of_other_runs)
         options = _options(_substituted(only_options, values))
-        scenario = _scenario(file, config, number, options, networks[alike], sections)
+        seed_of_file = _seed(options, number)
+        seed_of_run = seed_of_file if seed is None else seed + number
+        texts = [substitute(entry, values).text for entry in varying]
+        draws = always_draws or any(map(drawing_function_in, texts))
+        alike = (*texts, *([seed_of_run] if draws else ()))
+        if alike not in networks:
+            settings = SettingReader(seed_of_run)
+            network = _network(_substituted(ranked, values), settings, loader, hashes, instead, source)
+            networks = {alike: network}
+            elsewhere.append(network.lines_of_other_runs)
+        scenario = _scenario(file, config, number, seed_of_run, options, networks[alike], sections)
         scenarios.append(
             replace(
                 scenario,
@@ -203,6 +214,22 @@ def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
             raise ConfigError(
                 f"`{line.key}` matches no node in any run; expected a node that some run has", line
             )
+
+
+def _check_seed(seed: int, last_run: int) -> None:
+    if not 0 <= seed <= LARGEST_SEED:
+        raise ConfigError(f"--seed {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
+    if seed + last_run > LARGEST_SEED:
+        raise ConfigError(
+            f"--seed {seed}: run {last_run} would have the seed {seed + last_run}; expected at most"
+            f" {LARGEST_SEED - last_run}, since run N adds N"
+        )
+
+
+def _seed(options: Mapping[str, Entry], run_number: int) -> int:
+    """What the file says, by default the number of the run."""
+    seed = options.get("seed-set")
+    return int(read_scalar(seed, OPTIONS["seed-set"])) if seed else run_number
 
 
 def _numbered_runs(
@@ -259,6 +286,7 @@ def _scenario(
     file: Path,
     config: str,
     number: int,
+    seed: int,
     options: Mapping[str, Entry],
     network: _Network,
     sections: list[Section],
@@ -269,13 +297,12 @@ def _scenario(
             f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`",
             sections[0].source,
         )
-    seed = options.get("seed-set")
     description = options.get("description")
     return Scenario(
         file=file,
         config=config,
         run_number=number,
-        seed=int(read_scalar(seed, OPTIONS["seed-set"])) if seed else number,
+        seed=seed,
         description=_description(description) if description else "",
         sim_time_limit_s=float(read_scalar(sim_time_limit, OPTIONS["sim-time-limit"])),
         nodes=network.nodes,
@@ -308,13 +335,13 @@ def _description(entry: Entry) -> str:
 
 def _network(
     ranked: list[tuple[int, Entry]],
+    settings: SettingReader,
     loader: ProtocolLoader,
     hashes: FileHashes,
     instead: str,
     source: Source,
 ) -> _Network:
     lookup = Lookup(ranked)
-    settings = SettingReader()
     groups = find_groups(lookup, settings)
     try:
         lines_of_other_runs = check_names(lookup, groups)
@@ -332,8 +359,8 @@ def _network(
     found = {
         key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None
     }
-    communication = read_struct("communication_medium", found, settings)
-    reference = read_struct("reference", found, settings)
+    communication = read_struct("communication_medium", found, settings, _path_of)
+    reference = read_struct("reference", found, settings, _path_of)
     latitude, longitude, altitude = (
         float(reference[field].value) if field in reference else 0.0
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
@@ -347,7 +374,7 @@ def _network(
     files = [file for protocol in set(protocols.values()) for file in protocol.files]
     return _Network(
         nodes=nodes,
-        medium=read_struct("medium", found, settings),
+        medium=read_struct("medium", found, settings, _path_of),
         communication_medium=CommunicationMediumSpec(
             **{field: float(setting.value) for field, setting in communication.items()}
         ),
@@ -356,3 +383,8 @@ def _network(
         file_hashes=hashes.of([*files, *obstacle_files(lookup, settings), *settings.files()]),
         lines_of_other_runs=lines_of_other_runs,
     )
+
+
+def _path_of(key: Key) -> str:
+    """Of a parameter of the network."""
+    return key.path

@@ -3,9 +3,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from gradysim.config.drawing_functions import drawing_function_in
 from gradysim.config.error import BadValue, ConfigError
 from gradysim.config.expression import Value, parse_value
 from gradysim.config.kinds import Kind, Scalar
+from gradysim.config.parameter_stream import ParameterDraws
 from gradysim.config.reader import Entry
 from gradysim.config.source import Source
 
@@ -19,16 +21,24 @@ class Setting:
 
 
 class SettingReader:
-    """Reads values; each entry once for each kind, however many nodes it is in force for."""
+    """Reads values; each entry once for each kind, however many nodes it is in force for, unless it draws."""
 
-    def __init__(self) -> None:
+    def __init__(self, seed: int = 0) -> None:
+        """For the run with that seed."""
+        self._seed = seed
         self._settings: dict[tuple[int, int], tuple[Entry, Kind, Setting]] = {}
 
-    def setting(self, entry: Entry, kind: Kind) -> Setting:
-        """The value of an entry. Raises ConfigError with its place if it is not of that kind."""
+    def setting(self, entry: Entry, kind: Kind, path: str = "") -> Setting:
+        """The value of an entry. Raises ConfigError with its place if it is not of that kind.
+
+        `path` is the parameter that it is for, from below the network; without one nothing is drawn.
+        """
         key = (id(entry), id(kind))
         known = self._settings.get(key)
         if known is None:
+            if path and drawing_function_in(entry.text):
+                drawn = read_scalar(entry, kind, ParameterDraws(self._seed, path))
+                return Setting(drawn, entry.source)
             # Entry and kind are kept beside the value, so that their ids are not given to others.
             known = self._settings[key] = (entry, kind, Setting(read_scalar(entry, kind), entry.source))
         return known[2]
@@ -41,25 +51,32 @@ class SettingReader:
             if kind.is_file and setting.value
         ]
 
-    def scalar(self, entry: Entry, kind: Kind) -> Scalar:
+    def scalar(self, entry: Entry, kind: Kind, path: str = "") -> Scalar:
         """Only the value."""
-        return self.setting(entry, kind).value
+        return self.setting(entry, kind, path).value
 
 
-def read_scalar(entry: Entry, kind: Kind) -> Scalar:
-    """The value of an entry. Raises ConfigError with its place if it is not of that kind."""
+def read_scalar(entry: Entry, kind: Kind, draws: ParameterDraws | None = None) -> Scalar:
+    """The value of an entry. Raises ConfigError with its place if it is not of that kind.
+
+    It may draw if `draws` are given.
+    """
+    written: Value | None = None
     try:
-        value = kind.convert(_value_of(entry, kind))
+        written = _value_of(entry, kind, draws)
+        value = kind.convert(written)
         return str(entry.source.file.parent / str(value)) if kind.is_file and value else value
     except BadValue as error:
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
-        this_run = f"that is {entry.text}: " if is_of_one_run else ""
-        text = f"{this_run}{error.problem}; expected {kind.expected}{error.suggestion}"
+        this = f"that is {entry.text}: " if is_of_one_run else ""
+        if draws is not None and written is not None:
+            this += f"that is {written} for {draws.path}: "
+        text = f"{this}{error.problem}; expected {kind.expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 
 
-def _value_of(entry: Entry, kind: Kind) -> Value:
+def _value_of(entry: Entry, kind: Kind, draws: ParameterDraws | None) -> Value:
     """The value; where a text is meant, the command line needs no quotes, which a shell takes away."""
     if kind.is_text and entry.source.is_command_line and not entry.text.startswith('"'):
         return entry.text
-    return parse_value(entry.text)
+    return parse_value(entry.text, draws)

@@ -31,6 +31,8 @@ class Purpose(IntEnum):
 
     PROTOCOL = 3
     """`IProvider.random`."""
+    PARAMETER = 7
+    """Values that an .ini file draws; of the path of the parameter in the place of a node."""
     COMMUNICATION = 101
     """Lost messages of prototype mode; of the receiver."""
 

@@ -36,7 +36,9 @@ def test_a_time_in_metres_is_told_once_with_its_line(folder: Any) -> None:
     )
 
 
-@pytest.mark.parametrize(("value", "unit"), [("5km", "km"), ("2 * 5Hz", "Hz"), ("-3dBm", "dBm")])
+@pytest.mark.parametrize(
+    ("value", "unit"), [("5km", "km"), ("2 * 5Hz", "Hz"), ("-3dBm", "dBm"), ("exponential(5km)", "km")]
+)
 def test_a_time_in_another_unit_is_told_too(folder: Any, value: str, unit: str) -> None:
     (text,) = told(folder, f"*.uavs[*].protocol.interval = {value}")
     assert text.endswith(

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from gradysim.config.error import BadValue
 from gradysim.config.expression import parse_value
+from gradysim.config.parameter_stream import ParameterDraws
 from gradysim.config.quantity import Quantity
 
 
@@ -126,7 +127,7 @@ def test_truth_values() -> None:
         ('"a" + "b"', "arithmetic is for numbers only"),
         (
             "uniform(0m, 100m)",
-            "there is no function `uniform`; values are fixed numbers and texts",
+            "`uniform` draws the value of a parameter, which this is not",
         ),
         ("(1", "`(` is not closed"),
         ("1)", "`)` is not understood there"),
@@ -148,7 +149,19 @@ def test_errors(text: str, message: str) -> None:
         parse_value(text)
 
 
-@given(st.text('0123456789.eE+-*/^() smWdB"xy', max_size=12))
+@given(st.text('0123456789.eE+-*/^(), smWdB"xy', max_size=12))
 def test_no_text_fails_in_any_other_way(text: str) -> None:
     with contextlib.suppress(BadValue):
         parse_value(text)
+
+
+@given(
+    st.lists(
+        st.sampled_from(
+            ["uniform(", "normal(", "intuniform(", "exponential(", "1", "2m", "inf", ",", ")", "-"]
+        )
+    )
+)
+def test_no_call_fails_in_any_other_way(parts: list[str]) -> None:
+    with contextlib.suppress(BadValue):
+        parse_value("".join(parts), ParameterDraws(1, "uavs[0].protocol.start"))

@@ -180,3 +180,10 @@ def test_a_number_for_one_standard_alone_has_no_other_to_be_left_to(
     error = folder.error(f"{SENSORS}{line}\n")
     assert problem in error
     assert "leaves it to" not in error
+
+
+def test_each_interface_draws_its_own_values(folder: Any) -> None:
+    scenario = folder.load(TWO + "*.uavs[*].wlan[*].radio.transmitter.power = uniform(1mW, 9mW)\n")
+    powers = [wlan.radio["tx_power_w"].value for node in scenario.nodes[1:] for wlan in node.wlan]
+    assert len(set(powers)) == 4
+    assert all(0.001 <= power < 0.009 for power in powers)

@@ -160,6 +160,17 @@ def test_the_variable_that_is_written_first_changes_slowest() -> None:
     ]
 
 
+def test_a_function_that_draws_is_no_value() -> None:
+    assert error_of("${1s, uniform(0s, 5s)}") == (
+        "a.ini:1: **.p1 = ${1s, uniform(0s, 5s)}: `uniform` draws the value of one parameter, and a value of"
+        " `${...}` is for a whole run; expected the variable inside of the function: `uniform(0s, ${1, 5}s)`"
+    )
+
+
+def test_a_variable_stands_inside_of_a_function() -> None:
+    assert named("uniform(0s, ${1, 5}s)", '${"uniform(1)"}')[0] == ["uniform(0s, ${0}s)", "${1}"]
+
+
 def test_variables_in_lock_step_change_together() -> None:
     variables = named("${10s, 20s ! x}", "${x=1,2}", "${y=a, b ! x}")[1]
     assert list(combinations(variables)) == [

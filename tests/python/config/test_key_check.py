@@ -120,6 +120,14 @@ def test_of_some_runs_alone_it_is_not_known_whether_others_have_a_node(folder: A
     assert speeds(one) == [None, None]
 
 
+def test_a_line_about_a_node_concerns_those_runs_that_draw_it(folder: Any) -> None:
+    folder.load("[X]\nrepeat = 20\n*.numUavs = intuniform(1, 3)\n*.uavs[2].mobility.speed = 3mps\n", "X")
+    scenarios = load_scenarios(folder.ini, "X")
+    assert {len(scenario.nodes) - 1 for scenario in scenarios} == {1, 2, 3}
+    assert all(speeds(scenario)[3:] == [3.0][: len(scenario.nodes) - 3] for scenario in scenarios)
+    folder.load("[X]\n*.numUavs = intuniform(1, 2)\n*.uavs[2].mobility.speed = 3mps\n", "X")
+
+
 def test_a_variable_in_a_key_is_refused_on_the_command_line_too(folder: Any) -> None:
     assert folder.error("", "General", "*.uavs[${n}].mobility.speed=1mps") == (
         "--set *.uavs[${n}].mobility.speed=1mps: `*.uavs[${n}].mobility.speed` has a variable;"

@@ -5,6 +5,7 @@ import pytest
 
 from gradysim.config.error import ConfigError
 from gradysim.config.kinds import choice, file_name, integer, number, quantity
+from gradysim.config.parameter_stream import ParameterDraws
 from gradysim.config.reader import Entry
 from gradysim.config.setting import Setting, SettingReader, read_scalar
 from gradysim.config.source import Source
@@ -67,3 +68,32 @@ def test_files_are_seen_from_the_folder_of_the_ini_file() -> None:
     assert read_scalar(Entry("*.x.y", '"table.csv"', source, "General"), file_name()) == "configs/table.csv"
     assert read_scalar(Entry("*.x.y", '"/table.csv"', source, "General"), file_name()) == "/table.csv"
     assert read_scalar(Entry("*.x.y", '""', source, "General"), file_name()) == ""
+
+
+def test_what_is_drawn_is_another_value_for_each_parameter_and_seed() -> None:
+    written = entry("uniform(1mps, 2mps)")
+    settings, others = SettingReader(1), SettingReader(2)
+    values = [
+        reader.scalar(written, SPEED, f"{node}.mobility.speed")
+        for reader in (settings, others, settings, SettingReader(1))
+        for node in ("a", "b")
+    ]
+    assert len(set(values)) == 4
+    assert values[:2] == values[4:6] == values[6:]
+
+
+def test_without_a_parameter_nothing_is_drawn() -> None:
+    with pytest.raises(ConfigError) as caught:
+        SettingReader().setting(entry("uniform(1mps, 2mps)"), SPEED)
+    assert str(caught.value) == (
+        "a.ini:7: *.x.y = uniform(1mps, 2mps): `uniform` draws the value of a parameter, which this is not;"
+        " expected a speed such as 10mps, at least 0mps"
+    )
+
+
+def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> None:
+    with pytest.raises(ConfigError) as caught:
+        read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, ParameterDraws(1, "x.y"))
+    text = str(caught.value)
+    assert text.startswith("a.ini:7: *.x.y = -exponential(2mps) - 3mps: that is -")
+    assert text.endswith("mps for x.y: it is out of range; expected a speed such as 10mps, at least 0mps")

@@ -34,6 +34,18 @@ def test_nearly_all_spread_reports_arrive(config: str) -> None:
     assert messages["acknowledged"] >= 0.99 * sum(messages.values())
 
 
+def test_scattered_sensors_are_elsewhere_in_each_run() -> None:
+    scenarios = load_scenarios(FILE, "Scattered")
+    places = {node.initial_position for scenario in scenarios for node in scenario.nodes}
+    assert len(places) == len(scenarios) * SENSORS + 1
+    assert all(-30 <= x <= 30 and -30 <= y <= 30 for x, y, _ in places)
+
+
+def test_scattered_reports_arrive() -> None:
+    (scenario, *_) = load_scenarios(FILE, "Scattered", overrides=["sim-time-limit = 60s"])
+    assert ground_station(run(scenario))["sensors_heard"] == SENSORS
+
+
 def test_synchronised_sensors_find_the_channel_busy() -> None:
     messages = result_of("Synchronised").fates["messages"]["unicast"]
     assert messages["channel_access_failure"] > 0.1 * sum(messages.values())
