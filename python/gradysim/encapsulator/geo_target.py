@@ -8,7 +8,10 @@ from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
 
 _FAR_M = 100e3
-"""Farther than any node flies to."""
+"""Farther than nodes fly, as a rule."""
+_SHARE = 1 / 20
+"""Of that distance, within which the exchanged target is: where latitude and longitude are nearly the same
+number, a place on the other side of the diagonal may well be meant."""
 
 
 def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Position) -> Position:
@@ -21,7 +24,8 @@ def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Po
 
     Raises:
         MasslessMobilityException: They are not three finite numbers, the latitude is off the globe, the place
-            is too far away, or latitude and longitude are exchanged: far away so, and near the other way.
+            is too far away, or latitude and longitude are exchanged: far away so, and much nearer the other
+            way.
     """
     place = three_numbers(command)
     if place is None:
@@ -39,9 +43,10 @@ def geo_target(command: MobilityCommand, node_id: int, reference_coordinates: Po
             f"{_far_away(command, node_id, target)}; expected at most {LARGEST_COORDINATE_M} m on each axis"
         )
     latitude, longitude, altitude = place
-    if math.hypot(*target[:2]) > _FAR_M and -90 <= longitude <= 90:
+    distance_m = math.hypot(*target[:2])
+    if distance_m > _FAR_M and -90 <= longitude <= 90:
         exchanged = geo_to_cartesian(reference_coordinates, (longitude, latitude, altitude))
-        if math.hypot(*exchanged[:2]) <= _FAR_M:
+        if math.hypot(*exchanged[:2]) <= min(_FAR_M, distance_m * _SHARE):
             raise MasslessMobilityException(
                 f"{_far_away(command, node_id, target)}; expected latitude before longitude: did you mean "
                 f"latitude {longitude!r}, longitude {latitude!r}?"

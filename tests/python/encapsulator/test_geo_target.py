@@ -43,6 +43,11 @@ def test_latitude_and_longitude_exchanged_are_refused():
     )
 
 
+def test_they_are_refused_close_to_the_diagonal_too():
+    with pytest.raises(MasslessMobilityException, match=r"991 km .* latitude 39.92, longitude 32.86\?"):
+        geo_target(GotoGeoCoordsMobilityCommand(32.86, 39.92, 10), 3, (39.93, 32.85, 0))
+
+
 @pytest.mark.parametrize(
     ("place", "origin"),
     [
@@ -50,6 +55,8 @@ def test_latitude_and_longitude_exchanged_are_refused():
         ((-22.9, -43.2, 10), RIO),
         ((-23.9, -43.2, 10), RIO),  # 111 km
         ((10.1, 9.9, 0), (10.0, 10.0, 0.0)),  # near both ways
+        ((46.42, 45.05, 0), (45.03, 46.24, 0.0)),  # 181 km, across the diagonal
+        ((36.54, 39.07, 0), (38.69, 36.08, 0.0)),  # 353 km, and 52 km the other way
         ((5.0, 100.0, 0), ORIGIN),  # no latitude
     ],
 )
