@@ -345,6 +345,12 @@ def test_a_variable_may_be_part_of_what_draws(folder: Any) -> None:
     assert len({*one, *other}) == 3
 
 
+def test_repetitions_draw_other_values_by_a_function_that_a_variable_names(folder: Any) -> None:
+    folder.load("repeat = 2\n*.uavs[*].mobility.initialX = ${uniform, normal}(0km, 1km)\n")
+    scenarios = load_scenarios(folder.ini)
+    assert len({place for scenario in scenarios for place in places(scenario)}) == 4 * 2
+
+
 @pytest.mark.parametrize("seed", [-1, LARGEST_SEED + 1])
 def test_a_seed_out_of_range_is_refused(folder: Any, seed: int) -> None:
     with pytest.raises(ConfigError, match=f"--seed {seed}: it is out of range; expected 0 to {LARGEST_SEED}"):
