@@ -78,7 +78,11 @@ class VisualizationHandler(INodeHandler):
             server.start()
         except VisualizationException as error:
             # As a rule another simulation is watched there: several side by side must not end each other.
-            _logger.warning("%s; the simulation goes on without viewers", error)
+            _logger.warning(
+                "%s; the simulation goes on without viewers: expected a `host` of this machine, and a `port` "
+                "that no other simulation has",
+                error,
+            )
             return
         # Who drops a simulation half-way leaves no thread behind.
         self._guard = weakref.finalize(self, server.stop)

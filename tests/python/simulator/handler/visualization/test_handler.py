@@ -266,7 +266,10 @@ def test_a_simulation_whose_address_is_in_use_goes_on_without_viewers(shown, cap
     assert opened == []
     (warning,) = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
     assert warning.startswith(f"cannot listen for viewers on '127.0.0.1' port {first.handler.port}: ")
-    assert warning.endswith("; the simulation goes on without viewers")
+    assert warning.endswith(
+        "; the simulation goes on without viewers: expected a `host` of this machine, and a `port` that no "
+        "other simulation has"
+    )
 
 
 def test_without_websockets_the_error_says_what_to_install(shown, monkeypatch):
