@@ -89,6 +89,13 @@ def test_careful_climbers_are_on_the_ground_in_both_modes(watch: Any) -> None:
     assert watch.heights_at_the_end("watch.ini") == pytest.approx([0] * 6, abs=0.01)
 
 
+def test_careful_climbers_stay_up_as_long_as_their_batteries_are_full(
+    watch: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watch.Battery, "drain", lambda battery: None)
+    assert watch.heights_at_the_end("watch.ini") == pytest.approx([50] * 6, abs=0.01)
+
+
 def test_its_types_hold(folder: Path, root: Path) -> None:
     check = subprocess.run(
         [sys.executable, "-m", "mypy", "--strict", "--config-file=", "watch.py"],
