@@ -8,6 +8,8 @@ import ast
 from collections.abc import Iterator
 from pathlib import Path
 
+from gradysim.config.python_text import parsed_python
+
 _INSTALLED = ("site-packages", "dist-packages")
 """Folders of many packages, of which only the one that was asked for is of interest."""
 
@@ -38,7 +40,7 @@ def root_of_module(name: str, file: Path) -> Path:
 
 def _imported_files(file: Path, root: Path) -> Iterator[Path]:
     try:
-        tree = ast.parse(file.read_bytes())
+        tree = parsed_python(file.read_bytes())
     except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
         return
     for statement in ast.walk(tree):

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
 from gradysim.config.node_spec import NodeSpec
+from gradysim.config.python_text import parsed_python
 from gradysim.config.source import Source
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
@@ -58,7 +59,7 @@ def _code(cls: type) -> list[ast.AST]:
     if cls.__module__.partition(".")[0] in ("gradysim", "builtins", "abc"):
         return []
     try:
-        tree = ast.parse(textwrap.dedent(inspect.getsource(cls)))
+        tree = parsed_python(textwrap.dedent(inspect.getsource(cls)))
     except (OSError, TypeError, SyntaxError):  # there is no text of it
         return []
     return list(ast.walk(tree))
