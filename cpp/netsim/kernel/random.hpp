@@ -21,6 +21,7 @@ enum class Purpose : std::uint32_t {
     fading = 4,
     csma_backoff = 5,
     rate_control = 6,
+    parameter = 7,  // of a scenario: by Python alone
 };
 
 // Philox4x32 with 10 rounds: 128 bits of counter and 64 bits of key to 128 random bits.
