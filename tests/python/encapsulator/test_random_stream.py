@@ -52,7 +52,7 @@ def test_the_numbers_of_purposes_are_the_engines():
     (body,) = re.findall(r"enum class Purpose : std::uint32_t \{(.*?)\}", header.read_text(), re.DOTALL)
     engines = {name: int(number) for name, number in re.findall(r"(\w+) = (\d+)", body)}
     assert engines["protocol"] == Purpose.PROTOCOL
-    assert [name for name, number in engines.items() if number == Purpose.PARAMETER] in ([], ["parameter"])
+    assert engines["parameter"] == Purpose.PARAMETER
     assert max(engines.values()) < 100 <= Purpose.COMMUNICATION
 
 
