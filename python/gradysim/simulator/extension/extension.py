@@ -13,8 +13,8 @@ class Extension:
 
     An extension of one's own finds the handlers of prototype mode, those of communication, timers and
     mobility among them, in `self._provider.handlers`. Elsewhere `_provider` is None, which is told by a
-    warning. What needs no more than a handler that was given to the run takes `handler_of`, and
-    works in integrated mode, too.
+    warning. What needs no more than a handler that was given to the run need not derive from this: with
+    `handler_of` it works in integrated mode, too, and nothing is told.
     """
 
     _provider: PythonProvider | None
