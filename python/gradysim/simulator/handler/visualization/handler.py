@@ -11,7 +11,7 @@ from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.visualization.command_queue import CommandQueue
 from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
-from gradysim.simulator.handler.visualization.server import VisualizationException, VisualizationServer
+from gradysim.simulator.handler.visualization.server import AddressInUse, VisualizationServer
 from gradysim.simulator.handler.visualization.wire import greeting, snapshot
 from gradysim.simulator.node import Node
 
@@ -76,11 +76,10 @@ class VisualizationHandler(INodeHandler):
         server = VisualizationServer(self._configuration, welcome, self.command_queue)
         try:
             server.start()
-        except VisualizationException as error:
+        except AddressInUse as error:
             # As a rule another simulation is watched there: several side by side must not end each other.
             _logger.warning(
-                "%s; the simulation goes on without viewers: expected a `host` of this machine, and a `port` "
-                "that no other simulation has",
+                "%s; the simulation goes on without viewers: expected a `port` that no other simulation has",
                 error,
             )
             return

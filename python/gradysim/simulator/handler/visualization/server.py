@@ -6,6 +6,7 @@ the viewers want in return is whether the simulation is paused.
 
 import asyncio
 import contextlib
+import errno
 import logging
 import threading
 from collections import deque
@@ -32,6 +33,10 @@ _LAST_WORDS_S = 1.0
 
 class VisualizationException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
     """The simulation cannot be shown."""
+
+
+class AddressInUse(VisualizationException):
+    """Something listens on the address already."""
 
 
 class _Viewer:
@@ -96,6 +101,7 @@ class VisualizationServer:
         """Listen; returns when viewers can connect.
 
         Raises:
+            AddressInUse: Something listens there already.
             VisualizationException: The address cannot be used.
             ModuleNotFoundError: The package `websockets` is not installed.
         """
@@ -114,9 +120,8 @@ class VisualizationServer:
         except OSError as error:
             self._thread.join()
             host, port = self._configuration.host, self._configuration.port
-            raise VisualizationException(
-                f"cannot listen for viewers on {host!r} port {port}: {error}"
-            ) from error
+            kind = AddressInUse if error.errno == errno.EADDRINUSE else VisualizationException
+            raise kind(f"cannot listen for viewers on {host!r} port {port}: {error}") from error
 
     def publish(self, snapshot: str) -> None:
         """Have this text sent with the next update, if no newer one comes before."""

@@ -10,6 +10,7 @@ from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import (
     VisualizationConfiguration,
+    VisualizationException,
     VisualizationHandler,
 )
 from gradysim.simulator.handler.visualization import handler as handler_module
@@ -267,9 +268,13 @@ def test_a_simulation_whose_address_is_in_use_goes_on_without_viewers(shown, cap
     (warning,) = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
     assert warning.startswith(f"cannot listen for viewers on '127.0.0.1' port {first.handler.port}: ")
     assert warning.endswith(
-        "; the simulation goes on without viewers: expected a `host` of this machine, and a `port` that no "
-        "other simulation has"
+        "; the simulation goes on without viewers: expected a `port` that no other simulation has"
     )
+
+
+def test_a_host_of_another_machine_is_refused(shown):
+    with pytest.raises(VisualizationException, match=r"cannot listen for viewers on '192\.0\.2\.1' port"):
+        shown(host="192.0.2.1").start()
 
 
 def test_without_websockets_the_error_says_what_to_install(shown, monkeypatch):
