@@ -46,9 +46,9 @@ def text_of_files(names: Sequence[str]) -> str:
 
 
 def _hash(file: Path) -> str:
-    if not file.is_file():  # a pipe, of which nothing would be left for whoever needs it, or gone
-        return ""
     try:
+        if not file.is_file():  # a pipe, of which nothing would be left for whoever needs it, or gone
+            return ""
         return hashlib.sha256(file.read_bytes()).hexdigest()[:_LENGTH]
-    except OSError:  # a secret, which whoever needs it will say
+    except OSError:  # a secret, or a name that none can have: whoever needs it will say
         return ""

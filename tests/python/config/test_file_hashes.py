@@ -26,6 +26,10 @@ def test_a_file_that_cannot_be_read_has_none(tmp_path: Path) -> None:
     assert FileHashes(tmp_path).of([tmp_path / "gone"]) == {"gone": ""}
 
 
+def test_a_name_that_no_file_can_have_has_none(tmp_path: Path) -> None:
+    assert FileHashes(tmp_path).of([tmp_path / ("a" * 300)]) == {"a" * 300: ""}
+
+
 def test_what_is_no_regular_file_is_not_read(tmp_path: Path) -> None:
     (tmp_path / "null").symlink_to("/dev/null")
     assert list(FileHashes(tmp_path).of([tmp_path / "null"]).values()) == [""]
