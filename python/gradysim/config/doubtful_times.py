@@ -22,7 +22,6 @@ from gradysim.config.units import Dimension, Unit
 _TIMES = ("interval", "timeout", "period", "delay", "duration")
 """What names of times end in."""
 
-
 _METRES_IN_A_LIST = re.compile(r"[\d.]\s*m\b|[,.][^{}]*\}\s*m\b", re.ASCII)
 """`${5m, 10m}`, `${5, 10}m` and `${5..10}m`, but not `${runnumber}m`."""
 
