@@ -363,34 +363,6 @@ void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
                                  });
 }
 
-double Medium::most_interference_w(RadioId receiver, const Arrival& arrival) const {
-    const OnAir& here = on_air_of(arrival);
-    double most_w = here.far_w;
-    for (const OnAir* other : here.close) {
-        if (other->transmission.radio != receiver) {
-            most_w += arrival_at(*other, receiver, arrival.place).power_w;
-        }
-    }
-    return most_w * (1 + margin);
-}
-
-InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arrival, SimTime start,
-                                           SimTime end) {
-    interference_.begin(start, end);
-    if (on_air_.size() <= 1) {
-        return interference_;
-    }
-    for (const std::unique_ptr<OnAir>& other : on_air_) {
-        const Transmission& sent = other->transmission;
-        if (&sent == arrival.transmission || sent.radio == receiver || other->last_end <= start ||
-            sent.start >= end || share_at(*other, receiver) == 0) {
-            continue;
-        }
-        interference_.add(arrival_at(*other, receiver, arrival.place));
-    }
-    return interference_;
-}
-
 void Medium::forget_the_past() {
     const SimTime now = simulator_.now();
     const auto active = std::find_if(on_air_.begin(), on_air_.end(),
