@@ -1,5 +1,7 @@
 #include "netsim/kernel/random.hpp"
 
+#include <utility>
+
 #include "netsim/error.hpp"
 
 namespace netsim {
@@ -28,20 +30,25 @@ RandomStream::RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpo
       node_(node),
       purpose_(purpose) {}
 
+std::array<std::uint32_t, RandomStream::words_of_block> RandomStream::block(std::uint64_t number) const {
+    return philox4x32({static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), node_,
+                       static_cast<std::uint32_t>(purpose_)},
+                      key_);
+}
+
 std::uint32_t RandomStream::next_u32() {
-    const std::uint64_t number = next_word_ / words_of_block;
-    if (number != block_number_) {
-        block_number_ = number;
-        block_ = philox4x32({static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32),
-                             node_, static_cast<std::uint32_t>(purpose_)},
-                            key_);
-    }
-    return block_[next_word_++ % words_of_block];
+    const std::uint64_t word = next_word_++;
+    return block(word / words_of_block)[word % words_of_block];
 }
 
 double RandomStream::uniform() {
-    const std::uint64_t high = next_u32() >> 5;  // 27 bits
-    const std::uint64_t low = next_u32() >> 6;   // 26 bits
+    const std::uint64_t word = std::exchange(next_word_, next_word_ + words_of_uniform);
+    const std::uint64_t first = word % words_of_block;
+    const auto words = block(word / words_of_block);
+    const bool is_in_one_block = first + 1 < words_of_block;
+    const std::uint64_t high = words[first] >> 5;  // 27 bits
+    const std::uint64_t low =                      // 26 bits
+        (is_in_one_block ? words[first + 1] : block(word / words_of_block + 1).front()) >> 6;
     return static_cast<double>((high << 26) | low) * 0x1p-53;
 }
 

@@ -46,12 +46,14 @@ private:
     static constexpr unsigned words_of_uniform = 2;
     static constexpr unsigned words_of_block = 4;
 
+    std::array<std::uint32_t, words_of_block> block(std::uint64_t number) const;
+
+    // Nothing of what it has drawn is kept, to spare the next draw the work: each node has several streams, and in a large
+    // network memory costs more.
     std::array<std::uint32_t, 2> key_;
     std::uint32_t node_;
     Purpose purpose_;
     std::uint64_t next_word_ = 0;
-    std::uint64_t block_number_ = ~0ULL;  // of the one below: none yet
-    std::array<std::uint32_t, words_of_block> block_{};
 };
 
 }  // namespace netsim

@@ -47,6 +47,19 @@ TEST(RandomStream, IsPhiloxOverACountOfBlocks) {
     EXPECT_EQ(std::vector(words.begin() + 4, words.end()), std::vector(second.begin(), second.end()));
 }
 
+TEST(RandomStream, AUniformDrawIsOfTheNextTwoWordsWhereverTheyLie) {
+    const std::vector<std::uint32_t> words = first_words(5, 3, Purpose::reception);
+    for (std::size_t before = 0; before < 9; ++before) {
+        RandomStream stream(5, 3, Purpose::reception);
+        for (std::size_t i = 0; i < before; ++i) {
+            stream.next_u32();
+        }
+        const double expected = (words[before] >> 5) * 0x1p-27 + (words[before + 1] >> 6) * 0x1p-53;
+        EXPECT_EQ(stream.uniform(), expected) << before;
+        EXPECT_EQ(stream.next_u32(), words[before + 2]) << before;
+    }
+}
+
 TEST(RandomStream, WhatIsSkippedIsAsIfItHadBeenDrawn) {
     for (int before = 0; before < 5; ++before) {  // words
         for (int skipped = 0; skipped < 5; ++skipped) {
