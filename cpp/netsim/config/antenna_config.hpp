@@ -30,6 +30,8 @@ struct AntennaConfig {
 
     // Throws ConfigError for the first field out of its range: "antenna.gain = -1: expected …".
     void validate(double carrier_hz) const;
+
+    bool operator==(const AntennaConfig&) const = default;
 };
 
 }  // namespace netsim

@@ -51,6 +51,8 @@ struct MacConfig {
 
     // Throws ConfigError for the first field out of its range: "mac.cw_min = -2: expected …".
     void validate() const;
+
+    bool operator==(const MacConfig&) const = default;
 };
 
 }  // namespace netsim

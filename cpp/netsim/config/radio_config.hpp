@@ -56,6 +56,8 @@ struct RadioConfig {
 
     // Throws ConfigError for the first field out of its range: "radio.tx_power_w = -1 W: expected …".
     void validate() const;
+
+    bool operator==(const RadioConfig&) const = default;
 };
 
 }  // namespace netsim

@@ -23,4 +23,11 @@ void fetch(const Object& object) {
     fetch_bytes(&object, sizeof(Object));
 }
 
+// Its members before `member`: the first ones, if it keeps those that are used most in front.
+template <typename Object, typename Member>
+void fetch_before(const Object& object, const Member& member) {
+    const auto* begin = reinterpret_cast<const char*>(&object);
+    fetch_bytes(begin, static_cast<std::size_t>(reinterpret_cast<const char*>(&member) - begin));
+}
+
 }  // namespace netsim

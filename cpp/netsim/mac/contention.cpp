@@ -23,7 +23,8 @@ void Contention::start(int contention_window) {
         return;
     }
     state_ = State::waiting;
-    schedule_grant(backoff_optimization_ ? std::max(free_since_, idle_since_) : simulator_.now());
+    schedule_grant(parameters_.config.backoff_optimization ? std::max(free_since_, idle_since_)
+                                                           : simulator_.now());
 }
 
 void Contention::start_without_backoff_if_free(int contention_window) {
@@ -52,14 +53,14 @@ void Contention::channel_busy_changed(bool busy) {
         state_ = State::deferring;
         // Slots begun count as not waited; the interframe space does not count as slots.
         const std::int64_t remaining_ps = (grant_time_ - simulator_.now()).ps();
-        const std::int64_t slot_ps = timing_.slot.ps();
+        const std::int64_t slot_ps = parameters_.timing.slot.ps();
         slots_left_ = std::min(slots_left_, static_cast<int>((remaining_ps + slot_ps - 1) / slot_ps));
     }
 }
 
 void Contention::schedule_grant(SimTime idle_since) {
-    const SimTime space_over = std::max(idle_since + timing_.difs, eifs_until_);
-    grant_time_ = std::max(space_over + timing_.slot * slots_left_, simulator_.now());
+    const SimTime space_over = std::max(idle_since + parameters_.timing.difs, eifs_until_);
+    grant_time_ = std::max(space_over + parameters_.timing.slot * slots_left_, simulator_.now());
     grant_ = simulator_.schedule_at(grant_time_, [this] { granted(); }, Priority::last);
 }
 

@@ -16,11 +16,10 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "netsim/config/mac_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
-#include "netsim/mac/timing.hpp"
+#include "netsim/mac/dcf_parameters.hpp"
 
 namespace netsim {
 
@@ -34,13 +33,13 @@ protected:
 
 class Contention {
 public:
-    Contention(Simulator& simulator, const MacConfig& config, RandomStream draws,
+    // The parameters must outlive it.
+    Contention(Simulator& simulator, const DcfParameters& parameters, RandomStream draws,
                ContentionListener& listener)
         : simulator_(simulator),
-          backoff_optimization_(config.backoff_optimization),
-          free_since_(config.initial_channel_busy ? simulator.now() : SimTime::long_ago()),
+          parameters_(parameters),
           listener_(listener),
-          timing_(mode_set(config.op_mode)),
+          free_since_(parameters.config.initial_channel_busy ? simulator.now() : SimTime::long_ago()),
           draws_(draws) {}
 
     // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
@@ -71,7 +70,7 @@ public:
     void radio_finds_it_free() {
         if (broken_frame_) {
             broken_frame_ = false;
-            eifs_until_ = simulator_.now() + timing_.eifs;
+            eifs_until_ = simulator_.now() + parameters_.timing.eifs;
         }
     }
     // … unless a frame was received well in between.
@@ -87,18 +86,17 @@ private:
     void granted();
 
     Simulator& simulator_;
+    const DcfParameters& parameters_;
+    ContentionListener& listener_;
     State state_ = State::idle;
     bool busy_ = false;
     bool broken_frame_ = false;  // since the radio found the channel busy
-    bool backoff_optimization_;
     int slots_left_ = 0;
     SimTime free_since_;
     SimTime eifs_until_ = SimTime::long_ago();
     SimTime idle_since_ = SimTime::long_ago();
     SimTime grant_time_;
     EventHandle grant_;
-    ContentionListener& listener_;
-    MacTiming timing_;
     RandomStream draws_;
 };
 

@@ -11,79 +11,39 @@ namespace netsim {
 
 namespace {
 
-const Mode& rts_mode(const MacConfig& config, const ModeSet& modes) {
-    return modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps");
-}
-
-int cw_min(const MacConfig& config, const ModeSet& modes) {
-    return config.cw_min < 0 ? modes.cw_min() : config.cw_min;
-}
-
-int cw_max(const MacConfig& config, const ModeSet& modes) {
-    return config.cw_max < 0 ? modes.cw_max() : config.cw_max;
-}
-
 MessageKind message_kind(const Frame& frame) {
     return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
 }
 
 }  // namespace
 
-Dcf::Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint64_t seed, MessageFates& fates,
-         LinkListener& listener)
+Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
+         std::uint64_t seed, MessageFates& fates, LinkListener& listener)
     : simulator_(simulator),
       radio_(radio),
       listener_(listener),
-      own_frames_set_nav_(config.own_frames_set_nav),
-      contention_(simulator, config, RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
+      own_frames_set_nav_(parameters->config.own_frames_set_nav),
+      contention_(simulator, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff),
+                  *this),
+      queue_(parameters->config.queue_capacity),
+      parameters_(*parameters),
       fates_(fates),
-      modes_(mode_set(config.op_mode)),
-      timing_(modes_),
-      multicast_mode_(broadcast_mode(config)),
-      rts_mode_(rts_mode(config, modes_)),
-      retry_limits_{config.short_retry_limit, config.long_retry_limit},
-      rts_threshold_bytes_(config.rts_threshold_bytes),
-      mtu_bytes_(config.mtu_bytes),
-      skip_backoff_if_idle_(config.skip_backoff_if_idle),
-      longest_wait_(timing_.difs + timing_.slot * cw_min(config, modes_)),
-      rate_control_(make_rate_control(config, seed, radio.interface())),
-      has_adaptive_rate_(!config.rate_control.empty()),
-      frames_by_mode_(has_adaptive_rate_ ? modes_.modes().size() : 0),
-      queue_(config.queue_capacity),
-      data_mode_(&initial_mode(config)),
-      retry_(retry_limits_, {cw_min(config, modes_), cw_max(config, modes_)}) {
+      retry_(parameters->retry_limits, parameters->contention_window),
+      owned_parameters_(std::move(parameters)),
+      rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
+      frames_by_mode_(parameters_.has_adaptive_rate ? parameters_.modes.modes().size() : 0),
+      data_mode_(&parameters_.initial_mode) {
     radio_.set_listener(*this);
     radio_.stop_watching_channel();
-    radio_.remember_channel(longest_wait_);
-}
-
-const Mode& Dcf::broadcast_mode(const MacConfig& config) {
-    const ModeSet& modes = mode_set(config.op_mode);
-    return config.multicast_bitrate_bps < 0
-               ? modes.mode_for_bitrate(config.bitrate_bps)
-               : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
-}
-
-void Dcf::check(const MacConfig& config) {
-    const ModeSet& modes = mode_set(config.op_mode);
-    modes.mode_for_bitrate(config.bitrate_bps);
-    initial_mode(config);
-    broadcast_mode(config);
-    rts_mode(config, modes);
-    if (cw_max(config, modes) < cw_min(config, modes)) {
-        throw ConfigError("mac.cw_min = " + std::to_string(cw_min(config, modes)) +
-                          " and mac.cw_max = " + std::to_string(cw_max(config, modes)) +
-                          " slots: expected the second to be at least the first (what " +
-                          "is not set is that of the operation mode, " + config.op_mode + ")");
-    }
+    radio_.remember_channel(parameters_.longest_wait);
 }
 
 void Dcf::send(NodeId destination, Payload payload) {
     if (payload->size() > longest_message_bytes()) {
-        throw SimulationError("a message of " + std::to_string(payload->size()) +
-                              " bytes does not fit: the longest is " +
-                              std::to_string(longest_message_bytes()) + " bytes (an MTU of " +
-                              std::to_string(mtu_bytes_) + " bytes less IPv4 and UDP headers)");
+        throw SimulationError(
+            "a message of " + std::to_string(payload->size()) + " bytes does not fit: the longest is " +
+            std::to_string(longest_message_bytes()) + " bytes (an MTU of " +
+            std::to_string(parameters_.config.mtu_bytes) + " bytes less IPv4 and UDP headers)");
     }
     Frame frame;
     frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
@@ -93,7 +53,7 @@ void Dcf::send(NodeId destination, Payload payload) {
     frame.psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
     frame.payload = std::move(payload);
     if (destination != broadcast_id) {
-        frame.duration_field = data_duration_field(timing_, modes_, *data_mode_);
+        frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }
     const MessageKind kind = message_kind(frame);
     fates_.accept(kind);
@@ -101,9 +61,9 @@ void Dcf::send(NodeId destination, Payload payload) {
         fates_.book(kind, MessageFate::queue_overflow);
         return;
     }
-    watch_channel(simulator_.now() - longest_wait_);
+    watch_channel(simulator_.now() - parameters_.longest_wait);
     if (exchange_ == Exchange::none) {
-        if (skip_backoff_if_idle_ && !contention_.in_progress()) {
+        if (parameters_.config.skip_backoff_if_idle && !contention_.in_progress()) {
             contention_.start_without_backoff_if_free(retry_.contention_window());
         } else {
             contend_for_next();
@@ -134,12 +94,13 @@ void Dcf::channel_granted() {
 
 RateAttempt Dcf::attempt() const {
     return {in_progress_->receiver, in_progress_->psdu_bytes, attempts_,
-            is_long(*in_progress_) ? retry_limits_.long_failures : retry_limits_.short_failures};
+            is_long(*in_progress_) ? parameters_.retry_limits.long_failures
+                                   : parameters_.retry_limits.short_failures};
 }
 
 void Dcf::choose_data_mode() {
     data_mode_ = &rate_control_->mode_for(attempt(), simulator_.now());
-    const SimTime duration_field = data_duration_field(timing_, modes_, *data_mode_);
+    const SimTime duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     if (duration_field != in_progress_->duration_field) {
         Frame frame = *in_progress_;
         frame.duration_field = duration_field;
@@ -149,17 +110,18 @@ void Dcf::choose_data_mode() {
 
 void Dcf::send_rts() {
     exchange_ = Exchange::sending_rts;
-    rts_ = std::make_shared<const Frame>(make_rts(*in_progress_, timing_, modes_, rts_mode_, *data_mode_));
-    transmit(rts_, rts_mode_);
+    rts_ = std::make_shared<const Frame>(
+        make_rts(*in_progress_, parameters_.timing, parameters_.modes, parameters_.rts_mode, *data_mode_));
+    transmit(rts_, parameters_.rts_mode);
 }
 
 void Dcf::send_in_progress() {
     exchange_ = Exchange::sending;
     if (in_progress_->receiver == broadcast_id) {
-        transmit(in_progress_, multicast_mode_);
+        transmit(in_progress_, parameters_.broadcast_mode);
     } else {
-        if (has_adaptive_rate_) {
-            ++frames_by_mode_[modes_.index_of(*data_mode_)];
+        if (parameters_.has_adaptive_rate) {
+            ++frames_by_mode_[parameters_.modes.index_of(*data_mode_)];
         }
         transmit(in_progress_, *data_mode_);
     }
@@ -177,7 +139,7 @@ void Dcf::transmission_ended() {
         own_frame_ended(*response_frame_);
     } else if (exchange_ == Exchange::sending_rts) {
         own_frame_ended(*rts_);
-        await_answer(Exchange::awaiting_cts, modes_.response_mode(rts_mode_));
+        await_answer(Exchange::awaiting_cts, parameters_.modes.response_mode(parameters_.rts_mode));
     } else {
         NETSIM_ASSERT(exchange_ == Exchange::sending);
         if (in_progress_->receiver == broadcast_id) {
@@ -186,14 +148,14 @@ void Dcf::transmission_ended() {
             return;
         }
         own_frame_ended(*in_progress_);
-        await_answer(Exchange::awaiting_ack, modes_.response_mode(*data_mode_));
+        await_answer(Exchange::awaiting_ack, parameters_.modes.response_mode(*data_mode_));
     }
 }
 
 void Dcf::await_answer(Exchange awaiting, const Mode& answer) {
     exchange_ = awaiting;
-    answer_timeout_ =
-        simulator_.schedule_after(timing_.response_timeout(answer), [this] { answer_timed_out(); });
+    answer_timeout_ = simulator_.schedule_after(parameters_.timing.response_timeout(answer),
+                                                [this] { answer_timed_out(); });
 }
 
 bool Dcf::is_awaiting_answer() const {
@@ -236,7 +198,7 @@ void Dcf::answered() {
     simulator_.cancel(answer_timeout_);
     if (exchange_ == Exchange::awaiting_cts) {
         exchange_ = Exchange::waiting_sifs;
-        simulator_.schedule_after(timing_.sifs, [this] { send_in_progress(); });
+        simulator_.schedule_after(parameters_.timing.sifs, [this] { send_in_progress(); });
     } else {
         rate_control_->succeeded(attempt(), *data_mode_, simulator_.now());
         retry_.start_afresh();
@@ -246,10 +208,10 @@ void Dcf::answered() {
 
 void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
     if (frame.kind == FrameKind::rts && !is_nav_set()) {
-        const Mode& cts_mode = modes_.response_mode(mode);
-        respond_after_sifs(make_cts(frame, timing_, cts_mode), cts_mode);
+        const Mode& cts_mode = parameters_.modes.response_mode(mode);
+        respond_after_sifs(make_cts(frame, parameters_.timing, cts_mode), cts_mode);
     } else if (frame.kind == FrameKind::unicast) {
-        respond_after_sifs(make_ack(frame), modes_.response_mode(mode));
+        respond_after_sifs(make_ack(frame), parameters_.modes.response_mode(mode));
         if (!duplicates_.is_duplicate(frame)) {
             listener_.message_received(frame.transmitter, frame.payload);
         }
@@ -270,7 +232,7 @@ void Dcf::respond_after_sifs(Frame response, const Mode& mode) {
     response_ = Response::waiting_sifs;
     response_frame_ = std::make_shared<const Frame>(std::move(response));
     response_mode_ = &mode;
-    simulator_.schedule_after(timing_.sifs, [this] {
+    simulator_.schedule_after(parameters_.timing.sifs, [this] {
         response_ = Response::sending;
         transmit(response_frame_, *response_mode_);
     });
@@ -309,9 +271,9 @@ void Dcf::finish(MessageFate fate) {
 
 std::map<std::int64_t, std::uint64_t> Dcf::frames_by_bitrate() const {
     std::map<std::int64_t, std::uint64_t> frames;
-    if (has_adaptive_rate_) {
-        for (const Mode& mode : modes_.modes()) {
-            frames[mode.bitrate_bps] = frames_by_mode_[modes_.index_of(mode)];
+    if (parameters_.has_adaptive_rate) {
+        for (const Mode& mode : parameters_.modes.modes()) {
+            frames[mode.bitrate_bps] = frames_by_mode_[parameters_.modes.index_of(mode)];
         }
     }
     return frames;

@@ -30,14 +30,13 @@
 #include <memory>
 #include <vector>
 
-#include "netsim/config/mac_config.hpp"
 #include "netsim/kernel/fetch.hpp"
 #include "netsim/mac/contention.hpp"
+#include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/link.hpp"
 #include "netsim/mac/rate_control.hpp"
 #include "netsim/mac/retry.hpp"
-#include "netsim/mac/timing.hpp"
 #include "netsim/mac/tx_queue.hpp"
 #include "netsim/phy/radio.hpp"
 #include "netsim/trace/message_fates.hpp"
@@ -46,22 +45,19 @@ namespace netsim {
 
 class alignas(64) Dcf final : public Link, private RadioListener, private ContentionListener {
 public:
-    Dcf(Simulator& simulator, Radio& radio, const MacConfig& config, std::uint64_t seed, MessageFates& fates,
-        LinkListener& listener);
+    Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
+        std::uint64_t seed, MessageFates& fates, LinkListener& listener);
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
-    // Throws ConfigError for what MacConfig::validate cannot know: bitrates and windows that the operation mode has not.
-    static void check(const MacConfig& config);
-    // In which broadcast frames are sent. Throws ConfigError for a bitrate that the operation mode has not.
-    static const Mode& broadcast_mode(const MacConfig& config);
-
     void send(NodeId destination, Payload payload) override;
     void fetch() const override {
-        netsim::fetch(*this);
+        fetch_before(*this, owned_parameters_);
         radio_.fetch();
     }
-    std::size_t longest_message_bytes() const override { return mtu_bytes_ - datagram_bytes(0); }
+    std::size_t longest_message_bytes() const override {
+        return parameters_.config.mtu_bytes - datagram_bytes(0);
+    }
     std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
@@ -82,7 +78,9 @@ private:
     void transmission_ended() override;
     void channel_granted() override;
 
-    bool is_long(const Frame& frame) const { return frame.psdu_bytes >= rts_threshold_bytes_; }
+    bool is_long(const Frame& frame) const {
+        return frame.psdu_bytes >= parameters_.config.rts_threshold_bytes;
+    }
     bool needs_rts(const Frame& frame) const { return frame.receiver != broadcast_id && is_long(frame); }
     RateAttempt attempt() const;
     void choose_data_mode();
@@ -120,39 +118,31 @@ private:
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     bool own_frames_set_nav_;
-    Contention contention_;
 
+    // Then what a broadcast frame touches, when it is sent.
+    Contention contention_;
+    TxQueue queue_;
+    std::shared_ptr<const Frame> in_progress_;  // granted once, not finished yet
+    const DcfParameters& parameters_;
+    MessageFates& fates_;
+    Retry retry_;  // of the frame in progress
+    std::uint32_t next_sequence_ = 0;
     Place nav_place_ = 0;    // of the event at the end of the NAV, since that was set
     EventHandle nav_event_;  // pending while the channel is watched
-    MessageFates& fates_;
-    const ModeSet& modes_;
-    MacTiming timing_;
-    const Mode& multicast_mode_;
-    const Mode& rts_mode_;
-    Retry::Limits retry_limits_;
-    int rts_threshold_bytes_;
-    int mtu_bytes_;
-    bool skip_backoff_if_idle_;
-    SimTime longest_wait_;  // for a channel that is free: what counts of the time before
+
+    std::shared_ptr<const DcfParameters> owned_parameters_;
     std::unique_ptr<RateControl> rate_control_;
-    bool has_adaptive_rate_;
     std::vector<std::uint64_t>
         frames_by_mode_;  // unicast frames on the air, by their mode's place in the mode set, if the rate adapts
-
-    TxQueue queue_;
     DuplicateFilter duplicates_;
 
-    std::shared_ptr<const Frame> in_progress_;  // granted once, not finished yet
-    std::shared_ptr<const Frame> rts_;          // on the air
-    const Mode* data_mode_;  // of the frame in progress, a unicast; before the first: of none
-    int attempts_ = 0;       // of those of the frame in progress on the air, the ones that failed
+    std::shared_ptr<const Frame> rts_;  // on the air
+    const Mode* data_mode_;             // of the frame in progress, a unicast; before the first: of none
+    int attempts_ = 0;                  // of those of the frame in progress on the air, the ones that failed
     EventHandle answer_timeout_;
-    Retry retry_;  // of the frame in progress
 
     std::shared_ptr<const Frame> response_frame_;
     const Mode* response_mode_ = nullptr;
-
-    std::uint32_t next_sequence_ = 0;
 };
 
 }  // namespace netsim

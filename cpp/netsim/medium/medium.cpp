@@ -23,31 +23,47 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
 
 RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna) {
     const auto radio = static_cast<RadioId>(attached_.size());
-    receivers_.push_back(receiver);
-    attached_.push_back(Attached{.listener = receiver.listener,
-                                 .sensitivity_w = receiver.sensitivity_w,
-                                 .energy_detection_w = receiver.energy_detection_w,
-                                 .noise_w = receiver.noise_w,
-                                 .interface = interface});
+    attached_.push_back(Attached{.interface = interface, .kind = kind_index(receiver.kind)});
+    touched_.push_back(Touched{.listener = receiver.listener});
+    trajectories_.push_back(receiver.trajectory);
     outlook_of_.push_back(no_outlook);
-    watches_.push_back(1);
     antennas_.add(antenna, *receiver.trajectory);
     if (first_radio_.empty() || attached_[first_radio_.back()].interface.node != interface.node) {
         NETSIM_ASSERT(interface.node == static_cast<NodeId>(first_radio_.size()));
         first_radio_.push_back(radio);
         odometer_.watch(*receiver.trajectory, simulator_.now());
     }
+    Audience& audience = audiences_[audience_of(radio)];
+    audience.most_antenna_gain = std::max(audience.most_antenna_gain, antenna.max_gain());
+    audience.reach = {};
+    audience.ring_reach = {};
+    audience.outer_reach = {};
+    audience.members.add(radio, *receiver.trajectory);
+    return radio;
+}
+
+std::uint32_t Medium::kind_index(const ReceiverKind& kind) {
+    // Mostly that of the one before.
+    const auto known = std::find(kinds_.rbegin(), kinds_.rend(), kind);
+    if (known != kinds_.rend()) {
+        return static_cast<std::uint32_t>(kinds_.rend() - known - 1);
+    }
+    kinds_.push_back(kind);
+    audience_of_.push_back(audience_index(kind));
+    return static_cast<std::uint32_t>(kinds_.size() - 1);
+}
+
+std::uint32_t Medium::audience_index(const ReceiverKind& kind) {
     // Less than the difference by what the sum with the noise may be rounded.
-    const double energy_w =
-        receiver.energy_detection_w - receiver.noise_w - 1e-15 * receiver.energy_detection_w;
-    const double least_w = std::min(receiver.sensitivity_w, energy_w);
+    const double energy_w = kind.energy_detection_w - kind.noise_w - 1e-15 * kind.energy_detection_w;
+    const double least_w = std::min(kind.sensitivity_w, energy_w);
     const int keenness = least_w > 0 ? std::ilogb(least_w) / 2 : std::numeric_limits<int>::min();
     auto audience = std::find_if(audiences_.begin(), audiences_.end(), [&](const Audience& other) {
-        return other.keenness == keenness && other.band == receiver.band && other.formats == receiver.formats;
+        return other.keenness == keenness && other.band == kind.band && other.formats == kind.formats;
     });
     if (audience == audiences_.end()) {
-        audiences_.push_back(Audience{.band = receiver.band,
-                                      .formats = receiver.formats,
+        audiences_.push_back(Audience{.band = kind.band,
+                                      .formats = kind.formats,
                                       .keenness = keenness,
                                       .least_w = least_w,
                                       .least_energy_w = energy_w,
@@ -56,14 +72,8 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
     }
     audience->least_w = std::min(audience->least_w, least_w);
     audience->least_energy_w = std::min(audience->least_energy_w, energy_w);
-    audience->most_energy_w = std::max(audience->most_energy_w, receiver.energy_detection_w);
-    audience->most_antenna_gain = std::max(audience->most_antenna_gain, antenna.max_gain());
-    audience->reach = {};
-    audience->ring_reach = {};
-    audience->outer_reach = {};
-    audience->members.add(radio, *receiver.trajectory);
-    audience_of_.push_back(static_cast<std::uint32_t>(audience - audiences_.begin()));
-    return radio;
+    audience->most_energy_w = std::max(audience->most_energy_w, kind.energy_detection_w);
+    return static_cast<std::uint32_t>(audience - audiences_.begin());
 }
 
 void Medium::transmit(Transmission transmission) {
@@ -90,7 +100,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.transmission = std::move(transmission);
     entry.transmission.id = next_id_++;
     entry.transmission.start = now;
-    entry.transmission.origin = receivers_[entry.transmission.radio].trajectory->position_at(now);
+    entry.transmission.origin = trajectories_[entry.transmission.radio]->position_at(now);
     entry.last_end = now;
     entry.reach_m = 0;
     entry.others_w = 0;
@@ -120,7 +130,7 @@ void Medium::tell_everybody(OnAir& entry) {
     CopyCount addressed;
     CopyCount overheard;
     for (RadioId radio = 0; radio < static_cast<RadioId>(attached_.size()); ++radio) {
-        const Receiver& receiver = receivers_[radio];
+        const ReceiverKind& receiver = kind(radio);
         if (radio == sent.radio || share_at(entry, radio) == 0) {
             continue;
         }
@@ -165,14 +175,15 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
         for (const auto& [radio, place] : near) {
             netsim::fetch(attached_[radio]);
+            netsim::fetch(touched_[radio]);
         }
         for (const auto& [radio, place] : near) {
             const double squared_m2 = squared_distance(sent.origin, place);
-            const double heard_m = watches_[radio] != 0 ? search_m : within_m;
+            const double heard_m = attached_[radio].watches_energy ? search_m : within_m;
             if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
                 continue;
             }
-            const Attached& there = attached_[radio];
+            const ReceiverKind& there = kind(radio);
             const double distance_m = std::sqrt(squared_m2);
             const double received_w = power_w(sent, share, radio, place, distance_m);
             const bool can_lock = is_decodable && received_w >= there.sensitivity_w;
@@ -187,7 +198,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
                     {now + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
                 entry.places.push_back(place);
             }
-            if (watches_[radio] != 0 && received_w >= ring.least_power_w() &&
+            if (attached_[radio].watches_energy && received_w >= ring.least_power_w() &&
                 !is_surely_loud(there, received_w)) {
                 ring.watched().push_back({radio, place, missing_beside_w(there, received_w)});
             }
@@ -227,7 +238,7 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
     const auto count = static_cast<RadioId>(attached_.size());
     for (RadioId radio = first_radio_[node]; radio < count && attached_[radio].interface.node == node;
          ++radio) {
-        if (radio != transmission.radio && can_decode(receivers_[radio], transmission)) {
+        if (radio != transmission.radio && can_decode(kind(radio), transmission)) {
             return radio;
         }
     }
@@ -237,12 +248,12 @@ RadioId Medium::addressee_of(const Transmission& transmission) const {
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void Medium::fetch(RadioId radio, FrameKind kind) const {
     constexpr std::size_t cache_line = 64;
-    const Attached& there = attached_[radio];
-    fetch_bytes(there.listener, 3 * cache_line);
+    const Touched& there = touched_[radio];
+    fetch_bytes(there.listener, 2 * cache_line);
     fetch_bytes(there.link, cache_line);
     fetch_bytes(there.upper_layer, cache_line);
     fetch_bytes(there.protocol, cache_line);
-    fates_.fetch(there.interface.node, kind);
+    fates_.fetch(attached_[radio].interface.node, kind);
 }
 
 double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
@@ -318,7 +329,7 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
                               heard.lockable};
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
-            MediumListener& listener = *attached_[heard.radio].listener;
+            MediumListener& listener = *touched_[heard.radio].listener;
             edge == Edge::begins ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
         } catch (...) {  // a protocol's: the others hear the frame all the same
             if (!is_last) {
@@ -355,11 +366,11 @@ void Medium::tell(RadioId radio, OnAir& on_air, const Arrival& arrival) {
 
 void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
     const Arrival arrival = on_air.told_apart[apart];  // a copy: others may be told meanwhile
-    attached_[radio].listener->arrival_started(arrival);
+    touched_[radio].listener->arrival_started(arrival);
     simulator_.schedule_at_place(arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1,
                                  [this, radio, &on_air, apart] {
                                      const Arrival ended = on_air.told_apart[apart];
-                                     attached_[radio].listener->arrival_ended(ended);
+                                     touched_[radio].listener->arrival_ended(ended);
                                  });
 }
 

@@ -26,34 +26,11 @@
 #include "netsim/medium/neighbours.hpp"
 #include "netsim/medium/odometer.hpp"
 #include "netsim/medium/propagation.hpp"
+#include "netsim/medium/receiver.hpp"
 #include "netsim/medium/transmission.hpp"
-#include "netsim/mobility/trajectory.hpp"
 #include "netsim/trace/frame_fates.hpp"
 
 namespace netsim {
-
-// The side of a radio that the medium speaks to.
-class MediumListener {
-public:
-    virtual void arrival_started(const Arrival& arrival) = 0;
-    virtual void arrival_ended(const Arrival& arrival) = 0;
-
-protected:
-    ~MediumListener() = default;
-};
-
-// What the medium must know of a radio as a receiver.
-struct Receiver {
-    MediumListener* listener = nullptr;
-    const Trajectory* trajectory = nullptr;
-    Band band;
-    double sensitivity_w = 0;       // the least power it can lock on to
-    double energy_detection_w = 0;  // noise and signals together that make its channel busy
-    double noise_w = 0;             // in its band when nobody sends
-    // So long it may leave out of the energy a frame that it can lock on to.
-    SimTime detection_time = SimTime::from_ps(0);
-    PpduFormats formats = PpduFormats::all();
-};
 
 // Of which arrivals the radios are told: `everything` is the plain model, slow and obvious, which tests hold
 // the other one against.
@@ -71,24 +48,24 @@ public:
     // What each arrival at the radio touches in the layers above it: in a large network most of it is in no cache
     // by then, so the medium has it fetched ahead. Null: nothing.
     void set_touched(RadioId radio, const void* link, const void* upper_layer, const void* protocol) {
-        Attached& attached = attached_[radio];
-        attached.link = link;
-        attached.upper_layer = upper_layer;
-        attached.protocol = protocol;
+        Touched& touched = touched_[radio];
+        touched.link = link;
+        touched.upper_layer = upper_layer;
+        touched.protocol = protocol;
     }
 
     // A radio watches its energy from the start: it has to find its channel busy where frames only add up to that. It may
     // stop and begin again; then it learns until when frames made its channel busy together for the last time, if that is
     // over and was after `since`: long ago, if not. `since` may lie as far back as was asked to `remember`.
     SimTime watch_energy(RadioId radio, SimTime since);
-    void stop_watching_energy(RadioId radio) { watches_[radio] = 0; }
+    void stop_watching_energy(RadioId radio) { attached_[radio].watches_energy = false; }
     // Transmissions after their end, for so long.
     void remember(SimTime duration) { remembered_ = std::max(remembered_, duration); }
 
     // The radio will probably send soon: has what the medium knows of it brought into the cache (kernel/fetch.hpp).
     void fetch_sender(RadioId radio) const {
-        netsim::fetch(receivers_[radio]);
         netsim::fetch(attached_[radio]);
+        netsim::fetch(trajectories_[radio]);
     }
     // Puts a frame on the air now, at the sender's present position, and sees to its arrivals.
     // `transmission`'s id, start and origin are filled in here.
@@ -116,13 +93,15 @@ public:
     std::uint64_t energy_look_count() const { return energy_looks_; }
 
 private:
-    // What each transmission asks of a radio near by, in one cache line. The first four are of its Receiver.
-    struct alignas(64) Attached {
-        MediumListener* listener = nullptr;
-        double sensitivity_w = 0;
-        double energy_detection_w = 0;
-        double noise_w = 0;
+    // What each transmission asks of a radio near by. As small as can be: in a large network, memory is what costs.
+    struct Attached {
         InterfaceId interface;
+        std::uint32_t kind = 0;  // an index of `kinds_`
+        bool watches_energy = true;
+    };
+    // By an arrival at a radio.
+    struct alignas(32) Touched {
+        MediumListener* listener = nullptr;
         const void* link = nullptr;
         const void* upper_layer = nullptr;
         const void* protocol = nullptr;
@@ -207,8 +186,7 @@ private:
     }
     // In the header, as sums over all that is on the air call it for each.
     Arrival arrival_at(const OnAir& on_air, RadioId radio) const {
-        return arrival_at_place(on_air, radio,
-                                receivers_[radio].trajectory->position_at(on_air.transmission.start));
+        return arrival_at_place(on_air, radio, trajectories_[radio]->position_at(on_air.transmission.start));
     }
     // The same, mostly with less to look up. `place`: where the radio was when any of those on the air began.
     Arrival arrival_at(const OnAir& on_air, RadioId radio, const Position& place) const {
@@ -223,7 +201,11 @@ private:
         return Arrival{&transmission, start, start + transmission.duration,
                        received_w,    place, can_lock_on(radio, transmission, received_w)};
     }
-    double share_at(const OnAir& on_air, RadioId radio) const { return on_air.shares[audience_of_[radio]]; }
+    const ReceiverKind& kind(RadioId radio) const { return kinds_[attached_[radio].kind]; }
+    std::uint32_t audience_of(RadioId radio) const { return audience_of_[attached_[radio].kind]; }
+    std::uint32_t kind_index(const ReceiverKind& kind);
+    std::uint32_t audience_index(const ReceiverKind& kind);
+    double share_at(const OnAir& on_air, RadioId radio) const { return on_air.shares[audience_of(radio)]; }
     // Since the first of those on the air began.
     bool nobody_moved() const {
         return odometer_.all_stand() && odometer_.reading_m(simulator_.now()) == on_air_.front()->odometer_m;
@@ -303,17 +285,17 @@ private:
         return sent.can_be_decoded(receiver.band, receiver.formats);
     }
     bool can_lock_on(RadioId radio, const Transmission& sent, double power_w) const {
-        return power_w >= attached_[radio].sensitivity_w && can_decode(audiences_[audience_of_[radio]], sent);
+        return power_w >= kind(radio).sensitivity_w && can_decode(kind(radio), sent);
     }
-    static bool is_loud(const Attached& receiver, double power_w) {
+    static bool is_loud(const ReceiverKind& receiver, double power_w) {
         return receiver.noise_w + power_w >= receiver.energy_detection_w;
     }
     // Of what its channel needs to be busy, beside one transmission of that power.
-    static double missing_beside_w(const Attached& receiver, double power_w) {
+    static double missing_beside_w(const ReceiverKind& receiver, double power_w) {
         return receiver.energy_detection_w * (1 - margin) - (receiver.noise_w + power_w);
     }
     // However sums are rounded.
-    static bool is_surely_loud(const Attached& receiver, double power_w) {
+    static bool is_surely_loud(const ReceiverKind& receiver, double power_w) {
         return is_loud(receiver, power_w * (1 - margin));
     }
     void forget_the_past();
@@ -325,10 +307,11 @@ private:
     Antennas antennas_;
     BackgroundNoise background_noise_;
     Hearing hearing_;
-    std::vector<Attached> attached_;          // [radio]
-    std::vector<Receiver> receivers_;         // [radio]
-    std::vector<std::uint32_t> audience_of_;  // [radio]
-    std::vector<std::uint8_t> watches_;       // [radio]: its energy
+    std::vector<Attached> attached_;               // [radio]
+    std::vector<Touched> touched_;                 // [radio]
+    std::vector<const Trajectory*> trajectories_;  // [radio]
+    std::vector<ReceiverKind> kinds_;
+    std::vector<std::uint32_t> audience_of_;  // [kind]
     std::vector<RadioId> first_radio_;        // [node]; its others come after it
     std::deque<Audience> audiences_;
     Odometer odometer_;

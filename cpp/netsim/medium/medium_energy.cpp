@@ -69,8 +69,9 @@ void Medium::add_to_ring(OnAir& here, const OnAir& there, std::size_t audience) 
     EnergyRing& ring = here.rings[audience];
     const auto bound_w = most_brought_w(there, here, most_power_w(there.transmission, audiences_[audience]));
     const double most_w = bound_w(ring.radius_m());
-    std::erase_if(ring.watched(),
-                  [this](const EnergyRing::Watched& watched) { return watches_[watched.radio] == 0; });
+    std::erase_if(ring.watched(), [this](const EnergyRing::Watched& watched) {
+        return !attached_[watched.radio].watches_energy;
+    });
     for (EnergyRing::Watched& watched : ring.watched()) {
         if (watched.missing_w > most_w) {
             watched.missing_w -= most_w;
@@ -129,7 +130,7 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
             return;
         }
         // Bounds give way to powers, one after the other, until it is known that something is missing.
-        const Attached& receiver = attached_[radio];
+        const ReceiverKind& receiver = kind(radio);
         double known_w = receiver.noise_w + received_w;
         const double level_w = receiver.energy_detection_w * (1 - margin);
         auto bound = bounds_.begin();
@@ -143,8 +144,8 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
     for (const auto& [radio, place] : audience.members.near(sent.origin, radius_m + moved_m)) {
-        if (watches_[radio] == 0 || squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m ||
-            radio == sent.radio) {
+        if (!attached_[radio].watches_energy ||
+            squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || radio == sent.radio) {
             continue;
         }
         ++energy_looks_;
@@ -152,7 +153,7 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
                                       ? arrival_at(here, radio).power_w
                                       : power_w(sent, share, radio, place, distance(sent.origin, place));
         if (received_w >= ring.least_power_w() && received_w < watched_before_w &&
-            !is_surely_loud(attached_[radio], received_w)) {
+            !is_surely_loud(kind(radio), received_w)) {
             watch(radio, place, received_w);
         }
     }
@@ -184,8 +185,8 @@ double Medium::missing_at(RadioId radio, const Position& place) {
         }
     }
     outlook.next_id = next_id_;
-    outlook.missing_w = outlook.forecast.settle(
-        receivers_[radio].energy_detection_w, [&](const EnergyForecast::Coming& coming) {
+    outlook.missing_w =
+        outlook.forecast.settle(kind(radio).energy_detection_w, [&](const EnergyForecast::Coming& coming) {
             OnAir& other = *on_air_[coming.transmission - first_id];
             // The place is not quite that of a radio that moves: only what can be locked on is asked for it.
             tell(radio, other,
@@ -195,15 +196,15 @@ double Medium::missing_at(RadioId radio, const Position& place) {
 }
 
 SimTime Medium::watch_energy(RadioId radio, SimTime since) {
-    watches_[radio] = 1;
+    attached_[radio].watches_energy = true;
     passing_.clear();
     if (hearing_ == Hearing::everything || on_air_.empty()) {
         return SimTime::long_ago();
     }
     const SimTime now = simulator_.now();
-    const Position place = receivers_[radio].trajectory->position_at(now);
-    const Attached& here = attached_[radio];
-    const std::size_t audience = audience_of_[radio];
+    const Position place = trajectories_[radio]->position_at(now);
+    const ReceiverKind& here = kind(radio);
+    const std::size_t audience = audience_of(radio);
     double all_w = 0;
     bool is_in_a_ring = false;
     for (const std::unique_ptr<OnAir>& on_air : on_air_) {
@@ -241,7 +242,7 @@ SimTime Medium::watch_energy(RadioId radio, SimTime since) {
 
 // Adds up in the order in which they began.
 SimTime Medium::energy_over_at(RadioId radio) {
-    const Attached& here = attached_[radio];
+    const ReceiverKind& here = kind(radio);
     SimTime over = SimTime::long_ago();
     struct Change {
         SimTime time;
@@ -293,10 +294,10 @@ void Medium::foresee(EnergyForecast& forecast, RadioId radio, const Position& pl
         return;
     }
     const EnergyForecast::Coming coming{sent.id, arrival.start, arrival.end, arrival.power_w};
-    const bool is_loud_alone = is_loud(attached_[radio], arrival.power_w);
+    const bool is_loud_alone = is_loud(kind(radio), arrival.power_w);
     if (arrival.lockable || is_loud_alone) {
         forecast.add_told(coming,
-                          arrival.lockable ? arrival.start + receivers_[radio].detection_time : arrival.start,
+                          arrival.lockable ? arrival.start + kind(radio).detection_time : arrival.start,
                           is_loud_alone);
     } else {
         forecast.add_untold(coming);
@@ -313,7 +314,7 @@ Medium::Outlook& Medium::outlook_of(RadioId radio) {
         Outlook& outlook = outlooks_[outlook_of_[radio]];
         outlook.radio = radio;
         outlook.next_id = 0;
-        outlook.forecast.begin(receivers_[radio].noise_w);
+        outlook.forecast.begin(kind(radio).noise_w);
     }
     return outlooks_[outlook_of_[radio]];
 }

@@ -20,10 +20,11 @@ InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arri
     if (on_air_.size() <= 1) {
         return interference_;
     }
+    const std::uint32_t audience = audience_of(receiver);
     for (const std::unique_ptr<OnAir>& other : on_air_) {
         const Transmission& sent = other->transmission;
         if (&sent == arrival.transmission || sent.radio == receiver || other->last_end <= start ||
-            sent.start >= end || share_at(*other, receiver) == 0) {
+            sent.start >= end || other->shares[audience] == 0) {
             continue;
         }
         interference_.add(arrival_at(*other, receiver, arrival.place));

@@ -28,7 +28,7 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
     const Position origin = position_at(now);
     const double length_m = distance(origin, target);
     if (length_m == 0) {
-        add(Leg{now, now, target, target, {}});
+        add(Leg{.start = now, .arrival = now, .target = target, .origin = target, .course = {}});
         return;
     }
     const double travel_s = length_m / speed_mps;  // infinite at speed 0
@@ -36,15 +36,23 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
     const double rest_s = (end_of_time - now).seconds();
     if (!(travel_s < rest_s)) {
         // So slow that the run ends before the arrival: keep the direction, shorten the leg.
-        add(Leg{now, end_of_time, origin, origin + (target - origin) * (rest_s / travel_s), {}});
+        add(Leg{.start = now,
+                .arrival = end_of_time,
+                .target = origin + (target - origin) * (rest_s / travel_s),
+                .origin = origin,
+                .course = {}});
         return;
     }
-    add(Leg{now, now + SimTime::from_seconds(travel_s), origin, target, {}});
+    add(Leg{.start = now,
+            .arrival = now + SimTime::from_seconds(travel_s),
+            .target = target,
+            .origin = origin,
+            .course = {}});
 }
 
 void Trajectory::stop(SimTime now) {
     const Position here = position_at(now);
-    add(Leg{now, now, here, here, {}});
+    add(Leg{.start = now, .arrival = now, .target = here, .origin = here, .course = {}});
 }
 
 void Trajectory::add(Leg leg) {

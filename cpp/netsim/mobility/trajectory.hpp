@@ -54,8 +54,8 @@ private:
     struct Leg {
         SimTime start;
         SimTime arrival;
+        Position target;  // before the origin: of one who stands, nothing else is looked at
         Position origin;
-        Position target;
         Position course;  // from the origin to the target, or that of the leg before, if they are the same
     };
 

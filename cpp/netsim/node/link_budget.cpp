@@ -6,7 +6,7 @@
 
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
-#include "netsim/mac/dcf.hpp"
+#include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/frame_802154.hpp"
 #include "netsim/medium/background_noise.hpp"
 #include "netsim/node/known_formats.hpp"
@@ -46,7 +46,7 @@ bool is_narrowband(const InterfaceConfig& interface) {
 }
 
 const Mode& broadcast_mode(const InterfaceConfig& interface) {
-    return is_narrowband(interface) ? oqpsk_250_kbps : Dcf::broadcast_mode(interface.mac);
+    return is_narrowband(interface) ? oqpsk_250_kbps : netsim::broadcast_mode(interface.mac);
 }
 
 int psdu_bytes_of(const InterfaceConfig& interface, int payload_bytes) {

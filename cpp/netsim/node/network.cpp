@@ -51,18 +51,30 @@ std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, Interfac
                                               node.link_listener());
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
-    Radio& radio = radios_.emplace_back(simulator_, medium_, id, config.radio, node.trajectory(), seed_,
-                                        node.attitude(), known_formats(config));
+    Radio& radio = radios_.emplace_back(simulator_, medium_, id, radio_kind(config.radio), node.trajectory(),
+                                        seed_, node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,
                                               node.link_listener());
     }
     link_types_.push_back(LinkType::radiotap);
-    return std::make_unique<Dcf>(simulator_, radio, config.mac, seed_, message_fates_, node.link_listener());
+    return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_, message_fates_,
+                                 node.link_listener());
 }
 
-void Network::check_with_medium(const NodeConfig& config) const {
+std::shared_ptr<const RadioKind> Network::radio_kind(const RadioConfig& config) {
+    return radio_kinds_.of(config, [this](const RadioConfig& radio) {
+        return std::make_shared<const RadioKind>(radio, medium_.background_noise());
+    });
+}
+
+std::shared_ptr<const DcfParameters> Network::dcf_parameters(const MacConfig& config) {
+    return dcf_parameters_.of(
+        config, [](const MacConfig& mac) { return std::make_shared<const DcfParameters>(mac); });
+}
+
+void Network::check_with_medium(const NodeConfig& config) {
     if (node_count_ == InterfaceId::most_nodes) {
         throw ConfigError("there are " + text_of(node_count_) + " nodes: no network can have more");
     }
@@ -93,7 +105,7 @@ void Network::check_with_others(const NodeConfig& config, std::size_t index) con
     }
 }
 
-void Network::check_with_medium(const std::string& node, const InterfaceConfig& config) const {
+void Network::check_with_medium(const std::string& node, const InterfaceConfig& config) {
     const RadioConfig& radio = config.radio;
     if (perfect_channel_) {
         check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
@@ -105,9 +117,9 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
                           " W: expected more than the background noise of " + text_of(noise_w) +
                           " W, which would keep the channel busy for ever");
     }
-    make_error_model(radio);
+    radio_kind(radio);
     if (config.type_name == ieee80211_interface) {
-        Dcf::check(config.mac);
+        dcf_parameters(config.mac);
     }
     // No channel of the one has the centre of a channel of the other: who sets it so has mistaken something, and
     // neither could make anything of what it locks on to.

@@ -16,13 +16,16 @@
 #include "netsim/config/node_config.hpp"
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/unit_disk_link.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/node/node.hpp"
 #include "netsim/node/radio_capture.hpp"
 #include "netsim/node/scheduled_calls.hpp"
+#include "netsim/node/shared_kinds.hpp"
 #include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
+#include "netsim/phy/radio_kind.hpp"
 #include "netsim/trace/frame_fates.hpp"
 #include "netsim/trace/message_fates.hpp"
 
@@ -73,8 +76,11 @@ public:
     const MessageFates& message_fates() const { return message_fates_; }
 
 private:
-    void check_with_medium(const NodeConfig& config) const;
-    void check_with_medium(const std::string& node, const InterfaceConfig& config) const;
+    // What nodes of one configuration share, made for the first of them. Both throw ConfigError for what cannot be.
+    std::shared_ptr<const RadioKind> radio_kind(const RadioConfig& config);
+    std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);
+    void check_with_medium(const NodeConfig& config);
+    void check_with_medium(const std::string& node, const InterfaceConfig& config);
     void check_with_others(const NodeConfig& config, std::size_t index) const;
     std::unique_ptr<Link> make_link(const InterfaceConfig& config, InterfaceId id, Node& node);
     Radio& radio(InterfaceId id);
@@ -89,6 +95,8 @@ private:
     bool perfect_channel_;
     Medium medium_;
     UnitDiskChannel unit_disk_;
+    SharedKinds<RadioConfig, RadioKind> radio_kinds_;
+    SharedKinds<MacConfig, DcfParameters> dcf_parameters_;
     std::deque<Radio> radios_;                       // by interface
     std::deque<LinkType> link_types_;                // of the radios
     std::map<double, std::string> interface_types_;  // {centre frequency in Hz: the one there}

@@ -106,7 +106,7 @@ void Node::message_received(NodeId source, const Payload& payload) {
 }
 
 void Node::fetch_for_timer() const {
-    fetch(*this);
+    fetch_before(*this, name_);
     timers_.fetch();
     if (protocol_) {
         fetch(*protocol_);

@@ -90,7 +90,7 @@ private:
     // Most timers send something.
     void fetch_for_timer() const;
 
-    // First what every message touches: one cache line, which the medium fetches ahead.
+    // First what every message touches: one cache line, which the medium fetches ahead. Then what every timer does.
     Simulator& simulator_;
     Fingerprint& fingerprint_;
     PayloadHash& payload_hash_;
@@ -99,10 +99,10 @@ private:
     std::unique_ptr<Protocol> protocol_;
     std::unique_ptr<Mobility> mobility_;
     std::vector<std::unique_ptr<Link>> links_;
-    std::string name_;
-    Attitude attitude_;
     Timers timers_;
     InstantCount timers_for_now_;
+    std::string name_;
+    Attitude attitude_;
     RandomStream random_;
     TrackedVariables tracked_variables_;
 };

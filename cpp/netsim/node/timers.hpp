@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "netsim/kernel/event_queue.hpp"
@@ -16,11 +17,11 @@ public:
     // set_event.
     std::size_t add(std::string name) {
         std::size_t number = timers_.size();
-        if (free_.empty()) {
+        if (first_free_ == none) {
             timers_.emplace_back();
         } else {
-            number = free_.back();
-            free_.pop_back();
+            number = first_free_;
+            first_free_ = timers_[number].next_free;
         }
         timers_[number].name = std::move(name);
         timers_[number].pending = true;
@@ -30,8 +31,7 @@ public:
 
     // Takes a timer out because it is due.
     std::string take(std::size_t number) {
-        timers_[number].pending = false;
-        free_.push_back(number);
+        release(number);
         return std::move(timers_[number].name);
     }
 
@@ -44,21 +44,28 @@ public:
             Timer& timer = timers_[number];
             if (timer.pending && timer.name == name) {
                 cancel_event(timer.event);
-                timer.pending = false;
-                free_.push_back(number);
+                release(number);
             }
         }
     }
 
 private:
+    static constexpr std::size_t none = ~std::size_t{0};
+
     struct Timer {
         std::string name;
         EventHandle event;
         bool pending = false;
+        std::size_t next_free = none;  // of those that are not pending
     };
 
+    void release(std::size_t number) {
+        timers_[number].pending = false;
+        timers_[number].next_free = std::exchange(first_free_, number);
+    }
+
     std::vector<Timer> timers_;
-    std::vector<std::size_t> free_;
+    std::size_t first_free_ = none;  // the one that was released last
 };
 
 }  // namespace netsim

@@ -1,6 +1,6 @@
 // The arrivals that last at one radio at the moment, in the order in which they began.
 //
-// Mostly there are one or two. Those lie in the radio itself: a store to memory that is in no cache holds up what
+// Mostly there is one. That lies in the radio itself: a store to memory that is in no cache holds up what
 // comes after it, and in a large network any memory beside the radio is in none.
 #pragma once
 
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t few = 2;
+    static constexpr std::size_t few = 1;
 
     const PresentArrival* begin() const { return count_ > few ? many_->data() : few_.data(); }
     PresentArrival* begin() { return count_ > few ? many_->data() : few_.data(); }

@@ -4,32 +4,26 @@
 #include <utility>
 
 #include "netsim/error.hpp"
-#include "netsim/phy/antenna.hpp"
 
 namespace netsim {
 
-Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
-             const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
-    : energy_detection_w_(config.energy_detection_w),
-      by_chunks_(config.snir_mode == snir_by_chunks),
+Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface,
+             std::shared_ptr<const RadioKind> kind, const Trajectory& trajectory, std::uint64_t seed,
+             const Attitude& attitude, PpduFormats formats)
+    : detects_preambles_(kind->preamble_detection.is_on()),
+      captures_frames_(kind->frame_capture.is_on()),
+      kind_(*kind),
       medium_(medium),
+      simulator_(simulator),
       interface_(interface),
       reception_draws_(seed, interface.stream(), Purpose::reception),
-      simulator_(simulator),
-      frame_capture_(config),
-      preamble_detection_(config),
-      band_{config.carrier_hz, config.bandwidth_hz},
-      tx_power_w_(config.tx_power_w),
-      error_model_(make_error_model(config)),
-      antenna_(make_antenna(config.antenna, config.carrier_hz)) {
-    detects_preambles_ = preamble_detection_.is_on();
-    captures_frames_ = frame_capture_.is_on();
-    const double noise_w = medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure);
-    reception_ = {error_model_.get(), config.snir_threshold, noise_w};
+      owned_kind_(std::move(kind)) {
     id_ = medium.attach(interface,
-                        Receiver{this, &trajectory, band_, config.sensitivity_w, energy_detection_w_, noise_w,
-                                 preamble_detection_.duration(), formats},
-                        MountedAntenna{antenna_.get(), attitude, Orientation(config.antenna.offset)});
+                        Receiver{this,
+                                 &trajectory,
+                                 {kind_.band, kind_.sensitivity_w, kind_.energy_detection_w,
+                                  kind_.reception.noise_w, kind_.preamble_detection.duration(), formats}},
+                        MountedAntenna{kind_.antenna.get(), attitude, kind_.antenna_offset});
 }
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -42,8 +36,8 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.sender = interface_;
     transmission.radio = id_;
     transmission.duration = duration;
-    transmission.power_w = tx_power_w_;
-    transmission.band = band_;
+    transmission.power_w = kind_.tx_power_w;
+    transmission.band = kind_.band;
     transmission.label = label;
     transmission.psdu_bytes = psdu_bytes;
     transmission.format = mode.format;
@@ -85,7 +79,7 @@ void Radio::arrival_started(const Arrival& arrival) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ == nullptr) {
             begin_reception(arrival);
-        } else if (captures_frames_ && frame_capture_.captures(locked_arrival_, arrival)) {
+        } else if (captures_frames_ && kind_.frame_capture.captures(locked_arrival_, arrival)) {
             simulator_.cancel(header_end_);
             book(*std::exchange(locked_, nullptr), FrameFate::captured);
             listener_->frame_corrupted();
@@ -102,7 +96,7 @@ void Radio::begin_reception(const Arrival& arrival) {
         lock_on(arrival);
         return;
     }
-    candidates_.push_back({arrival, simulator_.schedule_after(preamble_detection_.duration(),
+    candidates_.push_back({arrival, simulator_.schedule_after(kind_.preamble_detection.duration(),
                                                               [this, transmission = arrival.transmission] {
                                                                   end_detection(transmission);
                                                               })});
@@ -117,9 +111,9 @@ void Radio::end_detection(const Transmission* transmission) {
         candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
     const auto snir = [&] {
         const auto& steps = interference_in(arrival, {arrival.start, simulator_.now()}).steps();
-        return arrival.power_w / (reception_.noise_w + steps.back().power_w);
+        return arrival.power_w / (kind_.reception.noise_w + steps.back().power_w);
     };
-    if (!is_strongest || !preamble_detection_.detects(arrival.power_w, snir())) {
+    if (!is_strongest || !kind_.preamble_detection.detects(arrival.power_w, snir())) {
         book(*transmission, FrameFate::preamble_undetected);
         update_busy();
         return;
@@ -147,10 +141,10 @@ void Radio::drop_candidates(FrameFate fate) {
 
 void Radio::lock_on(const Arrival& arrival) {
     locked_ = arrival.transmission;
-    if (captures_frames_ || by_chunks_) {
+    if (captures_frames_ || kind_.by_chunks) {
         locked_arrival_ = arrival;
     }
-    if (by_chunks_) {
+    if (kind_.by_chunks) {
         const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator_.now());
         header_end_ = simulator_.schedule_at(end, [this] { end_header(); });
     }
@@ -185,11 +179,11 @@ void Radio::end_reception(const Arrival& arrival) {
     const Transmission& transmission = *std::exchange(locked_, nullptr);
     const std::vector<NodeId>* interferers = nullptr;
     const FrameFate fate =
-        by_chunks_ ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
+        kind_.by_chunks ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
     const bool decoded = fate == FrameFate::delivered;
     add_to_fingerprint(transmission, fate);
     if (is_observed_) {
-        observer_->received(arrival, reception_.noise_w, decoded);
+        observer_->received(arrival, kind_.reception.noise_w, decoded);
     }
     if (interferers != nullptr) {
         medium_.fates().book_interference(node(), transmission.label, *interferers);
@@ -199,8 +193,8 @@ void Radio::end_reception(const Arrival& arrival) {
     if (decoded) {
         listener_->frame_received(transmission);
     } else {
-        others_are_weak_ =
-            reception_.noise_w + medium_.most_interference_w(arrival) < energy_detection_w_ * (1 - 1e-6);
+        others_are_weak_ = kind_.reception.noise_w + medium_.most_interference_w(arrival) <
+                           kind_.energy_detection_w * (1 - 1e-6);
         listener_->frame_corrupted();
     }
 }
@@ -210,22 +204,22 @@ void Radio::end_reception(const Arrival& arrival) {
 FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
     // not be known. Mostly not even the draw.
-    const double least_success = reception_.least_success(arrival, medium_.most_interference_w(arrival));
+    const double least_success = kind_.reception.least_success(arrival, medium_.most_interference_w(arrival));
     if (least_success == 1) {
         reception_draws_.skip_uniform();
         return FrameFate::delivered;
     }
     const double draw = reception_draws_.uniform();
     if (draw < least_success ||
-        draw < reception_.least_success(arrival, medium_.most_interference_w(id_, arrival))) {
+        draw < kind_.reception.least_success(arrival, medium_.most_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
     const double interference_w = interference.worst_w();
-    if (draw < reception_.success(arrival, interference_w)) {
+    if (draw < kind_.reception.success(arrival, interference_w)) {
         return FrameFate::delivered;
     }
-    if (interference_w > 0 && draw < reception_.success(arrival, 0)) {
+    if (interference_w > 0 && draw < kind_.reception.success(arrival, 0)) {
         interferers = &interference.interferers();
         return FrameFate::interference;
     }
@@ -238,10 +232,10 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
     }
     const double draw = reception_draws_.uniform();
     InterferenceSum& interference = interference_in(arrival, period_of(FramePart::data, arrival));
-    if (draw < reception_.success(FramePart::data, arrival, interference)) {
+    if (draw < kind_.reception.success(FramePart::data, arrival, interference)) {
         return FrameFate::delivered;
     }
-    if (draw < reception_.success_undisturbed(FramePart::data, arrival)) {
+    if (draw < kind_.reception.success_undisturbed(FramePart::data, arrival)) {
         interferers = &interference.interferers();
         return FrameFate::interference;
     }
@@ -251,7 +245,8 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
 bool Radio::header_survives() {
     InterferenceSum& interference =
         interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
-    return reception_draws_.uniform() < reception_.success(FramePart::header, locked_arrival_, interference);
+    return reception_draws_.uniform() <
+           kind_.reception.success(FramePart::header, locked_arrival_, interference);
 }
 
 void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
@@ -266,13 +261,13 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 void Radio::update_busy() {
     bool busy = transmitting_ || locked_ != nullptr;
     if (!busy && !present_.empty()) {
-        double energy_w = reception_.noise_w;
+        double energy_w = kind_.reception.noise_w;
         for (const PresentArrival& present : present_.all()) {
             if (!is_candidate(present.transmission)) {
                 energy_w += present.power_w;
             }
         }
-        busy = energy_w >= energy_detection_w_;
+        busy = energy_w >= kind_.energy_detection_w;
     }
     if (busy != busy_) {
         busy_ = busy;

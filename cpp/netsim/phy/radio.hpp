@@ -27,18 +27,13 @@
 #include <memory>
 #include <vector>
 
-#include "netsim/config/radio_config.hpp"
 #include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/random.hpp"
-#include "netsim/medium/antenna_pattern.hpp"
 #include "netsim/medium/medium.hpp"
-#include "netsim/phy/error_rate.hpp"
-#include "netsim/phy/frame_capture.hpp"
 #include "netsim/phy/modes.hpp"
-#include "netsim/phy/preamble_detection.hpp"
 #include "netsim/phy/present_arrivals.hpp"
+#include "netsim/phy/radio_kind.hpp"
 #include "netsim/phy/radio_observer.hpp"
-#include "netsim/phy/reception.hpp"
 
 namespace netsim {
 
@@ -58,7 +53,7 @@ protected:
 
 class alignas(64) Radio final : public MediumListener {
 public:
-    Radio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
+    Radio(Simulator& simulator, Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind,
           const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
           PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
@@ -106,7 +101,7 @@ public:
 
     // It will probably send soon (Link::fetch).
     void fetch() const {
-        netsim::fetch(*this);
+        fetch_before(*this, observer_);
         medium_.fetch_sender(id_);
     }
 
@@ -147,40 +142,33 @@ private:
     void transmission_over();
     void update_busy();
 
-    // In the order of use: the beginning of an arrival touches the first two cache lines, the end of a reception one more. In a
-    // large network they are in no cache, so the medium has them fetched ahead (Medium::fetch).
-    PresentArrivals present_;
-    const Transmission* locked_ = nullptr;
-    ReceptionModel reception_;
-    double energy_detection_w_;
+    // First what an arrival touches: two cache lines. In a large network they are in no cache, so the medium has them
+    // fetched ahead (Medium::fetch).
+    [[no_unique_address]] PresentArrivals present_;  // the bits below lie in its padding
     bool transmitting_ : 1 = false;
     bool turned_ : 1 = false;  // to transmit, which it does not yet
     bool busy_ : 1 = false;
-    bool by_chunks_ : 1;
-    bool detects_preambles_ : 1 = false;  // as preamble_detection_ says, which lies farther away
-    bool captures_frames_ : 1 = false;    // as frame_capture_ says
+    bool detects_preambles_ : 1;  // as its kind
+    bool captures_frames_ : 1;    // as its kind
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
     bool tells_of_channel_ : 1 = true;
-    RadioId id_ = 0;
+    const Transmission* locked_ = nullptr;
+    const RadioKind& kind_;
     RadioListener* listener_ = nullptr;
-    Medium& medium_;
-    InterfaceId interface_;
 
-    RandomStream reception_draws_;
+    Medium& medium_;
     Simulator& simulator_;
     SimTime free_since_ = SimTime::long_ago();  // its channel, if it is
+    InterfaceId interface_;
+    RadioId id_ = 0;
+    RandomStream reception_draws_;
 
     RadioObserver* observer_ = nullptr;
-    Arrival locked_arrival_;  // if locked on, for the options that ask for it before its end
-    FrameCapture frame_capture_;
-    PreambleDetection preamble_detection_;
+    std::shared_ptr<const RadioKind> owned_kind_;
+    Arrival locked_arrival_;             // if locked on, for the options that ask for it before its end
     std::vector<Candidate> candidates_;  // none without preamble detection
     EventHandle header_end_;             // SNIR by chunks: pending until the header is decided
-    Band band_;
-    double tx_power_w_;
-    std::shared_ptr<const ErrorModel> error_model_;
-    std::unique_ptr<const AntennaPattern> antenna_;  // null: isotropic
 };
 
 }  // namespace netsim

@@ -38,7 +38,8 @@ protected:
     }
     Contention& contention(const MacConfig& config, std::uint64_t seed = 1) {
         if (!contention_) {
-            contention_ = std::make_unique<Contention>(simulator, config,
+            parameters_ = std::make_unique<DcfParameters>(config);
+            contention_ = std::make_unique<Contention>(simulator, *parameters_,
                                                        RandomStream(seed, 0, Purpose::backoff), log_);
         }
         return *contention_;
@@ -71,6 +72,7 @@ protected:
     const std::vector<SimTime>& grants = log_.times;
 
 private:
+    std::unique_ptr<DcfParameters> parameters_;
     std::unique_ptr<Contention> contention_;
 };
 
@@ -204,11 +206,12 @@ TEST_F(ContentionTest, IfItWasNotBusyInitiallyAFrameLeavesAtOnce) {
 }
 
 TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {
+    const DcfParameters parameters{MacConfig()};
     std::set<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         Simulator own;
         GrantLog log(own);
-        Contention own_contention(own, MacConfig(), RandomStream(seed, 0, Purpose::backoff), log);
+        Contention own_contention(own, parameters, RandomStream(seed, 0, Purpose::backoff), log);
         own_contention.start(15);
         own.run_until(us(10'000));
         const SimTime backoff = log.times.at(0) - difs;

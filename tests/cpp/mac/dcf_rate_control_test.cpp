@@ -39,7 +39,7 @@ public:
     Listener(Air& air, FrameKind kind) : kind_(kind) {
         const RadioConfig radio;
         air.medium.attach(air.next_node(),
-                          Receiver{this, &trajectory_, Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
+                          Receiver{this, &trajectory_, {.band = {radio.carrier_hz, radio.bandwidth_hz}}});
     }
 
     void arrival_started(const Arrival&) override {}

@@ -19,9 +19,11 @@ class Judge final : public MediumListener {
 public:
     Judge(Air& air, Position place) : medium_(air.medium), trajectory_(place) {
         const RadioConfig config;
-        id_ = medium_.attach(air.next_node(),
-                             Receiver{this, &trajectory_, Band{config.carrier_hz, config.bandwidth_hz},
-                                      config.sensitivity_w, config.energy_detection_w});
+        id_ = medium_.attach(air.next_node(), Receiver{this,
+                                                       &trajectory_,
+                                                       {.band = {config.carrier_hz, config.bandwidth_hz},
+                                                        .sensitivity_w = config.sensitivity_w,
+                                                        .energy_detection_w = config.energy_detection_w}});
     }
 
     void arrival_started(const Arrival&) override {}

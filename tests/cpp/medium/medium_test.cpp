@@ -310,8 +310,12 @@ TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
     const Band band{RadioConfig().carrier_hz, RadioConfig().bandwidth_hz};
     EndListener told_later(0, order);
     EndListener told_alone(1, order);
-    air.medium.attach(air.next_node(), Receiver{&told_later, &place, band, 1, 1e-10});
-    air.medium.attach(air.next_node(), Receiver{&told_alone, &place, band, 1, 1e-12});
+    air.medium.attach(
+        air.next_node(),
+        Receiver{&told_later, &place, {.band = band, .sensitivity_w = 1, .energy_detection_w = 1e-10}});
+    air.medium.attach(
+        air.next_node(),
+        Receiver{&told_alone, &place, {.band = band, .sensitivity_w = 1, .energy_detection_w = 1e-12}});
     BareRadio& first = air.add_radio({light_microsecond_m, 0, 0},
                                      test::radio_of_power(test::power_for(6e-11, light_microsecond_m)));
     BareRadio& second = air.add_radio({0, light_microsecond_m, 0},

@@ -58,11 +58,17 @@ public:
     }
 };
 
+inline std::shared_ptr<const RadioKind> kind_of(const RadioConfig& config, const Medium& medium) {
+    return std::make_shared<const RadioKind>(config, medium.background_noise());
+}
+
 // A radio without a MAC.
 struct BareRadio {
     BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
               Position place, std::uint64_t seed)
-        : trajectory(place), radio(simulator, medium, interface, config, trajectory, seed), log(simulator) {
+        : trajectory(place),
+          radio(simulator, medium, interface, kind_of(config, medium), trajectory, seed),
+          log(simulator) {
         radio.set_listener(log);
     }
 
@@ -110,8 +116,9 @@ struct Station final : LinkListener {
             const MacConfig& mac_config, Position place, std::uint64_t seed, MessageFates& message_fates)
         : simulator(simulator_),
           trajectory(place),
-          radio(simulator_, medium, interface, radio_config, trajectory, seed),
-          dcf(simulator_, radio, mac_config, seed, message_fates, *this) {}
+          radio(simulator_, medium, interface, kind_of(radio_config, medium), trajectory, seed),
+          dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed, message_fates,
+              *this) {}
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, const std::string& text) {
@@ -162,8 +169,9 @@ public:
     }
     Sniffer& add_sniffer(Position place, const RadioConfig& radio = RadioConfig()) {
         Sniffer& sniffer = sniffers_.emplace_back(place);
-        medium.attach(next_node(), Receiver{&sniffer, &sniffer.trajectory,
-                                            Band{radio.carrier_hz, radio.bandwidth_hz}, 0, 0});
+        medium.attach(
+            next_node(),
+            Receiver{&sniffer, &sniffer.trajectory, {.band = {radio.carrier_hz, radio.bandwidth_hz}}});
         return sniffer;
     }
 

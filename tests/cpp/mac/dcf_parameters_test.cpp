@@ -1,10 +1,11 @@
-// What the Dcf refuses of a configuration before it is built.
+// What is refused of a configuration before a station is built.
+#include "netsim/mac/dcf_parameters.hpp"
+
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "netsim/error.hpp"
-#include "netsim/mac/dcf.hpp"
 #include "support/dcf_instants.hpp"
 
 namespace netsim {
@@ -12,41 +13,41 @@ namespace {
 
 using test::mac_of;
 
-TEST(DcfCheck, TheDefaultsArePossibleInEveryMode) {
+TEST(DcfParametersCheck, TheDefaultsArePossibleInEveryMode) {
     for (const std::string_view op_mode : op_mode_names) {
-        EXPECT_NO_THROW(Dcf::check(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
+        EXPECT_NO_THROW(DcfParameters(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
     }
 }
 
-TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnError) {
-    EXPECT_THROW(Dcf::check(mac_of("b", 24e6)), ConfigError);
+TEST(DcfParametersCheck, ABitrateThatTheModeHasNotIsAnError) {
+    EXPECT_THROW(DcfParameters(mac_of("b", 24e6)), ConfigError);
     MacConfig mac;
     mac.multicast_bitrate_bps = 7e6;
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    EXPECT_THROW(DcfParameters{mac}, ConfigError);
     mac.multicast_bitrate_bps = -1;
     mac.control_bitrate_bps = 7e6;
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    EXPECT_THROW(DcfParameters{mac}, ConfigError);
 }
 
-TEST(DcfCheck, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
+TEST(DcfParametersCheck, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
     MacConfig mac = mac_of("b", 24e6);
     mac.multicast_bitrate_bps = mac.initial_rate_bps = 2e6;
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    EXPECT_THROW(DcfParameters{mac}, ConfigError);
 }
 
-TEST(DcfCheck, AWindowBeyondThatOfTheModeIsAnError) {
+TEST(DcfParametersCheck, AWindowBeyondThatOfTheModeIsAnError) {
     MacConfig mac;
     mac.cw_min = 2000;  // the mode's largest is 1023
-    EXPECT_THROW(Dcf::check(mac), ConfigError);
+    EXPECT_THROW(DcfParameters{mac}, ConfigError);
     mac.cw_max = 4000;
-    EXPECT_NO_THROW(Dcf::check(mac));
+    EXPECT_NO_THROW(DcfParameters{mac});
 }
 
-TEST(DcfCheck, TheErrorNamesBothWindows) {
+TEST(DcfParametersCheck, TheErrorNamesBothWindows) {
     MacConfig mac;
     mac.cw_max = 5;
     try {
-        Dcf::check(mac);
+        DcfParameters{mac};
         FAIL() << "no error";
     } catch (const ConfigError& error) {
         EXPECT_EQ(

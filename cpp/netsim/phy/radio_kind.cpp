@@ -1,0 +1,22 @@
+#include "netsim/phy/radio_kind.hpp"
+
+#include "netsim/phy/antenna.hpp"
+
+namespace netsim {
+
+RadioKind::RadioKind(const RadioConfig& config, const BackgroundNoise& background_noise)
+    : band{config.carrier_hz, config.bandwidth_hz},
+      tx_power_w(config.tx_power_w),
+      sensitivity_w(config.sensitivity_w),
+      energy_detection_w(config.energy_detection_w),
+      by_chunks(config.snir_mode == snir_by_chunks),
+      frame_capture(config),
+      preamble_detection(config),
+      antenna(make_antenna(config.antenna, config.carrier_hz)),
+      antenna_offset(config.antenna.offset),
+      error_model_(make_error_model(config)) {
+    reception = {error_model_.get(), config.snir_threshold,
+                 background_noise.power_w(config.bandwidth_hz, config.noise_figure)};
+}
+
+}  // namespace netsim

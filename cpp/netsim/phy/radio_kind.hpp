@@ -1,0 +1,38 @@
+// What the radios of one configuration have in common: made once, never changed, shared by all of them.
+//
+// In a large network the memory that a frame touches at each radio decides how fast it is; this lies in one place.
+#pragma once
+
+#include <memory>
+
+#include "netsim/config/radio_config.hpp"
+#include "netsim/medium/antenna_pattern.hpp"
+#include "netsim/medium/background_noise.hpp"
+#include "netsim/medium/transmission.hpp"
+#include "netsim/phy/error_rate.hpp"
+#include "netsim/phy/frame_capture.hpp"
+#include "netsim/phy/preamble_detection.hpp"
+#include "netsim/phy/reception.hpp"
+
+namespace netsim {
+
+class RadioKind {
+public:
+    RadioKind(const RadioConfig& config, const BackgroundNoise& background_noise);
+
+    Band band;
+    double tx_power_w;
+    double sensitivity_w;
+    double energy_detection_w;
+    ReceptionModel reception;
+    bool by_chunks;
+    FrameCapture frame_capture;
+    PreambleDetection preamble_detection;
+    std::unique_ptr<const AntennaPattern> antenna;  // null: isotropic
+    Orientation antenna_offset;
+
+private:
+    std::shared_ptr<const ErrorModel> error_model_;
+};
+
+}  // namespace netsim
