@@ -33,6 +33,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
       queue_(config.queue_capacity) {
     radio_.set_listener(*this);
+    radio_.stop_watching_channel();
 }
 
 void CsmaCa802154::send(NodeId destination, Payload payload) {
@@ -96,6 +97,7 @@ int CsmaCa802154::backoff_periods() {
 
 void CsmaCa802154::assess() {
     state_ = State::assessing;
+    radio_.watch_channel(simulator_.now());
     heard_ = radio_.is_channel_busy();
     timer_ = simulator_.schedule_after(cca_, [this] { assessed(); }, Priority::last);
 }
@@ -105,6 +107,7 @@ void CsmaCa802154::channel_busy_changed(bool busy) {
 }
 
 void CsmaCa802154::assessed() {
+    radio_.stop_watching_channel();
     if (radio_.is_channel_busy() || (config_.cca_whole_window && heard_)) {
         channel_is_busy();
         return;
@@ -201,6 +204,7 @@ void CsmaCa802154::acknowledge(const Frame& frame) {
     if (state_ != State::idle) {
         NETSIM_ASSERT(state_ == State::backing_off || state_ == State::assessing);
         simulator_.cancel(timer_);
+        radio_.stop_watching_channel();
         interrupted_ = true;
     }
     state_ = State::waiting_sifs;

@@ -18,7 +18,8 @@
 //
 // A unicast frame that comes in IDLE, BACKING_OFF or ASSESSING is answered: WAITING_SIFS --> SENDING_ACK, and then the
 // own frame waits anew, without losing count of its failed assessments. One that comes in AWAITING_ACK is taken
-// without an answer. From ASSESSING on, until a frame or an ACK has been sent, the radio is deaf.
+// without an answer. From ASSESSING on, until a frame or an ACK has been sent, the radio is deaf. Only in ASSESSING does
+// it have to know whether frames make the channel busy together.
 //
 // Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments); the choices where the standard
 // leaves room are those of INET 4.5. Three things differ from INET: a frame is given up after its last assessment also if
