@@ -20,7 +20,7 @@ inline void fetch_bytes(const void* object, std::size_t bytes) {
 
 template <typename Object>
 void fetch(const Object& object) {
-    fetch_bytes(&object, sizeof(Object));
+    fetch_bytes(static_cast<const void*>(&object), sizeof(Object));
 }
 
 // Its members before `member`: the first ones, if it keeps those that are used most in front.

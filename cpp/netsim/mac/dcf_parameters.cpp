@@ -1,6 +1,7 @@
 #include "netsim/mac/dcf_parameters.hpp"
 
 #include <string>
+#include <utility>
 
 #include "netsim/error.hpp"
 #include "netsim/mac/rate_control.hpp"
@@ -35,8 +36,8 @@ const Mode& broadcast_mode(const MacConfig& config) {
                : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
 }
 
-DcfParameters::DcfParameters(const MacConfig& mac_config)
-    : config(mac_config),
+DcfParameters::DcfParameters(MacConfig mac_config)
+    : config(std::move(mac_config)),
       modes(mode_set(config.op_mode)),
       timing(modes),
       initial_mode(checked_initial_mode(config, modes)),

@@ -14,7 +14,7 @@ const Mode& broadcast_mode(const MacConfig& config);
 
 struct DcfParameters {
     // Throws ConfigError for what MacConfig::validate cannot know: bitrates and windows that the operation mode has not.
-    explicit DcfParameters(const MacConfig& mac_config);
+    explicit DcfParameters(MacConfig mac_config);
 
     MacConfig config;
     const ModeSet& modes;

@@ -13,13 +13,13 @@ namespace {
 
 using test::mac_of;
 
-TEST(DcfParametersCheck, TheDefaultsArePossibleInEveryMode) {
+TEST(DcfParameters, TheDefaultsArePossibleInEveryMode) {
     for (const std::string_view op_mode : op_mode_names) {
         EXPECT_NO_THROW(DcfParameters(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
     }
 }
 
-TEST(DcfParametersCheck, ABitrateThatTheModeHasNotIsAnError) {
+TEST(DcfParameters, ABitrateThatTheModeHasNotIsAnError) {
     EXPECT_THROW(DcfParameters(mac_of("b", 24e6)), ConfigError);
     MacConfig mac;
     mac.multicast_bitrate_bps = 7e6;
@@ -29,13 +29,13 @@ TEST(DcfParametersCheck, ABitrateThatTheModeHasNotIsAnError) {
     EXPECT_THROW(DcfParameters{mac}, ConfigError);
 }
 
-TEST(DcfParametersCheck, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
+TEST(DcfParameters, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
     MacConfig mac = mac_of("b", 24e6);
     mac.multicast_bitrate_bps = mac.initial_rate_bps = 2e6;
     EXPECT_THROW(DcfParameters{mac}, ConfigError);
 }
 
-TEST(DcfParametersCheck, AWindowBeyondThatOfTheModeIsAnError) {
+TEST(DcfParameters, AWindowBeyondThatOfTheModeIsAnError) {
     MacConfig mac;
     mac.cw_min = 2000;  // the mode's largest is 1023
     EXPECT_THROW(DcfParameters{mac}, ConfigError);
@@ -43,11 +43,11 @@ TEST(DcfParametersCheck, AWindowBeyondThatOfTheModeIsAnError) {
     EXPECT_NO_THROW(DcfParameters{mac});
 }
 
-TEST(DcfParametersCheck, TheErrorNamesBothWindows) {
+TEST(DcfParameters, TheErrorNamesBothWindows) {
     MacConfig mac;
     mac.cw_max = 5;
     try {
-        DcfParameters{mac};
+        const DcfParameters refused(mac);
         FAIL() << "no error";
     } catch (const ConfigError& error) {
         EXPECT_EQ(
