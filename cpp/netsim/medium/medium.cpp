@@ -43,9 +43,11 @@ RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const Mo
 }
 
 std::uint32_t Medium::kind_index(const ReceiverKind& kind) {
-    // Mostly that of the one before.
-    const auto known = std::find(kinds_.rbegin(), kinds_.rend(), kind);
-    if (known != kinds_.rend()) {
+    // Mostly that of the one before. Only the latest are looked at: each radio may have a kind of its own.
+    constexpr std::ptrdiff_t most = 16;
+    const auto last = kinds_.rbegin() + std::min(most, std::ssize(kinds_));
+    const auto known = std::find(kinds_.rbegin(), last, kind);
+    if (known != last) {
         return static_cast<std::uint32_t>(kinds_.rend() - known - 1);
     }
     kinds_.push_back(kind);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -47,6 +48,27 @@ TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
     EXPECT_NEAR(sniffer.heard.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
+}
+
+TEST(Medium, OfManyRadiosEachHasItsOwnSensitivity) {
+    Air air;
+    constexpr double arriving_w = 24.5e-12;
+    BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(test::power_for(arriving_w, 50)));
+    std::vector<std::pair<BareRadio*, double>> receivers;
+    for (int sensitivity_pw = 1; sensitivity_pw <= 50; ++sensitivity_pw) {
+        RadioConfig config;
+        config.sensitivity_w = sensitivity_pw * 1e-12;
+        for (const double y_m : {50, -50}) {
+            receivers.emplace_back(&air.add_radio({0, y_m, 0}, config), config.sensitivity_w);
+        }
+    }
+    air.at(us(10), [&] { sender.send(us(100)); });
+    air.at(us(60), [&] {
+        for (const auto& [receiver, sensitivity_w] : receivers) {
+            EXPECT_EQ(receiver->radio.is_receiving(), arriving_w > sensitivity_w) << sensitivity_w;
+        }
+    });
+    air.run();
 }
 
 // Of 22 MHz, channels that are 15 MHz apart share 7.
