@@ -48,8 +48,8 @@ private:
 
     std::array<std::uint32_t, words_of_block> block(std::uint64_t number) const;
 
-    // Nothing of what it has drawn is kept, to spare the next draw the work: each node has several streams, and in a large
-    // network memory costs more.
+    // The block that a draw is from is worked out anew for each: every node has several streams, and in a large network it
+    // would cost more to keep it.
     std::array<std::uint32_t, 2> key_;
     std::uint32_t node_;
     Purpose purpose_;

@@ -130,7 +130,7 @@ private:
     Place nav_place_ = 0;    // of the event at the end of the NAV, since that was set
     EventHandle nav_event_;  // pending while the channel is watched
 
-    std::shared_ptr<const DcfParameters> owned_parameters_;
+    std::shared_ptr<const DcfParameters> owned_parameters_;  // parameters_ again: keeps them alive
     std::unique_ptr<RateControl> rate_control_;
     std::vector<std::uint64_t>
         frames_by_mode_;  // unicast frames on the air, by their mode's place in the mode set, if the rate adapts

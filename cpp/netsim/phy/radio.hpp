@@ -165,7 +165,7 @@ private:
     RandomStream reception_draws_;
 
     RadioObserver* observer_ = nullptr;
-    std::shared_ptr<const RadioKind> owned_kind_;
+    std::shared_ptr<const RadioKind> owned_kind_;  // kind_ again: keeps it alive
     Arrival locked_arrival_;             // if locked on, for the options that ask for it before its end
     std::vector<Candidate> candidates_;  // none without preamble detection
     EventHandle header_end_;             // SNIR by chunks: pending until the header is decided

@@ -18,6 +18,7 @@ namespace netsim {
 
 class RadioKind {
 public:
+    // Throws ConfigError for an error model that is not there, and for what is wrong in its file.
     RadioKind(const RadioConfig& config, const BackgroundNoise& background_noise);
 
     Band band;
