@@ -86,7 +86,7 @@ def run(
         Parameter(
             negative="",
             help="Leave out runs whose file in --result-dir is complete and of the same settings, seed and"
-            " files (protocols, obstacles).",
+            " files (protocols, obstacles), with what --pcap and --fates-at ask for.",
         ),
     ] = False,
     jobs: Annotated[
@@ -119,7 +119,7 @@ def run(
             check, build = simulator(mode, pcap, fates_at, result_dir)
             warn_of_equal_seeds(scenarios)
             if resume:
-                scenarios = left_to_do(scenarios, mode, result_dir, fates_at)
+                scenarios = left_to_do(scenarios, mode, result_dir, fates_at, pcap)
                 if not scenarios:
                     return OK
             warn_of_shadowed_lines(scenarios[0])
@@ -210,11 +210,15 @@ def make_result_dir(directory: Path) -> None:
 
 
 def left_to_do(
-    scenarios: "Sequence[Scenario]", mode: Mode, result_dir: Path | None, fates_at: Sequence[str]
+    scenarios: "Sequence[Scenario]",
+    mode: Mode,
+    result_dir: Path | None,
+    fates_at: Sequence[str],
+    pcap: Sequence[str],
 ) -> "list[Scenario]":
-    """Return the runs that have no result yet, and say which have one, and which an outdated one.
+    """Return the runs that lack a result or a capture, and say which do not, and whose result is outdated.
 
-    Raises ConfigError without a folder, and for names in `fates_at` that are none of nodes.
+    Raises ConfigError without a folder, and for names in `fates_at` and `pcap` that are none of nodes.
     """
     from gradysim.config.error import ConfigError
     from gradysim.config.file_hashes import text_of_files
@@ -226,12 +230,15 @@ def left_to_do(
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
     for scenario in scenarios:
+        captured = all(
+            file.is_file() for file in files_written(scenario, captures(scenario, pcap, result_dir))
+        )
         changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, fates_at))
-        if changed == ():
+        if changed == () and captured:
             done.append(scenario.run_number)
             continue
         left.append(scenario)
-        if changed is not None:
+        if changed:
             outdated.setdefault(changed, []).append(scenario.run_number)
     for files, runs in outdated.items():
         print(

@@ -73,6 +73,21 @@ def test_a_file_for_each_interface(gradysim_run: Gradysim, tmp_path: Path) -> No
 
 
 @compiled
+def test_resumed_runs_are_repeated_for_captures_that_are_missing(
+    gradysim_run: Gradysim, tmp_path: Path
+) -> None:
+    arguments = ("-r", "0,1", "--result-dir", "out", "--quiet", "--resume")
+    gradysim_run(*arguments)
+    gradysim_run(*arguments, "--pcap", "uavs[0]")
+    names = [f"General-#{run}-uavs[0].pcap" for run in (0, 1)]
+    assert names_in(tmp_path / "out") == names
+    (tmp_path / "out" / names[1]).unlink()
+    done = gradysim_run(*arguments, "--pcap", "uavs[0]")
+    assert done.stderr == "General: 1 of 2 runs is in out (0) and left out\n"
+    assert names_in(tmp_path / "out") == names
+
+
+@compiled
 def test_json_stays_json(gradysim_run: Gradysim) -> None:
     done = gradysim_run("-r", "0", "--pcap", "all", "--json")
     assert len(done.stdout.splitlines()) == 1
