@@ -5,7 +5,6 @@ needs an event loop, nodes to look at and its turn at the right moments, which i
 order as there.
 """
 
-import logging
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, cast
 
@@ -13,15 +12,18 @@ from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.event_loop import EngineEventLoop
 from gradysim.integrated.native_protocols import NativeView
 from gradysim.integrated.node_view import NodeView
-from gradysim.simulator.handler.given import given_handlers, step_hooks
+from gradysim.simulator.handler.given import (
+    finalize_after_failure,
+    given_handlers,
+    judge_nothing_more,
+    step_hooks,
+)
 from gradysim.simulator.handler.interface import INodeHandler
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node
     from gradysim.simulator.event import EventLoop
     from gradysim.simulator.node import Node as SimulatorNode
-
-_logger = logging.getLogger(__name__)
 
 MODE = "integrated mode"
 
@@ -84,16 +86,13 @@ class EngineHandlers:
                 hook(iteration, timestamp)
         return False
 
-    def finalize(self) -> None:
-        """End; after the protocols have."""
+    def finalize(self, *, complete: bool = True) -> None:
+        """End; after the protocols have. Unless the run is complete, assertions judge nothing more."""
+        if not complete:
+            judge_nothing_more(self._live)
         while self._live:
             self._live.pop(0).finalize()
 
     def finalize_after_failure(self) -> None:
         """End those that are left; what they raise is logged, and does not hide the failure before."""
-        while self._live:
-            handler = self._live.pop(0)
-            try:
-                handler.finalize()
-            except Exception:
-                _logger.exception("The handler %s failed to finalize, too", handler.get_label())
+        finalize_after_failure(self._live)

@@ -133,7 +133,7 @@ class IntegratedRun:
             except KeyboardInterrupt:
                 self._complete = False
             network.finish()
-            self._handlers.finalize()
+            self._handlers.finalize(complete=self._complete)
         except load_netsim().ProtocolError as failure:
             self._complete = False
             raise self._native_failure(failure) from None

@@ -66,7 +66,7 @@ class PrototypeRun:
                 )
             except KeyboardInterrupt:
                 self._complete = False
-            simulator.finalize()
+            simulator.finalize(complete=self._complete)
         except BaseException:
             self._complete = False
             raise

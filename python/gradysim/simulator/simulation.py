@@ -20,7 +20,12 @@ from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
-from gradysim.simulator.handler.given import label_of, step_hooks
+from gradysim.simulator.handler.given import (
+    finalize_after_failure,
+    judge_nothing_more,
+    label_of,
+    step_hooks,
+)
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
@@ -202,7 +207,7 @@ class Simulator:
             while self.run_events(_CHUNK):
                 pass
         except KeyboardInterrupt:
-            self.finalize()
+            self.finalize(complete=False)
             raise
 
     def is_simulation_done(self) -> bool:
@@ -217,14 +222,16 @@ class Simulator:
         next_time = self._event_loop.next_time()
         return next_time is None or next_time > self._until_s
 
-    def finalize(self) -> None:
+    def finalize(self, *, complete: bool = True) -> None:
         """End the simulation here: `finish` of the protocols, then `finalize` of the handlers, once each.
 
         No-op if that has happened, or the simulation ended with an exception. If `duration` ended it, the
-        time is `duration` then.
+        time is `duration` then. Unless it is `complete`, assertions judge nothing more.
         """
         if self._finalized:
             return
+        if not complete:
+            judge_nothing_more(self._live_handlers)
         next_time = self._event_loop.next_time()
         if self._initialized and next_time is not None and next_time > self._until_s:
             self._event_loop.advance_to(self._until_s)
@@ -359,12 +366,7 @@ class Simulator:
 
     def _release(self) -> None:
         """Leave nothing behind. Handlers left to finalize mean a failure before, which must not be hidden."""
-        while self._live_handlers:
-            handler = self._live_handlers.pop(0)
-            try:
-                handler.finalize()
-            except Exception:
-                _logger.exception("The handler %s failed to finalize, too", handler.get_label())
+        finalize_after_failure(self._live_handlers)
         self._formatter.clear_iteration()
         self._formatter.thread = None
         while self._guards:

@@ -53,8 +53,8 @@ def check(request: pytest.FixtureRequest) -> Check:
     """`check(*cases, protocol)`: run with these assertions."""
     module: Any = importlib.import_module(f"gradysim.{request.param}.run")
 
-    def run(*cases: type[SimulationTestCase], protocol: type[IProtocol] = Climbing) -> None:
-        module.run(CASE.scenario(protocol), handlers=[AssertionHandler(cases)])
+    def run(*cases: type[SimulationTestCase], protocol: type[IProtocol] = Climbing, **options: Any) -> None:
+        module.run(CASE.scenario(protocol), handlers=[AssertionHandler(cases)], **options)
 
     return run
 
@@ -139,13 +139,20 @@ def test_nodes_of_another_protocol_are_not_asked(check: Check) -> None:
         check(impossible, protocol=Other)
 
 
-def test_the_protocols_failure_is_the_one_that_is_told(check: Check) -> None:
+def test_the_protocols_failure_is_the_only_one_that_is_told(
+    check: Check, caplog: pytest.LogCaptureFixture
+) -> None:
     class Failing(Climbing):
         def handle_packet(self, message: str) -> None:
             raise LookupError("no way out")
 
     with pytest.raises(LookupError, match="no way out"):
-        check(heard_by(0, 1), protocol=Failing)
+        check(heard_by(0, 1), one_above(11), protocol=Failing)
+    assert [record for record in caplog.records if record.levelname == "ERROR"] == []
+
+
+def test_nobody_judges_what_a_stopped_run_would_have_come_to(check: Check) -> None:
+    check(heard_by(0, 1), one_above(11), should_stop=lambda: True)
 
 
 @pytest.mark.parametrize("mode", ["integrated", "prototype"])

@@ -217,8 +217,12 @@ class AssertionHandler(INodeHandler):
             for case in self._cases:
                 case.test_iteration(self._nodes, iteration, timestamp)
         except BaseException:
-            self._cases = []  # The simulation ends early: what was to come can no longer be judged.
+            self.judge_nothing_more()
             raise
+
+    def judge_nothing_more(self) -> None:
+        """Drop the cases: the simulation ends early, and nobody knows what was to come."""
+        self._cases = []
 
     def finalize(self) -> None:
         """Give each case its last word.

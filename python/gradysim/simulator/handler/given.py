@@ -1,8 +1,11 @@
-"""The handlers that somebody gives to a run of a scenario, checked."""
+"""The handlers that somebody gives to a run of a scenario: checked, told of its steps, and of its end."""
 
+import logging
 from collections.abc import Callable, Collection, Iterable
 
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
+
+_logger = logging.getLogger(__name__)
 
 StepHook = Callable[[int, float], None]
 
@@ -53,6 +56,29 @@ def given_handlers(
 def step_hooks(handlers: Collection[INodeHandler]) -> list[StepHook]:
     """Return the `after_simulation_step` of those that do something then; most do not, and are not called."""
     return [handler.after_simulation_step for handler in handlers if _has_hook(handler)]
+
+
+def judge_nothing_more(handlers: Iterable[INodeHandler]) -> None:
+    """Tell those that judge a run when it is over, as assertions do, that it ended before it was."""
+    for handler in handlers:
+        getattr(handler, "judge_nothing_more", _nothing)()
+
+
+def finalize_after_failure(live: list[INodeHandler]) -> None:
+    """Finalize the handlers of a run that failed, and take them from the list.
+
+    What they raise is logged, and does not hide the failure before.
+    """
+    judge_nothing_more(live)
+    while live:
+        handler = live.pop(0)
+        try:
+            handler.finalize()
+        except Exception:
+            _logger.exception("The handler %s failed to finalize, too", handler.get_label())
+
+
+def _nothing() -> None: ...
 
 
 def _has_hook(handler: INodeHandler) -> bool:

@@ -204,6 +204,17 @@ def test_after_a_failure_nothing_more_is_judged(caplog):
     assert caplog.messages == []
 
 
+def test_ctrl_c_is_what_an_interrupted_simulation_ends_with():
+    class Interrupted(Counter):
+        def handle_timer(self, timer):
+            super().handle_timer(timer)
+            if self.count == 2:
+                raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(eventually(4), protocols=(Interrupted,))
+
+
 def test_an_exception_of_a_predicate_passes():
     @assert_always_true_for_protocol(Counter, "wrong")
     def wrong(node):
