@@ -18,8 +18,10 @@ def say_mistake(mistake: Exception) -> int:
 
 def text_of(mistake: Exception) -> str:
     """Return what to say. If the system refused something that has no name, say where it was asked for."""
-    if not isinstance(mistake, OSError) or mistake.filename is not None:
+    if not isinstance(mistake, OSError):
         return str(mistake)
+    if mistake.filename is not None:
+        return f"{mistake.filename}: {mistake.strerror}"
     frames = traceback.extract_tb(mistake.__traceback__)
     where = f" (in {frames[-1].name}, {frames[-1].filename}:{frames[-1].lineno})" if frames else ""
     return f"{mistake.strerror or mistake}{where}"

@@ -122,6 +122,8 @@ def run(
                 scenarios = left_to_do(scenarios, mode, result_dir, fates_at, pcap)
                 if not scenarios:
                     return OK
+            if result_dir is not None:
+                check_may_be_written_to(result_dir)
             warn_of_shadowed_lines(scenarios[0])
             warn_of_doubtful_times(scenarios)
             warn_of_mission_speeds(scenarios)
@@ -207,6 +209,14 @@ def make_result_dir(directory: Path) -> None:
     except OSError as error:
         reason = "it is no folder" if os.path.lexists(directory) else error.strerror or str(error)
         raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
+
+
+def check_may_be_written_to(directory: Path) -> None:
+    """Raise ConfigError, which names the option, before a run that takes hours finds it out."""
+    from gradysim.config.error import ConfigError
+
+    if not os.access(directory, os.W_OK | os.X_OK):
+        raise ConfigError(f"--result-dir {directory}: it takes no files from you; expected another folder")
 
 
 def left_to_do(

@@ -1,16 +1,22 @@
 """Capture files: what the radios of some nodes sent and received, one pcap file for each radio."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
 from gradysim.config.node_names import nodes_named
 from gradysim.config.scenario import Scenario
+from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network
+
+
+class CaptureError(RuntimeError):
+    """A capture file lacks its end. The text says which and why, and no code led to it."""
 
 
 def capture_files(scenario: Scenario, names: Iterable[str], directory: Path) -> dict[int, Path]:
@@ -42,6 +48,18 @@ def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, P
         try:
             file.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise ConfigError(f"cannot write the capture file '{file}': {error}") from error
+            raise ConfigError(f"cannot write the capture file '{file}': {error.strerror}") from error
         with errors_at(settings_by_target("medium", scenario.medium)):
             network.capture(node_id, str(file), index)
+
+
+@contextmanager
+def capture_errors() -> Iterator[None]:
+    """Turn what the engine says of captures that it completes into a CaptureError."""
+    netsim = load_netsim()
+    try:
+        yield
+    except netsim.ProtocolError:  # which is one, too
+        raise
+    except netsim.SimulationError as error:
+        raise CaptureError(str(error)) from None

@@ -15,7 +15,7 @@ from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.integrated.capture import start_captures
+from gradysim.integrated.capture import capture_errors, start_captures
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.fates_at import checked_ids, with_fates
 from gradysim.integrated.handlers import EngineHandlers
@@ -116,7 +116,7 @@ class IntegratedRun:
         passed on, with a note of node, time and callback, and ends the run without `finish`; what a native
         one gets wrong becomes a NativeProtocolError with such a note. So does what a handler raises, as for
         an assertion that failed. Handlers are finalized in any case. A capture file that could not be written
-        to its end raises SimulationError when all else is done.
+        to its end raises CaptureError when all else is done.
         """
         network = self._network
         random.seed(self._scenario.seed)  # another run may have been built in between
@@ -132,7 +132,8 @@ class IntegratedRun:
                 )
             except KeyboardInterrupt:
                 self._complete = False
-            network.finish()
+            with capture_errors():
+                network.finish()
             self._handlers.finalize(complete=self._complete)
         except load_netsim().ProtocolError as failure:
             self._complete = False

@@ -5,6 +5,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
+from gradysim.integrated.capture import CaptureError
 from gradysim.protocol.errors import (
     CommunicationException,
     MasslessMobilityException,
@@ -18,10 +19,13 @@ REFUSED_COMMANDS = (CommunicationException, MasslessMobilityException, TimerExce
 """Their texts tell all. Where they are raised nobody needs, and integrated mode has no frames to show."""
 
 
+WITHOUT_FRAMES = (NativeProtocolError, CaptureError)
+"""No code of the user led to these."""
+
+
 def print_failure(failure: BaseException, file: TextIO) -> None:
     """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out."""
-    is_native = isinstance(failure, NativeProtocolError)
-    frames = None if is_native else from_users_code(failure.__traceback__)
+    frames = None if isinstance(failure, WITHOUT_FRAMES) else from_users_code(failure.__traceback__)
     told = traceback.TracebackException(type(failure), failure, frames)
     if isinstance(failure, REFUSED_COMMANDS):
         cut_behind_users_code(told.stack)

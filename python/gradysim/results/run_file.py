@@ -1,5 +1,6 @@
 """One file of JSON per run: DIR/CONFIG-#RUN.MODE.json."""
 
+import contextlib
 import json
 import os
 from collections.abc import Iterable, Mapping
@@ -78,7 +79,8 @@ def write_run_file(result: RunResult, directory: Path) -> Path:
         unfinished.write_text(json.dumps(result.to_json_object(), indent=2) + "\n", encoding="utf-8")
         unfinished.replace(path)
     except BaseException as error:
-        unfinished.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # a folder that is read-only
+            unfinished.unlink(missing_ok=True)
         if isinstance(error, OSError):  # a full disk does not say which file it is about
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.cli import main
 from python.cli.command import compiled, environment, run_command
 
 FULL_DISK = Path("/dev/full")
@@ -57,6 +58,32 @@ def test_a_full_disk_is_told_in_one_line(folder, arguments, buffering):
     with FULL_DISK.open("w") as full:
         done = run_with_output(folder, full, arguments, **buffering)
     assert (done.returncode, done.stderr) == (2, "standard output: No space left on device\n")
+
+
+def test_a_result_that_finds_no_room_is_told_in_one_line(folder):
+    arguments = [
+        "run",
+        "test.ini",
+        "--mode",
+        "prototype",
+        *QUIET,
+        "--quiet",
+        "--result-dir",
+        "out",
+        "-r",
+        "0",
+    ]
+    shell = ["sh", "-c", 'ulimit -f 0; exec "$@"', "sh"]
+    done = run_command(folder, *shell, sys.executable, "-m", "gradysim", *arguments)
+    assert (done.returncode, done.stderr) == (2, "out/General-#0.prototype.json: File too large\n")
+
+
+def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatch, capsys):
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    monkeypatch.chdir(folder)
+    assert main(["run", "test.ini", "--mode", "prototype", *QUIET, "--result-dir", "out"]) == 2
+    told = "--result-dir out: it takes no files from you; expected another folder\n"
+    assert capsys.readouterr() == ("", told)
 
 
 @pytest.mark.parametrize("closed", ["1", "2"])

@@ -1,9 +1,10 @@
+import resource
 from pathlib import Path
 
 import pytest
 
 from gradysim.config.error import ConfigError
-from gradysim.integrated.capture import capture_files, files_of_interfaces
+from gradysim.integrated.capture import CaptureError, capture_files, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
 
 UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
@@ -62,3 +63,15 @@ def test_the_file_is_complete_after_an_interruption(make_scenario, tmp_path):
     interrupted.execute(should_stop=lambda: True)
     assert interrupted.result().interrupted
     assert (tmp_path / "a.pcap").stat().st_size > HEADER_BYTES
+
+
+def test_a_file_that_lacks_its_end(make_scenario, tmp_path):
+    captured = IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap"})
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    try:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2 * HEADER_BYTES, limits[1]))
+        with pytest.raises(CaptureError, match=r"a\.pcap': File too large; it lacks the last frames"):
+            captured.execute()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert captured.result().interrupted

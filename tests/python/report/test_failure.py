@@ -2,6 +2,7 @@ from io import StringIO
 
 import pytest
 
+from gradysim.integrated.capture import CaptureError
 from gradysim.protocol.errors import CommunicationException, NativeProtocolError, TimerException
 from gradysim.report.failure import PACKAGE, from_users_code, print_failure
 
@@ -80,14 +81,15 @@ def test_a_refused_command_of_our_own_is_shown_whole():
     assert text.getvalue().count(OURS) == 2
 
 
-def test_a_native_protocol_has_no_frames_to_show():
+@pytest.mark.parametrize("kind", [NativeProtocolError, CaptureError])
+def test_what_no_code_of_the_user_led_to_has_no_frames_to_show(kind):
     text = StringIO()
     try:
-        raise NativeProtocolError("no message")
-    except NativeProtocolError as failure:
+        raise kind("no message")
+    except kind as failure:
         failure.add_note("in handle_timer of node 3")
         print_failure(failure, text)
     assert text.getvalue().splitlines() == [
-        "gradysim.protocol.errors.NativeProtocolError: no message",
+        f"{kind.__module__}.{kind.__name__}: no message",
         "in handle_timer of node 3",
     ]

@@ -53,6 +53,18 @@ def test_a_disk_that_is_full_does_not_cost_the_earlier_file(tmp_path, monkeypatc
     assert raised.value.filename == str(path)
 
 
+def test_a_folder_that_is_read_only_is_an_error_about_the_file(tmp_path, monkeypatch):
+    def refuse(path, *_, **__):
+        raise OSError(errno.EROFS, "read-only file system", str(path))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(pathlib.Path, "write_text", refuse)
+        patch.setattr(pathlib.Path, "unlink", refuse)
+        with pytest.raises(OSError, match="read-only") as raised:
+            write_run_file(RESULT, tmp_path)
+    assert pathlib.Path(raised.value.filename).name == "ZigZag5-#3.integrated.json"
+
+
 def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):
     (tmp_path / "taken").write_text("")
     with pytest.raises(OSError, match="taken"):
