@@ -14,6 +14,7 @@ from gradysim.config.error import BadValue
 from gradysim.config.nearest import did_you_mean
 from gradysim.config.parameter_stream import ParameterStream
 from gradysim.config.quantity import Number, Quantity
+from gradysim.config.units import Dimension
 
 _MOST_INTEGERS = 2**64
 _FARTHEST = 3.0
@@ -75,10 +76,19 @@ def _in_one_unit(values: Sequence[Quantity]) -> list[Quantity]:
 
 def _converted(value: Quantity, first: Quantity) -> Quantity:
     if first.unit is None or value.unit is None or first.unit.dimension is not value.unit.dimension:
-        raise BadValue(f"`{first}` and `{value}` measure different things")
+        hint = _level_meant(value, first)
+        raise BadValue(f"`{first}` and `{value}` measure different things", hint)
     if first.unit.logarithmic or value.unit.logarithmic:
         raise BadValue(f"`{first}` and `{value}` have different units, and one is a logarithm")
     return Quantity(0, first.unit).plus(value)
+
+
+def _level_meant(value: Quantity, first: Quantity) -> str:
+    """A hint for `normal(10dBm, 3dB)`: what spreads a level by 3 dB is written like the level itself."""
+    if value.unit is None or value.unit.dimension is not Dimension.LEVEL:
+        return ""
+    is_level = first.unit is not None and first.unit.logarithmic
+    return f"; did you mean `{Quantity(value.number, first.unit)}`?" if is_level else ""
 
 
 def _uniform(stream: ParameterStream, values: Sequence[Quantity]) -> float:

@@ -166,6 +166,11 @@ def test_spaces_and_constants_change_no_draw() -> None:
         ("uniform(0m, 1s)", "`uniform`: `0m` and `1s` measure different things"),
         ("uniform(0, 1s)", "`uniform`: `0` and `1s` measure different things"),
         ("normal(0m, 1s)", "`normal`: `0m` and `1s` measure different things"),
+        ("normal(0m, 1dB)", "`normal`: `0m` and `1dB` measure different things"),
+        (
+            "normal(10dBm, 3dB)",
+            "`normal`: `10dBm` and `3dB` measure different things; did you mean `3dBm`?",
+        ),
         (
             "uniform(1mW, 20dBm)",
             "`uniform`: `1mW` and `20dBm` have different units, and one is a logarithm",
