@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from gradysim.config.interface_spec import InterfaceSpec
 from gradysim.config.setting import Setting
 from gradysim.config.source import Source
+from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.interface import IProtocol
 
 
@@ -39,3 +40,10 @@ class NodeSpec:
     wlan: tuple[InterfaceSpec, ...] = (InterfaceSpec(),)
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Check what scripts replace. Raises TypeError and ValueError, which name the node."""
+        if not isinstance(self.protocol, type):
+            raise TypeError(f"the protocol of {self.name} must be a class, got {self.protocol!r}")
+        place = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
+        object.__setattr__(self, "initial_position", place)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import index
 from pathlib import Path
 
 from gradysim.config.constraint import holds
@@ -105,6 +106,13 @@ class Scenario:
     file_hashes: Mapping[str, str] = field(default_factory=dict)
     run_count: int = 1
 
+    def __post_init__(self) -> None:
+        """Keep the seed as Python's own integer. Raises TypeError and ValueError for what is no seed."""
+        seed = _whole(self.seed)
+        if not 0 <= seed <= LARGEST_SEED:
+            raise ValueError(f"seed = {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
+        object.__setattr__(self, "seed", seed)
+
 
 def require_scenario(value: object) -> None:
     """Raise TypeError if `value` is anything else, such as a file or the list of all runs."""
@@ -149,10 +157,12 @@ def load_scenarios(
 
     Raises:
         ConfigError: Anything is wrong; nothing has been run.
-        TypeError: `overrides` is a text.
+        TypeError: `overrides` is a text, or `seed` no whole number.
     """
     if isinstance(overrides, str):
         raise TypeError(f"expected a list of overrides, such as [{overrides!r}], got a text")
+    if seed is not None:
+        seed = _whole(seed)
     file = Path(file)
     ini = read_ini(file)
     sections = search_order(ini, config)
@@ -214,6 +224,14 @@ def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
             raise ConfigError(
                 f"`{line.key}` matches no node in any run; expected a node that some run has", line
             )
+
+
+def _whole(seed: object) -> int:
+    """Return a seed as an int: numpy's integers overflow, and other numbers would be drawn."""
+    try:
+        return index(seed)  # type: ignore[arg-type]
+    except TypeError:
+        raise TypeError(f"seed = {seed!r}: expected a whole number") from None
 
 
 def _check_seed(seed: int, last_run: int) -> None:

@@ -10,6 +10,7 @@ SC 2011: Philox4x32 with 10 rounds.
 
 from enum import IntEnum
 from functools import lru_cache
+from operator import index
 from random import Random
 from struct import Struct
 from typing import Any, Self
@@ -90,9 +91,9 @@ class RandomStream(Random):
 
     def __init__(self, seed: int = 0, node: int = 0, purpose: int = Purpose.PROTOCOL) -> None:
         """Start at the first number. Of `seed` 64 bits count, of the others 32."""
-        self._node = node & _MASK_32
+        self._node = index(node) & _MASK_32
         self._purpose = int(purpose) & _MASK_32
-        self._seed = seed & _MASK_64
+        self._seed = index(seed) & _MASK_64  # numpy's integers would overflow
         self._begin()
 
     def _begin(self) -> None:

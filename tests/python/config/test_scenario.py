@@ -1,4 +1,5 @@
 import pickle
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -330,6 +331,30 @@ def test_a_given_seed_draws_what_that_of_the_file_would(folder: Any) -> None:
     scenarios = load_scenarios(folder.ini, seed=1)
     assert [scenario.seed for scenario in scenarios] == [1, 2, 3]
     assert list(map(places, scenarios[:2])) == list(map(places, load_scenarios(folder.ini)[1:]))
+
+
+def test_a_seed_of_numpy_draws_what_an_int_does(folder: Any) -> None:
+    numpy = pytest.importorskip("numpy")
+    folder.load(SCATTERED)
+    scenarios = load_scenarios(folder.ini, seed=numpy.int64(3))
+    assert type(scenarios[0].seed) is int
+    assert places(scenarios[0]) == places(load_scenarios(folder.ini, seed=3)[0])
+    assert type(replace(scenarios[0], seed=numpy.int64(4)).seed) is int
+
+
+@pytest.mark.parametrize("wrong", ["3", 3.0])
+def test_a_seed_that_is_no_whole_number(folder: Any, wrong: Any) -> None:
+    scenario = folder.load("")
+    with pytest.raises(TypeError, match=f"seed = {wrong!r}: expected a whole number"):
+        load_scenarios(folder.ini, seed=wrong)
+    with pytest.raises(TypeError, match=f"seed = {wrong!r}: expected a whole number"):
+        replace(scenario, seed=wrong)
+
+
+@pytest.mark.parametrize("wrong", [-1, 2**63])
+def test_a_seed_that_is_out_of_range(folder: Any, wrong: int) -> None:
+    with pytest.raises(ValueError, match=f"seed = {wrong}: it is out of range; expected 0 to"):
+        replace(folder.load(""), seed=wrong)
 
 
 def test_equal_seeds_draw_equal_values_for_all_combinations(folder: Any) -> None:

@@ -81,6 +81,12 @@ def test_equal_names_give_equal_streams():
     assert RandomStream(7, 3).random() == RandomStream(7, 3).random()
 
 
+def test_names_of_numpy_are_those_of_ints():
+    numpy = pytest.importorskip("numpy")
+    stream = RandomStream(seed=numpy.int64(7), node=numpy.int32(3))
+    assert stream.random() == RandomStream(seed=7, node=3).random()
+
+
 def test_seed_node_and_purpose_each_make_another_stream():
     names = [(7, 3), (8, 3), (7, 4), (3, 7), (7 + 2**32, 3), (7, 3, Purpose.COMMUNICATION)]
     assert len({RandomStream(*name).random() for name in names}) == len(names)
