@@ -51,8 +51,9 @@ std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, Interfac
                                               node.link_listener());
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
-    Radio& radio = radios_.emplace_back(simulator_, medium_, id, radio_kind(config.radio), node.trajectory(),
-                                        seed_, node.attitude(), known_formats(config));
+    Radio& radio =
+        radios_.emplace_back(simulator_, medium_, id, radio_kind(config.radio), config.radio.tx_power_w,
+                             node.trajectory(), seed_, node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,
@@ -63,7 +64,10 @@ std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, Interfac
                                  node.link_listener());
 }
 
-std::shared_ptr<const RadioKind> Network::radio_kind(const RadioConfig& config) {
+std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
+    // Of no account for the kind: nodes with powers of their own share it, too.
+    config.tx_power_w = 0;
+    config.communication_range_m = 0;
     return radio_kinds_.of(config, [this](const RadioConfig& radio) {
         return std::make_shared<const RadioKind>(radio, medium_.background_noise());
     });

@@ -77,7 +77,7 @@ public:
 
 private:
     // What nodes of one configuration share, made for the first of them. Both throw ConfigError for what cannot be.
-    std::shared_ptr<const RadioKind> radio_kind(const RadioConfig& config);
+    std::shared_ptr<const RadioKind> radio_kind(RadioConfig config);
     std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);
     void check_with_medium(const NodeConfig& config);
     void check_with_medium(const std::string& node, const InterfaceConfig& config);

@@ -8,8 +8,8 @@
 namespace netsim {
 
 Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface,
-             std::shared_ptr<const RadioKind> kind, const Trajectory& trajectory, std::uint64_t seed,
-             const Attitude& attitude, PpduFormats formats)
+             std::shared_ptr<const RadioKind> kind, double tx_power_w, const Trajectory& trajectory,
+             std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
     : detects_preambles_(kind->preamble_detection.is_on()),
       captures_frames_(kind->frame_capture.is_on()),
       kind_(*kind),
@@ -17,6 +17,7 @@ Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface,
       simulator_(simulator),
       interface_(interface),
       reception_draws_(seed, interface.stream(), Purpose::reception),
+      tx_power_w_(tx_power_w),
       owned_kind_(std::move(kind)) {
     id_ = medium.attach(interface,
                         Receiver{this,
@@ -36,7 +37,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.sender = interface_;
     transmission.radio = id_;
     transmission.duration = duration;
-    transmission.power_w = kind_.tx_power_w;
+    transmission.power_w = tx_power_w_;
     transmission.band = kind_.band;
     transmission.label = label;
     transmission.psdu_bytes = psdu_bytes;

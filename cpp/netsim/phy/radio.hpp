@@ -54,7 +54,7 @@ protected:
 class alignas(64) Radio final : public MediumListener {
 public:
     Radio(Simulator& simulator, Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind,
-          const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
+          double tx_power_w, const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
           PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
@@ -163,6 +163,8 @@ private:
     InterfaceId interface_;
     RadioId id_ = 0;
     RandomStream reception_draws_;
+
+    double tx_power_w_;
 
     RadioObserver* observer_ = nullptr;
     std::shared_ptr<const RadioKind> owned_kind_;  // kind_ again: keeps it alive

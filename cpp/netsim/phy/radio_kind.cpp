@@ -6,7 +6,6 @@ namespace netsim {
 
 RadioKind::RadioKind(const RadioConfig& config, const BackgroundNoise& background_noise)
     : band{config.carrier_hz, config.bandwidth_hz},
-      tx_power_w(config.tx_power_w),
       sensitivity_w(config.sensitivity_w),
       energy_detection_w(config.energy_detection_w),
       by_chunks(config.snir_mode == snir_by_chunks),

@@ -1,4 +1,5 @@
-// What the radios of one configuration have in common: made once, never changed, shared by all of them.
+// What the radios of one configuration have in common: made once, never changed, shared by all of them. The power at which
+// a radio sends is its own: that differs from node to node more often than anything else.
 //
 // In a large network the memory that a frame touches at each radio decides how fast it is; this lies in one place.
 #pragma once
@@ -22,7 +23,6 @@ public:
     RadioKind(const RadioConfig& config, const BackgroundNoise& background_noise);
 
     Band band;
-    double tx_power_w;
     double sensitivity_w;
     double energy_detection_w;
     ReceptionModel reception;

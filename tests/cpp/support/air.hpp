@@ -67,7 +67,7 @@ struct BareRadio {
     BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
               Position place, std::uint64_t seed)
         : trajectory(place),
-          radio(simulator, medium, interface, kind_of(config, medium), trajectory, seed),
+          radio(simulator, medium, interface, kind_of(config, medium), config.tx_power_w, trajectory, seed),
           log(simulator) {
         radio.set_listener(log);
     }
@@ -116,7 +116,8 @@ struct Station final : LinkListener {
             const MacConfig& mac_config, Position place, std::uint64_t seed, MessageFates& message_fates)
         : simulator(simulator_),
           trajectory(place),
-          radio(simulator_, medium, interface, kind_of(radio_config, medium), trajectory, seed),
+          radio(simulator_, medium, interface, kind_of(radio_config, medium), radio_config.tx_power_w,
+                trajectory, seed),
           dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed, message_fates,
               *this) {}
 
