@@ -69,8 +69,8 @@ class Scenario:
         config: Name of the configuration.
         run_number: From 0, over all combinations of values that the configuration iterates over, and their
             repetitions.
-        seed: 0 to 2^63 - 1. Of all random streams of the run, those of values that the file draws included: they are drawn
-            when it is read, so that `replace(scenario, seed=...)` leaves them.
+        seed: Of all random streams of the run, 0 to 2^63 - 1. Those of values that the file draws are
+            included: they are drawn when it is read, so that `replace(scenario, seed=...)` leaves them.
         description: What the configuration says of itself, or "".
         sim_time_limit_s: Simulated time at which the run ends.
         nodes: In the order of their ids.
