@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from operator import index
 from pathlib import Path
 
 from gradysim.config.constraint import holds
@@ -21,7 +20,7 @@ from gradysim.config.iterations import (
 from gradysim.config.key import Key
 from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS
-from gradysim.config.keys.options import LARGEST_SEED, OPTIONS
+from gradysim.config.keys.options import OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
@@ -32,6 +31,7 @@ from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
 from gradysim.config.run_numbers import select_runs
 from gradysim.config.sections import config_names, search_order, unused_sections
+from gradysim.config.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
 from gradysim.config.setting import Setting, SettingReader, read_scalar
 from gradysim.config.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash, settings_hash
 from gradysim.config.source import Source
@@ -108,10 +108,7 @@ class Scenario:
 
     def __post_init__(self) -> None:
         """Keep the seed as Python's own integer. Raises TypeError and ValueError for what is no seed."""
-        seed = _whole(self.seed)
-        if not 0 <= seed <= LARGEST_SEED:
-            raise ValueError(f"seed = {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
-        object.__setattr__(self, "seed", seed)
+        object.__setattr__(self, "seed", checked_seed(self.seed))
 
 
 def require_scenario(value: object) -> None:
@@ -162,7 +159,7 @@ def load_scenarios(
     if isinstance(overrides, str):
         raise TypeError(f"expected a list of overrides, such as [{overrides!r}], got a text")
     if seed is not None:
-        seed = _whole(seed)
+        seed = whole_seed(seed)
     file = Path(file)
     ini = read_ini(file)
     sections = search_order(ini, config)
@@ -178,7 +175,7 @@ def load_scenarios(
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
     numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source)
     if seed is not None:
-        _check_seed(seed, max((number for number, _, _ in numbered), default=0))
+        check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0))
 
     loader, hashes = ProtocolLoader(), FileHashes(file.parent)
     networks: dict[tuple[str | int, ...], _Network] = {}
@@ -192,8 +189,8 @@ def load_scenarios(
     for number, repetition, iterations in numbered:
         values = run_variables(config, number, repetition, iterations)
         options = _options(_substituted(only_options, values))
-        seed_of_file = _seed(options, number)
-        seed_of_run = seed_of_file if seed is None else seed + number
+        of_file = seed_of_file(options, number)
+        seed_of_run = of_file if seed is None else seed + number
         texts = [substitute(entry, values).text for entry in varying]
         draws = always_draws or any(map(drawing_function_in, texts))
         alike = (*texts, *([seed_of_run] if draws else ()))
@@ -224,30 +221,6 @@ def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
             raise ConfigError(
                 f"`{line.key}` matches no node in any run; expected a node that some run has", line
             )
-
-
-def _whole(seed: object) -> int:
-    """Return a seed as an int: numpy's integers overflow, and other numbers would be drawn."""
-    try:
-        return index(seed)  # type: ignore[arg-type]
-    except TypeError:
-        raise TypeError(f"seed = {seed!r}: expected a whole number") from None
-
-
-def _check_seed(seed: int, last_run: int) -> None:
-    if not 0 <= seed <= LARGEST_SEED:
-        raise ConfigError(f"--seed {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
-    if seed + last_run > LARGEST_SEED:
-        raise ConfigError(
-            f"--seed {seed}: run {last_run} would have the seed {seed + last_run}; expected at most"
-            f" {LARGEST_SEED - last_run}, since run N adds N"
-        )
-
-
-def _seed(options: Mapping[str, Entry], run_number: int) -> int:
-    """What the file says, by default the number of the run."""
-    seed = options.get("seed-set")
-    return int(read_scalar(seed, OPTIONS["seed-set"])) if seed else run_number
 
 
 def _numbered_runs(

@@ -342,21 +342,6 @@ def test_a_seed_of_numpy_draws_what_an_int_does(folder: Any) -> None:
     assert type(replace(scenarios[0], seed=numpy.int64(4)).seed) is int
 
 
-@pytest.mark.parametrize("wrong", ["3", 3.0])
-def test_a_seed_that_is_no_whole_number(folder: Any, wrong: Any) -> None:
-    scenario = folder.load("")
-    with pytest.raises(TypeError, match=f"seed = {wrong!r}: expected a whole number"):
-        load_scenarios(folder.ini, seed=wrong)
-    with pytest.raises(TypeError, match=f"seed = {wrong!r}: expected a whole number"):
-        replace(scenario, seed=wrong)
-
-
-@pytest.mark.parametrize("wrong", [-1, 2**63])
-def test_a_seed_that_is_out_of_range(folder: Any, wrong: int) -> None:
-    with pytest.raises(ValueError, match=f"seed = {wrong}: it is out of range; expected 0 to"):
-        replace(folder.load(""), seed=wrong)
-
-
 def test_equal_seeds_draw_equal_values_for_all_combinations(folder: Any) -> None:
     folder.load(f"seed-set = 7\n*.uavs[*].mobility.speed = ${{1, 2}}mps\n{SCATTERED}")
     one, other = map(places, load_scenarios(folder.ini))
