@@ -10,9 +10,13 @@ from gradysim.config.node_names import nodes_named
 from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
+from gradysim.integrated.node_ids import checked_ids
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network
+
+
+_EXPECTED = "a file for each id of a node, such as {0: 'node.pcap'}"
 
 
 class CaptureError(RuntimeError):
@@ -28,6 +32,30 @@ def capture_files(scenario: Scenario, names: Iterable[str], directory: Path) -> 
     prefix = f"{scenario.config}-#{scenario.run_number}"
     nodes = nodes_named(scenario, names, "--pcap")
     return {node.id: directory / f"{prefix}-{node.name}.pcap" for node in nodes}
+
+
+def checked_captures(captures: Mapping[int, str | Path], scenario: Scenario) -> dict[int, Path]:
+    """Return the files for the ids of nodes that a script gives.
+
+    Raises TypeError for what are none, and ValueError for a node that is not there and for a file that two
+    interfaces would write.
+    """
+    if not isinstance(captures, Mapping):
+        raise TypeError(f"captures = {captures!r:.80}: expected {_EXPECTED}")
+    ids = checked_ids("captures", captures, len(scenario.nodes), _EXPECTED)
+    try:
+        files = {node_id: Path(file) for node_id, file in zip(ids, captures.values(), strict=True)}
+    except TypeError:
+        raise TypeError(f"captures = {captures!r:.80}: expected {_EXPECTED}") from None
+    writers: dict[Path, str] = {}
+    for (node_id, index), file in files_of_interfaces(scenario, files).items():
+        interface = f"wlan[{index}] of node {node_id}"
+        other = writers.setdefault(file.resolve(), interface)
+        if other != interface:
+            raise ValueError(
+                f"captures: {other} and {interface} would write one file, '{file}'; expected one for each"
+            )
+    return files
 
 
 def files_of_interfaces(scenario: Scenario, files: Mapping[int, Path]) -> dict[tuple[int, int], Path]:

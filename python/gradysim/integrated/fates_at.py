@@ -4,34 +4,24 @@ The engine keeps it for all nodes. As Python's objects, that of a network of tho
 make, and more room in a file, than all else in its result.
 """
 
-import operator
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from gradysim.integrated.node_ids import checked_ids
 from gradysim.results.run_result import NodeResult
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network
 
 
-def checked_ids(fates_at: Iterable[int], count: int) -> frozenset[int]:
+def checked_fates_at(fates_at: Iterable[int], count: int) -> frozenset[int]:
     """Return the ids of some of `count` nodes.
 
     Raises TypeError for what is no id, and ValueError for one that is not there.
     """
-    try:
-        ids = frozenset(map(operator.index, fates_at))
-    except TypeError:
-        raise TypeError(
-            f"fates_at = {fates_at!r}: expected ids of nodes, such as [0], or range({count}) for all"
-        ) from None
-    for node_id in ids:
-        if not 0 <= node_id < count:
-            raise ValueError(
-                f"fates_at: there is no node {node_id}; expected ids of the {count} nodes, from 0"
-            )
-    return ids
+    expected = f"ids of nodes, such as [0], or range({count}) for all"
+    return frozenset(checked_ids("fates_at", fates_at, count, expected))
 
 
 def with_fates(

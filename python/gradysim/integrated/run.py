@@ -15,9 +15,9 @@ from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.integrated.capture import capture_errors, start_captures
+from gradysim.integrated.capture import capture_errors, checked_captures, start_captures
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.fates_at import checked_ids, with_fates
+from gradysim.integrated.fates_at import checked_fates_at, with_fates
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
@@ -41,7 +41,7 @@ class IntegratedRun:
     def __init__(
         self,
         scenario: Scenario,
-        captures: Mapping[int, Path] | None = None,
+        captures: Mapping[int, str | Path] | None = None,
         *,
         fates_at: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
@@ -53,8 +53,9 @@ class IntegratedRun:
         that overrides `after_simulation_step` gets its turn after every event of the engine, of which there
         are several for each frame. The run is slow then, one event at a time; other handlers do not slow it.
 
-        `captures` says for the ids of some nodes in which pcap file to write what they send and receive.
-        The files are complete when `execute` returns or raises.
+        `captures` says for the ids of some nodes in which pcap file to write what they send and receive:
+        what `wlan[1]` of a node with FILE.pcap does is in FILE-wlan1.pcap. The files are complete when
+        `execute` returns or raises.
 
         `fates_at` are the ids of the nodes whose results tell what became of frames there and who interfered:
         `NodeResult.frame_fates` and `interferers`. The run itself is the same, and as fast.
@@ -64,8 +65,9 @@ class IntegratedRun:
 
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
         accept a value of the scenario or cannot write a capture file, ValueError or TypeError when `scenario`
-        is none, `fates_at` has what is no id of a node, a handler cannot work in this mode or `real_time` is
-        no factor, and what the constructor of a protocol raises.
+        is none, `fates_at` or `captures` names what is no node, two interfaces would write one file, a
+        handler cannot work in this mode or `real_time` is no factor, and what the constructor of a protocol
+        raises.
         """
         require_scenario(scenario)
         self._started = (perf_counter(), process_time())
@@ -73,10 +75,10 @@ class IntegratedRun:
         self._scenario = scenario
         self._complete = False
         self._real_time_factor = real_time_factor(real_time)
-        self._fates_at = checked_ids(fates_at, len(scenario.nodes))
+        self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
+        self._captures = checked_captures(captures or {}, scenario)
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
-        self._captures = captures or {}
         start_captures(self._network, scenario, self._captures)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
@@ -203,7 +205,7 @@ def run(
     *,
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
-    captures: Mapping[int, Path] | None = None,
+    captures: Mapping[int, str | Path] | None = None,
     fates_at: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,

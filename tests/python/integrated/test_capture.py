@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.config.error import ConfigError
-from gradysim.integrated.capture import CaptureError, capture_files, files_of_interfaces
+from gradysim.integrated.capture import CaptureError, capture_files, checked_captures, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
 
 UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
@@ -27,6 +27,47 @@ def test_each_further_interface_has_a_file_of_its_own(make_scenario):
         (1, 1): "General-#0-uavs[1]-wlan1.pcap",
         (1, 2): "General-#0-uavs[1]-wlan2.pcap",
     }
+
+
+@pytest.mark.parametrize(
+    "captures", ["all", [0], {"uavs[0]": "a.pcap"}, {(0, 1): "a.pcap"}, {0: 3}, {0: b"a"}]
+)
+def test_what_are_no_files_of_nodes_is_refused(make_scenario, captures):
+    with pytest.raises(
+        TypeError, match=r"^captures = .*: expected a file for each id of a node, such as \{0"
+    ):
+        checked_captures(captures, make_scenario())
+
+
+@pytest.mark.parametrize("node_id", [-1, 2])
+def test_a_node_that_is_not_there_is_refused(make_scenario, node_id):
+    with pytest.raises(
+        ValueError, match=f"^captures: there is no node {node_id}; expected ids of the 2 nodes"
+    ):
+        IntegratedRun(make_scenario(), {node_id: "a.pcap"})
+
+
+def test_one_file_for_two_nodes_is_refused(make_scenario, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(
+        ValueError,
+        match=r"^captures: wlan\[0\] of node 0 and wlan\[0\] of node 1 would write one file, 'x/../a.pcap'",
+    ):
+        IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap", 1: "x/../a.pcap"})
+    assert not (tmp_path / "a.pcap").exists()
+
+
+def test_a_further_interface_does_not_write_the_file_of_another_node(make_scenario):
+    scenario = make_scenario("class Tested(Talker): pass", "*.uavs[0].numWlanInterfaces = 2")
+    with pytest.raises(
+        ValueError, match=r"^captures: wlan\[1\] of node 0 and wlan\[0\] of node 1 would write"
+    ):
+        checked_captures({0: "a.pcap", 1: "a-wlan1.pcap"}, scenario)
+
+
+def test_a_path_may_be_a_text(make_scenario, tmp_path):
+    run(make_scenario(), captures={0: str(tmp_path / "a.pcap")})
+    assert (tmp_path / "a.pcap").stat().st_size > HEADER_BYTES
 
 
 def test_a_unit_disk_medium_has_nothing_to_capture(make_scenario, tmp_path):

@@ -2,7 +2,7 @@ from collections import Counter
 
 import pytest
 
-from gradysim.integrated.fates_at import checked_ids
+from gradysim.integrated.fates_at import checked_fates_at
 from gradysim.integrated.run import IntegratedRun, run
 
 AT_ONCE = """
@@ -84,4 +84,4 @@ def test_what_is_no_id_is_refused(fates_at):
     with pytest.raises(
         TypeError, match=r"^fates_at = .*: expected ids of nodes, such as \[0\], or range\(2\)"
     ):
-        checked_ids(fates_at, 2)
+        checked_fates_at(fates_at, 2)
