@@ -16,7 +16,7 @@ class ConfigError(ValueError):
         message: The text without the place.
         source: The place, or None for a mistake that has none (a run number that does not exist).
         file: The file of the place, or None.
-        line: The line of the place; 0 for the command line, for a whole file and for no place.
+        line: The line of the place; 0 for an override, for a whole file and for no place.
         key: The key concerned, or "".
     """
 
@@ -31,7 +31,7 @@ class ConfigError(ValueError):
     @classmethod
     def at(cls, source: Source, text: str) -> Self:
         """An error found elsewhere (the engine's check of a range, say) in the value at `source`."""
-        is_told = source.is_command_line or not source.key
+        is_told = source.is_override or not source.key
         return cls(text if is_told else f"{source.key} = {_shortened(source.value)}: {text}", source)
 
     def __str__(self) -> str:

@@ -53,7 +53,7 @@ def name_iterations(
     """Return the entries with `${NAME}` for each variable, and the variables in the order of the search.
 
     An entry whose key another one before it says, word for word, is never in force: it is left out, and so
-    are its variables. `--set KEY=VALUE` thus fixes what the file iterates over.
+    are its variables. An override thus fixes what the file iterates over.
 
     Raises:
         ConfigError: A variable is not understood, or defined twice.

@@ -40,7 +40,7 @@ class NodeKind(NamedTuple):
 def check_option(entry: Entry) -> None:
     """Raise ConfigError if there is no such option, or if it cannot be given there."""
     key = entry.key
-    if key in SECTION_OPTIONS and entry.source.is_command_line:
+    if key in SECTION_OPTIONS and entry.source.is_override:
         raise ConfigError(f"`{key}` belongs to a section; expected it in the file", entry.source)
     if key in OPTIONS or key in SECTION_OPTIONS or is_ignored(entry):
         return

@@ -26,7 +26,7 @@ class Kind:
     Attributes:
         expected: How messages name it, after "expected".
         convert: Checks a value and gives what is to be stored; raises BadValue.
-        is_text: Whether a text is meant: on the command line it needs no quotes.
+        is_text: Whether a text is meant: an override needs no quotes.
         is_file: Whether that text is the name of a file, seen from the .ini file.
         unit: For a list of keys: the unit, or what it is instead ("whole number").
         show: Writes what is stored as it would stand in a file, in `unit`.

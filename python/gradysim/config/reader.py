@@ -6,10 +6,11 @@ starts a comment.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gradysim.config.argument_names import OF_SCRIPT
 from gradysim.config.error import ConfigError
 from gradysim.config.neighbours import file_meant
 from gradysim.config.source import Source
@@ -17,8 +18,8 @@ from gradysim.config.source import Source
 GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
 
-COMMAND_LINE = "command line"
-"""The section name of entries given with `--set`."""
+OVERRIDES = "overrides"
+"""The section name of entries that no file has."""
 
 _LIKE_AN_ENTRY = re.compile(r"""[^\s"'=]*[.-][^\s"'=]*\s*=(?!=)""")
 """What an indented line begins with that was meant as an entry of its own: a key with a dot or a hyphen."""
@@ -67,21 +68,34 @@ def read_ini(file: Path) -> IniFile:
     return ini
 
 
-def read_overrides(file: Path, overrides: Iterable[str]) -> list[Entry]:
-    """Entries of `--set KEY=VALUE`. Paths in them are relative to `file`. Of equal keys the first one wins.
+def read_overrides(file: Path, overrides: Iterable[str], option: str = OF_SCRIPT.overrides) -> list[Entry]:
+    """Entries of "KEY=VALUE" texts. Paths in them are relative to `file`. Of equal keys the first one wins.
+
+    `option` is what they were given to.
 
     Raises:
         ConfigError: One is not KEY=VALUE.
+        TypeError: They are no list of texts.
     """
     entries = []
-    for override in overrides:
+    for override in _texts(overrides):
         key, equals, text = (part.strip() for part in override.partition("="))
         if not (key and equals and text):
-            raise ConfigError(f"--set {override}: expected KEY=VALUE, such as `sim-time-limit=10s`")
-        source = Source(file, 0, key, text)
+            raise ConfigError(f"{option} {override}: expected KEY=VALUE, such as `sim-time-limit=10s`")
+        source = Source(file, 0, key, text, option)
         _refuse_variables(key, source)
-        entries.append(Entry(key, text, source, COMMAND_LINE))
+        entries.append(Entry(key, text, source, OVERRIDES))
     return entries
+
+
+def _texts(overrides: object) -> list[str]:
+    if isinstance(overrides, Iterable) and not isinstance(overrides, str | Mapping):
+        texts = list(overrides)
+        if all(isinstance(text, str) for text in texts):
+            return texts
+    raise TypeError(
+        f"overrides = {overrides!r:.80}: expected a list of texts, such as ['sim-time-limit=10s']"
+    )
 
 
 class _Reader:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from gradysim.config.argument_names import OF_SCRIPT, ArgumentNames
 from gradysim.config.constraint import holds
 from gradysim.config.drawing_functions import drawing_function_in
 from gradysim.config.error import ConfigError
@@ -81,7 +82,7 @@ class Scenario:
         sections: The sections of the file that the configuration consists of, in the order of the search.
         repetition: 0 to repeat-1.
         iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
-        settings_hash: Of all that the file and the command line say of this run, the seed of `--seed` apart.
+        settings_hash: Of all that the file and the overrides say of this run, a seed given with them apart.
             It is the same for all repetitions.
         file_hashes: {name, seen from the folder of the .ini file: hash} of the files that settings name:
             protocols with what they import from their folder, obstacles, error rates.
@@ -139,6 +140,8 @@ def load_scenarios(
     runs: str | Iterable[int] | None = None,
     overrides: Iterable[str] = (),
     seed: int | None = None,
+    *,
+    names: ArgumentNames = OF_SCRIPT,
 ) -> list[Scenario]:
     """Read a configuration and check all of it.
 
@@ -148,22 +151,21 @@ def load_scenarios(
         runs: Numbers of the runs that are wanted, or a text such as "0,2,5..9"; None for all.
         overrides: "KEY=VALUE" texts that come before all of the file; of several that match, the first.
         seed: Seed of run 0, to which run N adds N; None for the file's seed-set.
+        names: What messages call these arguments.
 
     Returns:
         One scenario per run, by run number.
 
     Raises:
         ConfigError: Anything is wrong; nothing has been run.
-        TypeError: `overrides` is a text, or `seed` no whole number.
+        TypeError: `overrides` are no list of texts, `runs` no numbers, or `seed` is no whole number.
     """
-    if isinstance(overrides, str):
-        raise TypeError(f"expected a list of overrides, such as [{overrides!r}], got a text")
     if seed is not None:
         seed = whole_seed(seed)
     file = Path(file)
     ini = read_ini(file)
     sections = search_order(ini, config)
-    ranked = [(0, entry) for entry in read_overrides(file, overrides)]
+    ranked = [(0, entry) for entry in read_overrides(file, overrides, names.overrides)]
     for rank, section in enumerate(sections, start=1):
         ranked += [(rank, entry) for entry in section.entries]
     for _, entry in ranked:
@@ -173,16 +175,16 @@ def load_scenarios(
     source = sections[0].source
     ranked, variables = name_iterations(ranked)
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
-    numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source)
+    numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source, names.runs)
     if seed is not None:
-        check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0))
+        check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
 
     loader, hashes = ProtocolLoader(), FileHashes(file.parent)
     networks: dict[tuple[str | int, ...], _Network] = {}
     parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
     varying = [entry for entry in parameters if depends_on_run(entry)]
     always_draws = any(drawing_function_in(entry.text) for entry in parameters)
-    instead = _what_to_run_instead(ini, config, sections)
+    instead = _what_to_run_instead(ini, config, sections, names.config)
     in_force = entries_of_the_hash(ranked)
     elsewhere: list[Sequence[Source]] = []
     scenarios = []
@@ -229,6 +231,7 @@ def _numbered_runs(
     config: str,
     runs: str | Iterable[int] | None,
     source: Source,
+    name: str,
 ) -> tuple[list[tuple[int, int, dict[str, str]]], int]:
     """The runs that are wanted (number, repetition, values of variables), and how many there are in all."""
     repeat = options.get("repeat")
@@ -252,14 +255,14 @@ def _numbered_runs(
         )
     made_of = f"{count} combinations of values, `repeat = {repetitions}`" if variables else ""
     place = repeat.source if repeat else source
-    numbers = select_runs(runs, count * repetitions, config, place, made_of)
+    numbers = select_runs(runs, count * repetitions, config, place, made_of, name)
     if chosen is None:
         chosen = list(combinations(variables))
     wanted = [(number, number % repetitions, chosen[number // repetitions]) for number in numbers]
     return wanted, count * repetitions
 
 
-def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section]) -> str:
+def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section], name: str) -> str:
     """What to add to an error of a configuration that lacks something: a misspelt section, or the others."""
     unused = unused_sections(ini, sections)
     general_is_empty = not ini.sections[GENERAL].entries
@@ -270,7 +273,7 @@ def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section]) -> 
     if config in names:
         return ""
     listed = ", ".join(names[:MAX_NAMES]) + (", …" if len(names) > MAX_NAMES else "")
-    return f"; or run another configuration of the file: `-c NAME`, {listed}"
+    return f"; or run another configuration of the file: `{name} NAME`, {listed}"
 
 
 def _scenario(

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from operator import index
 
+from gradysim.config.argument_names import OF_SCRIPT
 from gradysim.config.error import ConfigError
 from gradysim.config.keys.options import LARGEST_SEED, OPTIONS
 from gradysim.config.reader import Entry
@@ -28,13 +29,16 @@ def checked_seed(seed: object) -> int:
     return whole
 
 
-def check_seeds_of_runs(seed: int, last_run: int) -> None:
-    """Raise ConfigError unless `seed`, that of run 0, and those of all runs to the last are seeds."""
+def check_seeds_of_runs(seed: int, last_run: int, name: str = OF_SCRIPT.seed) -> None:
+    """Raise ConfigError unless `seed`, that of run 0, and those of all runs to the last are seeds.
+
+    `name` is what the message begins with.
+    """
     if not 0 <= seed <= LARGEST_SEED:
-        raise ConfigError(f"--seed {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
+        raise ConfigError(f"{name} {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
     if seed + last_run > LARGEST_SEED:
         raise ConfigError(
-            f"--seed {seed}: run {last_run} would have the seed {seed + last_run}; expected at most"
+            f"{name} {seed}: run {last_run} would have the seed {seed + last_run}; expected at most"
             f" {LARGEST_SEED - last_run}, since run N adds N"
         )
 

@@ -76,7 +76,7 @@ def read_scalar(entry: Entry, kind: Kind, draws: ParameterDraws | None = None) -
 
 
 def _value_of(entry: Entry, kind: Kind, draws: ParameterDraws | None) -> Value:
-    """The value; where a text is meant, the command line needs no quotes, which a shell takes away."""
-    if kind.is_text and entry.source.is_command_line and not entry.text.startswith('"'):
+    """The value; where a text is meant, an override needs no quotes, which a shell takes away."""
+    if kind.is_text and entry.source.is_override and not entry.text.startswith('"'):
         return entry.text
     return parse_value(entry.text, draws)

@@ -9,23 +9,25 @@ class Source:
     """The place of one line of a configuration.
 
     Attributes:
-        file: The .ini file, as the user named it. For the command line: the file that it overrides.
-        line: The line, counted from 1. 0 is the command line if there is a key, and the whole file if not.
+        file: The .ini file, as the user named it. For an override: the file that it overrides.
+        line: The line, counted from 1; 0 for an override and for the whole file.
         key: The key as it was written, or "" where no key is concerned.
         value: The value as it was written.
+        option: What an override was given to, such as `--set`; "" for all that a file says.
     """
 
     file: Path
     line: int
     key: str = ""
     value: str = ""
+    option: str = ""
 
     @property
-    def is_command_line(self) -> bool:
-        """Whether the value came from `--set KEY=VALUE`."""
-        return self.line == 0 and bool(self.key)
+    def is_override(self) -> bool:
+        """Whether the value stands in no file."""
+        return bool(self.option)
 
     def __str__(self) -> str:
-        if self.line > 0:
-            return f"{self.file}:{self.line}"
-        return f"--set {self.key}={self.value}" if self.key else str(self.file)
+        if self.is_override:
+            return f"{self.option} {self.key}={self.value}"
+        return f"{self.file}:{self.line}" if self.line else str(self.file)

@@ -19,8 +19,8 @@ def test_tells_the_place_and_the_mistake() -> None:
 
 
 def test_may_have_no_place() -> None:
-    error = ConfigError("-r x: expected numbers")
-    assert str(error) == "-r x: expected numbers"
+    error = ConfigError("runs = x: expected numbers")
+    assert str(error) == "runs = x: expected numbers"
     assert (error.source, error.file, error.line, error.key) == (None, None, 0, "")
 
 
@@ -33,8 +33,8 @@ def test_at_leaves_most_of_a_long_value_out() -> None:
     assert str(ConfigError.at(source, "out of range")) == f"a.ini:7: *.x.points = {'1' * 100}…: out of range"
 
 
-def test_at_does_not_repeat_what_the_command_line_says() -> None:
-    source = Source(Path("a.ini"), 0, "repeat", "0")
+def test_at_does_not_repeat_what_an_override_says() -> None:
+    source = Source(Path("a.ini"), 0, "repeat", "0", "--set")
     assert str(ConfigError.at(source, "out of range")) == "--set repeat=0: out of range"
 
 

@@ -74,13 +74,13 @@ def test_unknown_options(folder: Any, key: str, hint: str) -> None:
 
 def test_options_of_a_section_cannot_be_overridden(folder: Any) -> None:
     assert folder.error("", "General", "abstract=true") == (
-        "--set abstract=true: `abstract` belongs to a section; expected it in the file"
+        "override abstract=true: `abstract` belongs to a section; expected it in the file"
     )
 
 
 def test_overrides_are_checked(folder: Any) -> None:
     assert folder.error("", "General", "*.uavz[*].mobility.speed=1mps") == (
-        "--set *.uavz[*].mobility.speed=1mps: `*.uavz[*].mobility.speed` matches no node; "
+        "override *.uavz[*].mobility.speed=1mps: `*.uavz[*].mobility.speed` matches no node; "
         "expected one of `groundStation`, `uavs[*]`; did you mean `*.uavs[*].mobility.speed`?"
     )
 
@@ -128,8 +128,8 @@ def test_a_line_about_a_node_concerns_those_runs_that_draw_it(folder: Any) -> No
     folder.load("[X]\n*.numUavs = intuniform(1, 2)\n*.uavs[2].mobility.speed = 3mps\n", "X")
 
 
-def test_a_variable_in_a_key_is_refused_on_the_command_line_too(folder: Any) -> None:
+def test_a_variable_in_a_key_is_refused_in_an_override_too(folder: Any) -> None:
     assert folder.error("", "General", "*.uavs[${n}].mobility.speed=1mps") == (
-        "--set *.uavs[${n}].mobility.speed=1mps: `*.uavs[${n}].mobility.speed` has a variable;"
+        "override *.uavs[${n}].mobility.speed=1mps: `*.uavs[${n}].mobility.speed` has a variable;"
         " expected `${...}` in values only"
     )

@@ -1,10 +1,11 @@
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from gradysim.config.error import ConfigError
-from gradysim.config.reader import COMMAND_LINE, IniFile, read_ini, read_overrides
+from gradysim.config.reader import OVERRIDES, IniFile, read_ini, read_overrides
 
 Write = Callable[..., Path]
 
@@ -253,12 +254,21 @@ def test_other_encodings_are_errors(tmp_path: Path) -> None:
 
 def test_overrides_have_line_0() -> None:
     (entry,) = read_overrides(Path("a.ini"), ['*.x.y = "a=b"'])
-    assert (entry.key, entry.text, entry.section) == ("*.x.y", '"a=b"', COMMAND_LINE)
-    assert str(entry.source) == '--set *.x.y="a=b"'
+    assert (entry.key, entry.text, entry.section) == ("*.x.y", '"a=b"', OVERRIDES)
+    assert str(entry.source) == 'override *.x.y="a=b"'
 
 
 @pytest.mark.parametrize("override", ["repeat", "repeat=", "=3"])
 def test_overrides_need_key_and_value(override: str) -> None:
     with pytest.raises(ConfigError) as caught:
         read_overrides(Path("a.ini"), [override])
-    assert str(caught.value) == f"--set {override}: expected KEY=VALUE, such as `sim-time-limit=10s`"
+    assert str(caught.value) == f"override {override}: expected KEY=VALUE, such as `sim-time-limit=10s`"
+
+
+@pytest.mark.parametrize("overrides", ["repeat=2", {"repeat": "2"}, [2], 2])
+def test_overrides_are_a_list_of_texts(overrides: Any) -> None:
+    with pytest.raises(TypeError) as caught:
+        read_overrides(Path("a.ini"), overrides)
+    assert str(caught.value) == (
+        f"overrides = {overrides!r}: expected a list of texts, such as ['sim-time-limit=10s']"
+    )

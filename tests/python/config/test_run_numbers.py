@@ -1,4 +1,5 @@
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -32,7 +33,14 @@ def test_selects(runs: str | list[int] | None, expected: list[int]) -> None:
 def test_texts_that_are_no_runs(runs: str) -> None:
     with pytest.raises(ConfigError) as caught:
         select_runs(runs, 5, "X", SOURCE)
-    assert str(caught.value) == f"-r {runs}: expected numbers of runs and ranges such as `0,2,5..9`"
+    assert str(caught.value) == f"runs = {runs}: expected numbers of runs and ranges such as `0,2,5..9`"
+
+
+@pytest.mark.parametrize("runs", [3, [0.5], ["0"]])
+def test_what_are_no_numbers_of_runs(runs: Any) -> None:
+    with pytest.raises(TypeError) as caught:
+        select_runs(runs, 5, "X", SOURCE)
+    assert str(caught.value) == f"runs = {runs!r}: expected numbers of runs, such as [0, 2]"
 
 
 @pytest.mark.parametrize(("runs", "run"), [("5", 5), ("2..7", 7), ([-1], -1)])

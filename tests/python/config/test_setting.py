@@ -14,8 +14,8 @@ SPEED = quantity("mps", at_least=0)
 MODE = choice("b", "a")
 
 
-def entry(text: str, line: int = 7) -> Entry:
-    return Entry("*.x.y", text, Source(Path("a.ini"), line, "*.x.y", text), "General")
+def entry(text: str, line: int = 7, option: str = "") -> Entry:
+    return Entry("*.x.y", text, Source(Path("a.ini"), line, "*.x.y", text, option), "General")
 
 
 def test_holds_the_value_and_its_place() -> None:
@@ -53,9 +53,9 @@ def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
     )
 
 
-def test_texts_on_the_command_line_need_no_quotes() -> None:
-    assert read_scalar(entry("b", line=0), MODE) == "b"
-    assert read_scalar(entry('"b"', line=0), MODE) == "b"
+def test_texts_of_overrides_need_no_quotes() -> None:
+    assert read_scalar(entry("b", line=0, option="--set"), MODE) == "b"
+    assert read_scalar(entry('"b"', line=0, option="--set"), MODE) == "b"
 
 
 def test_texts_in_a_file_need_quotes() -> None:

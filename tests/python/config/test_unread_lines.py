@@ -135,7 +135,7 @@ def test_lines_that_lack_the_same_are_told_together(texts: Callable[..., list[st
     [
         (line(9), "nor line 9:"),
         (line(1, file="b.ini"), "nor line b.ini:1:"),
-        (line(0, "**.l01", file="b.ini"), "nor line --set **.l01=1:"),
+        (Source(Path("b.ini"), 0, "**.l01", "1", "--set"), "nor line --set **.l01=1:"),
     ],
 )
 def test_other_places_are_named(texts: Callable[..., list[str]], other: Source, nor: str) -> None:

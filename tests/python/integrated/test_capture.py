@@ -72,7 +72,7 @@ def test_a_path_may_be_a_text(make_scenario, tmp_path):
 
 def test_a_unit_disk_medium_has_nothing_to_capture(make_scenario, tmp_path):
     scenario = make_scenario("class Tested(Talker): pass", UNIT_DISK)
-    with pytest.raises(ConfigError, match=r"^--set .*no radios; expected Ieee80211ScalarRadioMedium"):
+    with pytest.raises(ConfigError, match=r"^override .*no radios; expected Ieee80211ScalarRadioMedium"):
         IntegratedRun(scenario, {0: tmp_path / "a"})
 
 

@@ -79,7 +79,7 @@ def test_a_line_is_told_until_its_model_is_chosen(
 ) -> None:
     chooser, _, name = choice.partition("=")
     (text,) = warnings(setting)
-    assert text.startswith(f"--set {setting}: warning: nothing reads `{setting.partition('=')[0]}`")
+    assert text.startswith(f"override {setting}: warning: nothing reads `{setting.partition('=')[0]}`")
     assert f"`{chooser} = {name}" in text
     assert [text for text in warnings(setting, choice) if "nothing reads" in text] == []
 
@@ -142,7 +142,9 @@ def test_obstacles_of_a_file_count_too() -> None:
 def test_nodes_on_the_ground_under_two_rays(warnings: Callable[..., list[str]], path_loss: str) -> None:
     chosen = f'*.radioMedium.pathLoss.typename="{path_loss}"'
     (text,) = warnings(chosen)
-    assert text.startswith(f"--set {chosen}: warning: with {path_loss}, a node on the ground hears next to")
+    assert text.startswith(
+        f"override {chosen}: warning: with {path_loss}, a node on the ground hears next to"
+    )
     assert "uavs[0] and 1 more start at z = 0m; expected a height" in text
     (text,) = warnings(chosen, "*.uavs[0].mobility.initialZ=2m")
     assert "uavs[1] starts at z = 0m" in text
@@ -168,14 +170,14 @@ def op_mode(nodes: str, mode: str) -> str:
 def test_stations_on_one_channel_without_a_common_mode_are_told(warnings: Callable[..., list[str]]) -> None:
     (text,) = warnings(op_mode("uavs[0]", "g(erp)"), op_mode("uavs[1]", "b"))
     assert text.startswith(
-        f"--set {op_mode('uavs[1]', 'b')}: warning: uavs[0] and uavs[1] are on one channel"
+        f"override {op_mode('uavs[1]', 'b')}: warning: uavs[0] and uavs[1] are on one channel"
     )
     assert '"g(erp)" and "b"' in text
 
 
 def test_the_line_is_named_where_the_other_mode_is_the_default(warnings: Callable[..., list[str]]) -> None:
     (text,) = warnings(op_mode("uavs[0]", "a"))
-    assert text.startswith(f"--set {op_mode('uavs[0]', 'a')}: warning: ")
+    assert text.startswith(f"override {op_mode('uavs[0]', 'a')}: warning: ")
 
 
 @pytest.mark.parametrize(
@@ -199,23 +201,23 @@ CHANNEL_5 = "*.uavs[0].wlan[*].radio.channelNumber=5"
 def test_who_shares_no_channel_is_told(warnings: Callable[..., list[str]]) -> None:
     first, second = warnings(CHANNEL_5)
     assert first.startswith(
-        f"--set {CHANNEL_5}: warning: nobody hears uavs[0]: no other node listens at 2437 MHz"
+        f"override {CHANNEL_5}: warning: nobody hears uavs[0]: no other node listens at 2437 MHz"
     )
     assert second.startswith(
-        f"--set {CHANNEL_5}: warning: nobody hears uavs[1]: no other node listens at 2412 MHz"
+        f"override {CHANNEL_5}: warning: nobody hears uavs[1]: no other node listens at 2412 MHz"
     )
 
 
 def test_who_is_heard_in_one_direction_is_told(warnings: Callable[..., list[str]]) -> None:
     narrow = "*.uavs[0].wlan[*].radio.bandwidth=20MHz"
     (text,) = warnings(narrow)
-    assert text.startswith(f"--set {narrow}: warning: nobody hears uavs[1]")
+    assert text.startswith(f"override {narrow}: warning: nobody hears uavs[1]")
 
 
 def test_another_technology_is_another_channel(warnings: Callable[..., list[str]]) -> None:
     sensor = '*.uavs[0].wlan[*].typename="Ieee802154NarrowbandInterface"'
     assert [text.partition(": no other")[0] for text in warnings(sensor)] == [
-        f"--set {sensor}: warning: nobody hears uavs[{index}]" for index in (0, 1)
+        f"override {sensor}: warning: nobody hears uavs[{index}]" for index in (0, 1)
     ]
 
 
@@ -225,7 +227,7 @@ def test_an_interface_that_shares_its_channel_with_no_other_node_is_told(
     channel = "*.uavs[0].wlan[1].radio.channelNumber=5"
     (text,) = warnings("*.uavs[0].numWlanInterfaces=2", channel)
     assert text.startswith(
-        f"--set {channel}: warning: nobody hears wlan[1] of uavs[0]: no other node listens at 2437 MHz"
+        f"override {channel}: warning: nobody hears wlan[1] of uavs[0]: no other node listens at 2437 MHz"
     )
 
 
@@ -261,7 +263,7 @@ ACK_WAIT = f"{UAVS}.wlan[*].mac.macAckWaitDuration"
 def test_an_ack_that_nobody_waits_for(warnings: Callable[..., list[str]]) -> None:
     (text,) = warnings(NARROWBAND, f"{ACK_WAIT}=500us")
     assert text == (
-        f"--set {ACK_WAIT}=500us: warning: who waits 500us for an ACK, which ends 544us after the frame (a"
+        f"override {ACK_WAIT}=500us: warning: who waits 500us for an ACK, which ends 544us after the frame (a"
         " sifs, and 352us on the air), repeats frames that have arrived; expected a longer"
         " macAckWaitDuration, or `useMACAcks = false`"
     )

@@ -70,7 +70,7 @@ def test_the_engine_is_given_what_the_file_says() -> None:
 )
 def test_values_outside_of_the_engines_range_are_told(override: str, message: str) -> None:
     scenario = load_scenarios(TOWN, "SectorAntenna", "0", [override])[0]
-    with pytest.raises(ConfigError, match="--set") as caught:
+    with pytest.raises(ConfigError, match="override") as caught:
         node_config(scenario.nodes[0])
     assert message in str(caught.value)
 
