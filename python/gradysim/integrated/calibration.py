@@ -80,19 +80,19 @@ def calibrate(
     Raises:
         ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.
     """
-    whole_sender, from_index = _interface_named(scenario.nodes, sender)
+    whole_sender, from_index = _interface_named(scenario.nodes, sender, "sender")
     from_node = to_node = _with_one_interface(whole_sender, from_index)
     to_name = whole_sender.name
     of_several = [whole_sender.name] if len(whole_sender.wlan) > 1 else []
     if receiver is not None:
-        whole_receiver, to_index = _interface_named(scenario.nodes, receiver)
+        whole_receiver, to_index = _interface_named(scenario.nodes, receiver, "receiver")
         to_node = _with_one_interface(whole_receiver, to_index)
         to_name = f"{to_node.name}.wlan[{to_index}]" if to_index else to_node.name
         of_several += [whole_receiver.name] if len(whole_receiver.wlan) > 1 else []
     if receiver is not None and to_node.id == from_node.id:
         raise ConfigError(
-            f"`{receiver}` would be sender and receiver; expected two nodes, or no receiver for one like the"
-            " sender"
+            f"`{receiver}` cannot be the receiver: it is the sender; expected two nodes, or no receiver for"
+            " one like the sender"
         )
     try:
         budget = link_budget(scenario, from_node, to_node, message_bytes)
@@ -158,28 +158,25 @@ def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, messag
     return budget
 
 
-def _interface_named(nodes: Sequence[NodeSpec], name: str | None) -> tuple[NodeSpec, int]:
+def _interface_named(nodes: Sequence[NodeSpec], name: str | None, role: str) -> tuple[NodeSpec, int]:
     """The node and the index of its interface: `relay` is `relay.wlan[0]`."""
-    match = re.fullmatch(r"(.*)\.wlan\[(\d{1,3})\]", name or "", re.ASCII)
-    if match is None:
-        return _node_named(nodes, name), 0
-    node, index = _node_named(nodes, match[1]), int(match[2])
-    if index >= len(node.wlan):
+    if name is None:
+        return nodes[0], 0
+    match = re.fullmatch(r"(.*)\.wlan\[(\d{1,3})\]", name, re.ASCII)
+    of_node, index = (match[1], int(match[2])) if match else (name, 0)
+    node = next((node for node in nodes if node.name == of_node), None)
+    if node is not None and index < len(node.wlan):
+        return node, index
+    if node is not None:
         has = "wlan[0]" if len(node.wlan) == 1 else f"wlan[0] to wlan[{len(node.wlan) - 1}]"
-        raise ConfigError(f"there is no interface `{name}`; expected one of those of {node.name}, {has}")
-    return node, index
+        reason = f"there is no such interface; expected one of those of {node.name}, {has}"
+    elif of_group := [node.name for node in nodes if node.group == of_node]:
+        reason = f"it is a group; expected one of its nodes, such as {of_group[0]}"
+    else:
+        hint = did_you_mean(of_node, [node.name for node in nodes])
+        reason = f"there is no such node; expected one such as {nodes[0].name}{hint}"
+    raise ConfigError(f"`{name}` cannot be the {role}: {reason}")
 
 
 def _with_one_interface(node: NodeSpec, index: int) -> NodeSpec:
     return node if len(node.wlan) == 1 else replace(node, wlan=(node.wlan[index],))
-
-
-def _node_named(nodes: Sequence[NodeSpec], name: str | None) -> NodeSpec:
-    if name is None:
-        return nodes[0]
-    for node in nodes:
-        if node.name == name:
-            return node
-    of_group = next((node.name for node in nodes if node.group == name), None)
-    hint = f"; did you mean `{of_group}`?" if of_group else did_you_mean(name, [node.name for node in nodes])
-    raise ConfigError(f"there is no node `{name}`; expected one such as {nodes[0].name}{hint}")

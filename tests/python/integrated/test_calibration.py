@@ -50,11 +50,11 @@ def test_a_sensitivity_that_asks_for_more_power_than_the_noise_is_named() -> Non
     assert calibrate(link(slow), 150).tx_power_w < by_noise.tx_power_w / 5
 
 
-def test_a_group_is_no_node_and_its_first_one_is_suggested() -> None:
+def test_a_group_is_no_node_and_one_of_its_nodes_is_suggested() -> None:
     with pytest.raises(ConfigError) as caught:
         calibrate(link(), 150, receiver="receivers")
     assert str(caught.value) == (
-        "there is no node `receivers`; expected one such as sender; did you mean `receivers[0]`?"
+        "`receivers` cannot be the receiver: it is a group; expected one of its nodes, such as receivers[0]"
     )
 
 
@@ -157,10 +157,13 @@ def test_interfaces_of_different_channels_are_told_with_one_to_try() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"sender": "sender.wlan[1]"}, r"no interface `sender.wlan\[1\]`; expected .* of sender, wlan\[0\]$"),
-        ({"sender": "reciever"}, "did you mean `receivers"),
-        ({"receiver": "sender"}, "`sender` would be sender and receiver; expected two nodes"),
-        ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` would be sender"),
+        (
+            {"sender": "sender.wlan[1]"},
+            r"`sender.wlan\[1\]` cannot be the sender: .* interface; expected .* of sender, wlan\[0\]$",
+        ),
+        ({"sender": "reciever"}, "`reciever` cannot be the sender: .* such node; .* did you mean `receivers"),
+        ({"receiver": "sender"}, "`sender` cannot be the receiver: it is the sender; expected two nodes"),
+        ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` cannot be the receiver"),
         ({"range_m": 0.0}, "range_m = 0 m: expected more than 0 m"),
         ({"ratio": 1.0}, "ratio = 1: expected more than 0 and less than 1"),
         (
