@@ -4,7 +4,7 @@ Interfaces with the same entries in force share one InterfaceSpec, also those of
 for all of them.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from gradysim.config.bands import BAND, CHANNELS
@@ -67,13 +67,14 @@ class InterfaceBuilder:
         spec = self._known.get(known)
         if spec is None:
             is_802154 = self._is_802154(found)
-            in_band = _of_802154(found) if is_802154 else self._in_its_band(found)
+
+            def path_of(key: Key) -> str:
+                return f"{node}.{at_interface(key.path, index)}"
+
+            in_band = _of_802154(found) if is_802154 else self._in_its_band(found, path_of)
             try:
                 structs = {
-                    struct: read_struct(
-                        struct, in_band, self._settings, lambda key: f"{node}.{at_interface(key.path, index)}"
-                    )
-                    for struct in STRUCTS
+                    struct: read_struct(struct, in_band, self._settings, path_of) for struct in STRUCTS
                 }
             except ConfigError as error:
                 channel = found.get(CHANNEL_NUMBER)
@@ -96,7 +97,7 @@ class InterfaceBuilder:
             return False
         return self._settings.scalar(chosen.entry, INTERFACE_TYPENAME.kind) in IEEE802154.names
 
-    def _in_its_band(self, found: Mapping[Key, Found]) -> Mapping[Key, Found]:
+    def _in_its_band(self, found: Mapping[Key, Found], path_of: Callable[[Key], str]) -> Mapping[Key, Found]:
         """Read a channel's number as one of the band beside it.
 
         The band says nothing of its own if a channel or its centre is given.
@@ -104,7 +105,7 @@ class InterfaceBuilder:
         written = {key: entry for key, entry in found.items() if not entry.is_default}
         if BAND_NAME not in written or not {CHANNEL_NUMBER, CENTER_FREQUENCY} & written.keys():
             return found
-        name = str(self._settings.scalar(written[BAND_NAME].entry, BAND))
+        name = str(self._settings.scalar(written[BAND_NAME].entry, BAND, path_of(BAND_NAME)))
         in_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
         if CHANNEL_NUMBER in written:
             in_band[replace(CHANNEL_NUMBER, kind=CHANNELS[name])] = written[CHANNEL_NUMBER]

@@ -37,10 +37,11 @@ class SettingReader:
         known = self._settings.get(key)
         if known is None:
             if path and drawing_function_in(entry.text):
-                drawn = read_scalar(entry, kind, ParameterDraws(self._seed, path))
+                drawn = read_scalar(entry, kind, path, ParameterDraws(self._seed, path))
                 return Setting(drawn, entry.source)
             # Entry and kind are kept beside the value, so that their ids are not given to others.
-            known = self._settings[key] = (entry, kind, Setting(read_scalar(entry, kind), entry.source))
+            setting = Setting(read_scalar(entry, kind, path), entry.source)
+            known = self._settings[key] = (entry, kind, setting)
         return known[2]
 
     def files(self) -> list[Path]:
@@ -56,10 +57,11 @@ class SettingReader:
         return self.setting(entry, kind, path).value
 
 
-def read_scalar(entry: Entry, kind: Kind, draws: ParameterDraws | None = None) -> Scalar:
+def read_scalar(entry: Entry, kind: Kind, path: str = "", draws: ParameterDraws | None = None) -> Scalar:
     """The value of an entry. Raises ConfigError with its place if it is not of that kind.
 
-    It may draw if `draws` are given.
+    `path` is the parameter that it is for, which the error tells if the key does not. It may draw if `draws`
+    are given.
     """
     written: Value | None = None
     try:
@@ -70,7 +72,9 @@ def read_scalar(entry: Entry, kind: Kind, draws: ParameterDraws | None = None) -
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
         this = f"that is {entry.text}: " if is_of_one_run else ""
         if draws is not None and written is not None:
-            this += f"that is {written} for {draws.path}: "
+            this += f"that is {written} for {path}: "
+        elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
+            this += f"for {path}: "
         text = f"{this}{error.problem}; expected {kind.expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 

@@ -53,6 +53,17 @@ def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
     )
 
 
+@pytest.mark.parametrize("key", ["**", "*.x.*", "*.uavs[*].mobility.s*", "**.*speed"])
+def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
+    written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"), "General")
+    with pytest.raises(ConfigError) as caught:
+        read_scalar(written, SPEED, "uavs[0].mobility.speed")
+    assert str(caught.value) == (
+        f"a.ini:7: {key} = 3m: for uavs[0].mobility.speed: `m` is the unit of a length; "
+        "expected a speed such as 10mps, at least 0mps"
+    )
+
+
 def test_texts_of_overrides_need_no_quotes() -> None:
     assert read_scalar(entry("b", line=0, option="--set"), MODE) == "b"
     assert read_scalar(entry('"b"', line=0, option="--set"), MODE) == "b"
@@ -93,7 +104,7 @@ def test_without_a_parameter_nothing_is_drawn() -> None:
 
 def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> None:
     with pytest.raises(ConfigError) as caught:
-        read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, ParameterDraws(1, "x.y"))
+        read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, "x.y", ParameterDraws(1, "x.y"))
     text = str(caught.value)
     assert text.startswith("a.ini:7: *.x.y = -exponential(2mps) - 3mps: that is -")
     assert text.endswith("mps for x.y: it is out of range; expected a speed such as 10mps, at least 0mps")
