@@ -21,7 +21,7 @@ from gradysim.config.iterations import (
 from gradysim.config.key import Key
 from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS
-from gradysim.config.keys.options import OPTIONS
+from gradysim.config.keys.options import LONGEST_RUN_S, OPTIONS
 from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
@@ -38,6 +38,7 @@ from gradysim.config.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash,
 from gradysim.config.source import Source
 from gradysim.config.struct_reader import read_struct
 from gradysim.config.variables import depends_on_run, run_variables, substitute
+from gradysim.protocol.checked_values import checked_number
 
 __all__ = ["CommunicationMediumSpec", "NodeSpec", "Scenario", "Setting", "Source", "load_scenarios"]
 
@@ -108,8 +109,21 @@ class Scenario:
     run_count: int = 1
 
     def __post_init__(self) -> None:
-        """Keep the seed as Python's own integer. Raises TypeError and ValueError for what is no seed."""
+        """Check what scripts replace. Raises TypeError and ValueError, which name the field."""
         object.__setattr__(self, "seed", checked_seed(self.seed))
+        limit_s = checked_number(
+            "sim_time_limit_s",
+            self.sim_time_limit_s,
+            lambda time_s: 0 < time_s <= LONGEST_RUN_S,
+            f"a number of seconds, more than 0 and at most {LONGEST_RUN_S}",
+            ValueError,
+        )
+        object.__setattr__(self, "sim_time_limit_s", limit_s)
+        for place, node in enumerate(self.nodes):
+            if node.id != place:
+                raise ValueError(
+                    f"nodes: {node.name}, at place {place}, has the id {node.id}; expected 0, 1, ... in order"
+                )
 
 
 def require_scenario(value: object) -> None:

@@ -301,6 +301,22 @@ def test_a_run_that_does_not_exist(folder: Any) -> None:
     )
 
 
+@pytest.mark.parametrize("wrong", ["3", None, 0, -1.0, float("nan"), float("inf"), 9_200_001])
+def test_a_script_may_not_replace_the_time_limit_by_none(folder: Any, wrong: Any) -> None:
+    with pytest.raises(
+        ValueError, match=r"^sim_time_limit_s must be a number of seconds, more than 0 and at"
+    ):
+        replace(folder.load(), sim_time_limit_s=wrong)
+
+
+def test_a_script_may_not_leave_a_gap_in_the_ids_of_nodes(folder: Any) -> None:
+    scenario = folder.load()
+    with pytest.raises(
+        ValueError, match=r"^nodes: uavs\[1\], at place 1, has the id 2; expected 0, 1, \.\.\. in"
+    ):
+        replace(scenario, nodes=scenario.nodes[::2])
+
+
 def test_settings_can_be_pickled(folder: Any) -> None:
     node = folder.load("**.power = 1mW\n").nodes[0]
     assert pickle.loads(pickle.dumps(node.wlan)) == node.wlan

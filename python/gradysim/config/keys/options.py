@@ -3,7 +3,7 @@
 from gradysim.config.key import Key
 from gradysim.config.kinds import Kind, integer, quantity, text
 
-_MAX_SIM_TIME_S = 9_200_000
+LONGEST_RUN_S = 9_200_000
 """The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""
 
 LARGEST_SEED = 2**63 - 1
@@ -13,7 +13,7 @@ OPTION_KEYS: tuple[Key, ...] = (
     Key(
         "sim-time-limit",
         "option.sim_time_limit",
-        quantity("s", above=0, at_most=_MAX_SIM_TIME_S),
+        quantity("s", above=0, at_most=LONGEST_RUN_S),
         "Simulated time at which a run ends",
         default="none: it has to be given",
     ),
