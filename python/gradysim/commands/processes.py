@@ -153,9 +153,12 @@ def _begin(work: Work, index: int, output: TextIO) -> _Running:
 
 
 def _stream(file: IO[bytes], descriptor: int) -> TextIO:
-    """A text stream into that file, which takes what is written to the descriptor, too."""
+    """A text stream into that file, which takes what is written to the descriptor, too.
+
+    A line is in the file as soon as it is printed: a process that is killed has no time to write more.
+    """
     os.dup2(file.fileno(), descriptor)
-    return open(descriptor, "w", encoding="utf-8", errors="backslashreplace", closefd=False)
+    return open(descriptor, "w", buffering=1, encoding="utf-8", errors="backslashreplace", closefd=False)
 
 
 @contextlib.contextmanager

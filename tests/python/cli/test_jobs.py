@@ -14,6 +14,7 @@ COSTS = ("wall_s", "cpu_s")
 
 TELLS = """
 import os
+import sys
 
 from protocol import Talker
 
@@ -28,7 +29,8 @@ class Endless(Talker):
 
 class Killed(Talker):
     def handle_timer(self, timer):
-        print("in the end", flush=True)
+        print("the last line")
+        print("the last error", file=sys.stderr)
         os.kill(os.getpid(), 9)
 
 
@@ -104,6 +106,7 @@ def test_a_process_that_is_killed_is_told(gradysim, folder):
     for run in (0, 2):
         assert f"General run {run}: its process was ended by SIGKILL, and left no result\n" in done.stderr
     assert "General: run 0 failed, run 2 failed, 0 of 2 runs are done\n" in done.stderr
+    assert (done.stdout.count("the last line\n"), done.stderr.count("the last error\n")) == (2, 2)
 
 
 @pytest.mark.parametrize("status", [0, 3])
