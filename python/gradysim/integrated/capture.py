@@ -91,3 +91,17 @@ def capture_errors() -> Iterator[None]:
         raise
     except netsim.SimulationError as error:
         raise CaptureError(str(error)) from None
+
+
+@contextmanager
+def captures_completed_after_failure(network: "Network") -> Iterator[None]:
+    """Complete the captures if what is done inside raises; a note on it tells of a file without its end."""
+    try:
+        yield
+    except BaseException as failure:
+        try:
+            with capture_errors():
+                network.close_captures()
+        except CaptureError as error:
+            failure.add_note(str(error))
+        raise

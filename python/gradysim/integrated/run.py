@@ -15,7 +15,12 @@ from gradysim.config.protocol_class import parametrize
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.integrated.capture import capture_errors, checked_captures, start_captures
+from gradysim.integrated.capture import (
+    capture_errors,
+    captures_completed_after_failure,
+    checked_captures,
+    start_captures,
+)
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.fates_at import checked_fates_at, with_fates
 from gradysim.integrated.handlers import EngineHandlers
@@ -76,10 +81,10 @@ class IntegratedRun:
         self._complete = False
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
-        self._captures = checked_captures(captures or {}, scenario)
+        files = checked_captures(captures or {}, scenario)
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
-        start_captures(self._network, scenario, self._captures)
+        start_captures(self._network, scenario, files)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
@@ -118,8 +123,14 @@ class IntegratedRun:
         passed on, with a note of node, time and callback, and ends the run without `finish`; what a native
         one gets wrong becomes a NativeProtocolError with such a note. So does what a handler raises, as for
         an assertion that failed. Handlers are finalized in any case. A capture file that could not be written
-        to its end raises CaptureError when all else is done.
+        to its end raises CaptureError when all else is done, or adds a note to what was raised before.
         """
+        with captures_completed_after_failure(self._network):
+            self._execute(progress, should_stop)
+
+    def _execute(
+        self, progress: Callable[[float], None] | None, should_stop: Callable[[], bool] | None
+    ) -> None:
         network = self._network
         random.seed(self._scenario.seed)  # another run may have been built in between
         try:
@@ -147,8 +158,6 @@ class IntegratedRun:
             self._handlers.finalize_after_failure()
             network.release_protocols()
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
-            if self._captures:
-                network.close_captures()
 
     def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
         """Return what a native protocol got wrong, told as the exception of one in Python."""

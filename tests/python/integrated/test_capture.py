@@ -1,4 +1,5 @@
 import resource
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -106,13 +107,31 @@ def test_the_file_is_complete_after_an_interruption(make_scenario, tmp_path):
     assert (tmp_path / "a.pcap").stat().st_size > HEADER_BYTES
 
 
-def test_a_file_that_lacks_its_end(make_scenario, tmp_path):
-    captured = IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap"})
+@contextmanager
+def full_disk():
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (2 * HEADER_BYTES, limits[1]))
     try:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (2 * HEADER_BYTES, limits[1]))
-        with pytest.raises(CaptureError, match=r"a\.pcap': File too large; it lacks the last frames"):
-            captured.execute()
+        yield
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+
+
+def test_a_file_that_lacks_its_end(make_scenario, tmp_path):
+    captured = IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap"})
+    with (
+        full_disk(),
+        pytest.raises(CaptureError, match=r"a\.pcap': File too large; it lacks the last frames"),
+    ):
+        captured.execute()
     assert captured.result().interrupted
+
+
+def test_a_file_that_lacks_its_end_is_told_beside_what_a_protocol_raised(make_scenario, tmp_path):
+    failing = IntegratedRun(make_scenario(FAILING), {0: tmp_path / "a.pcap"})
+    with full_disk(), pytest.raises(RuntimeError, match="spoilt") as caught:
+        failing.execute()
+    assert caught.value.__context__ is None
+    assert caught.value.__notes__[1:] == [
+        f"cannot write the capture file '{tmp_path}/a.pcap': File too large; it lacks the last frames"
+    ]
