@@ -1,11 +1,13 @@
 """Beacons whose first sends fall into a short window, so that stations contend: against INET's ten seeds."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING
+
+import pytest
 
 import gradysim.integrated.run
 from verification.finding import Finding
@@ -16,11 +18,19 @@ from verification.sampling import least_p, welch_p
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-WINDOWS = {10_000: "Window10ms", 2_000: "Window2ms"}
-"""{window in microseconds: configuration}"""
+Window = tuple[int, int]
+"""In microseconds, and the number of nodes that send first within it."""
+
+WINDOWS: dict[Window, str] = {(10_000, 50): "Window10ms", (2_000, 20): "Window2ms"}
+"""{window: configuration}"""
+CROWDED: dict[Window, str] = {
+    (2_000, 30): "Window2ms30",
+    (2_000, 50): "Window2ms50",
+    (500, 50): "Window500us50",
+}
+"""The same, with so many collisions that it matters how EIFS ends."""
 SEEDS = range(100)
 COLUMNS = ("received", "received_in_error")
-MEASURED = [(window_us, column) for window_us in WINDOWS for column in COLUMNS]
 
 
 @dataclass(frozen=True)
@@ -40,37 +50,60 @@ class Samples:
 
 
 @cache
-def ours(window_us: int) -> list[tuple[int, int]]:
+def ours(window: Window) -> list[tuple[int, int]]:
     """Frames received and received in error by all nodes, for each seed."""
-    scenario = load_reference("beacons", WINDOWS[window_us])
+    scenario = load_reference("beacons", (WINDOWS | CROWDED)[window])
     results = (gradysim.integrated.run.run(replace(scenario, seed=seed)) for seed in SEEDS)
     return [(sum(tracked(result, "received")), received_in_error(result)) for result in results]
 
 
-def samples(window_us: int, column: str) -> Samples:
+def samples(window: Window, column: str) -> Samples:
     index = COLUMNS.index(column)
-    theirs = [int(row[column]) for row in rows("inet_window", window_us=window_us)]
-    return Samples([counts[index] for counts in ours(window_us)], theirs)
+    window_us, nodes = window
+    theirs = [int(row[column]) for row in rows("inet_window", window_us=window_us, nodes=nodes)]
+    return Samples([counts[index] for counts in ours(window)], theirs)
+
+
+def compare(windows: Iterable[Window], comparison: str, reason: str) -> Finding:
+    found = {(window, column): samples(window, column) for window in windows for column in COLUMNS}
+    limit = least_p(len(found))
+    return Finding(
+        comparison,
+        "; ".join(
+            f"{nodes} nodes, {window_us / 1000:g} ms, {column.replace('_', ' ')}: {sample.difference:+.2%} "
+            f"(p = {sample.p:.2g})"
+            for ((window_us, nodes), column), sample in found.items()
+        ),
+        f"p ≥ {limit:.2g} for each of the {len(found)}",
+        reason,
+        min(sample.p for sample in found.values()) >= limit,
+    )
+
+
+SAMPLING = "sampling error at 99 % for all together (Welch's t test, Bonferroni): false alarms at most 1 %"
 
 
 def test_counts_agree_with_inets_ten_seeds(
     report: Callable[[Finding], None], picture: Callable[[str, Callable[[Path], None]], None]
 ) -> None:
     picture("contention_windows.png", draw)
-    found = {key: samples(*key) for key in MEASURED}
-    limit = least_p(len(found))
-    text = "; ".join(
-        f"{column.replace('_', ' ')} in {window_us // 1000} ms: {sample.difference:+.2%} (p = {sample.p:.2g})"
-        for (window_us, column), sample in found.items()
-    )
     report(
-        Finding(
+        compare(
+            WINDOWS,
             "contention windows of 10 ms (50 nodes) and 2 ms (20 nodes), 100 seeds, against INET's 10",
-            text,
-            f"p ≥ {limit:.2g} for each of the four",
-            "sampling error at 99 % for all four together (Welch's t test, Bonferroni): false alarms at "
-            "most 1 %",
-            min(sample.p for sample in found.values()) >= limit,
+            SAMPLING,
+        )
+    )
+
+
+@pytest.mark.xfail(strict=True, reason="INET's EIFS is not that of IEEE 802.11: decision 25")
+def test_counts_in_crowded_windows_agree_with_inets_ten_seeds(report: Callable[[Finding], None]) -> None:
+    report(
+        compare(
+            CROWDED,
+            "contention windows of 2 ms (30, 50 nodes) and 0.5 ms (50 nodes), 100 seeds, against INET's 10",
+            f"{SAMPLING}. The engine's EIFS is the standard's, not INET's (decision 25): with INET's "
+            "compiled in, none of the six differs by more than 1.2 % (p ≥ 0.096)",
         )
     )
 
@@ -78,9 +111,9 @@ def test_counts_agree_with_inets_ten_seeds(
 def draw(path: Path) -> None:
     from verification.figure import INET, OURS, save
 
-    def panel(window_us: int, column: str) -> "Callable[[Axes], None]":
+    def panel(window: Window, column: str) -> "Callable[[Axes], None]":
         def draw_panel(axes: "Axes") -> None:
-            sample = samples(window_us, column)
+            sample = samples(window, column)
             for index, (colour, values) in enumerate(((INET, sample.inet), (OURS, sample.ours))):
                 # Side by side in the order of the seeds; a bar for mean and standard error.
                 places = [index + 0.6 * (k + 0.5) / len(values) - 0.3 for k in range(len(values))]
@@ -96,14 +129,17 @@ def draw(path: Path) -> None:
                     zorder=5,
                 )
             axes.set(xticks=[0, 1], xticklabels=["INET 4.5", "gradysim"], xlim=(-0.6, 1.6), ylabel="frames")
-            axes.set_title(f"{window_us // 1000} ms: {column.replace('_', ' ')}", fontsize=9)
+            window_us, nodes = window
+            axes.set_title(f"{nodes} nodes, {window_us / 1000:g} ms: {column.replace('_', ' ')}", fontsize=8)
 
         return draw_panel
 
+    windows = [*WINDOWS, *CROWDED]
     save(
         path,
         "Frames of all nodes in 60 s, one dot for each seed; bars: mean, 99 % interval",
-        *(panel(*key) for key in MEASURED),
-        columns=2,
+        *(panel(window, column) for column in COLUMNS for window in windows),
+        columns=len(windows),
+        width=2.9,
         height=2.9,
     )

@@ -71,6 +71,9 @@ def test_it_runs(name: str, config: str, mode: str) -> None:
         ("Inet100", "inet_beacons_g24_100"),
         ("Window10ms", "inet_window_10000_50"),
         ("Window2ms", "inet_window_2000_20"),
+        ("Window2ms30", "inet_window_2000_30"),
+        ("Window2ms50", "inet_window_2000_50"),
+        ("Window500us50", "inet_window_500_50"),
     ],
 )
 def test_given_places_and_phases_are_those_of_the_table(config: str, table: str) -> None:
