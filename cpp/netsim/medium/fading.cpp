@@ -19,30 +19,38 @@ constexpr double rare_scattered = 9 * std::numbers::ln10;
 
 Fading::Fading(const MediumConfig& config, std::uint64_t seed)
     : gaussians_(seed, SimTime::from_seconds(config.coherence_time())) {
+    double farthest = 0;  // from 0, of the pairs that are not cut off
     if (config.path_loss == "LogNormalShadowing") {
         kind_ = Kind::log_normal;
         sigma_ = config.sigma_db * std::numbers::ln10 / 10;
-        most_ = untruncated({rare_normal, 0});
+        farthest = rare_normal;
     } else if (config.path_loss == "RayleighFading" || config.path_loss == "RicianFading") {
         kind_ = Kind::rician;
         k_ = config.path_loss == "RicianFading" ? ratio_from_db(config.k_db) : 0;
-        const double amplitude = std::sqrt(k_) + std::sqrt(rare_scattered);
-        most_ = amplitude * amplitude / (k_ + 1);
+        farthest = std::sqrt(2 * rare_scattered);
     } else if (config.path_loss == "NakagamiFading") {
         kind_ = Kind::nakagami;
         shape_ = config.shape_factor;
         if (shape_ != 1) {
             gamma_.emplace(shape_);
         }
-        most_ = untruncated({rare_normal, 0});
+        farthest = rare_normal;
+    } else {
+        return;
     }
+    // All rise with the first number, and none has more of two numbers than of one at the same distance from 0.
+    const auto most_gain = [this](double from_0) { return untruncated({from_0, 0}); };
+    most_ = most_gain(farthest);
+    rare_ = RareGains(most_gain, farthest);
 }
 
-double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const {
+double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission,
+                    double least) const {
     if (kind_ == Kind::none) {
         return 1;
     }
-    return std::min(untruncated(gaussians_.at(a, b, time, transmission)), most_);
+    const auto normal = gaussians_.at_if_beyond(rare_.chance_beyond(least), a, b, time, transmission);
+    return normal ? std::min(untruncated(*normal), most_) : 0;
 }
 
 double Fading::untruncated(const GaussianPair& normal) const {

@@ -22,6 +22,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/medium/gamma_distribution.hpp"
 #include "netsim/medium/link_gaussians.hpp"
+#include "netsim/medium/rare_gains.hpp"
 
 namespace netsim {
 
@@ -31,7 +32,9 @@ public:
     Fading(const MediumConfig& config, std::uint64_t seed);
 
     // The factor between the interfaces of streams `a` and `b` (interface_id.hpp) for a transmission that starts at `time`: from 0 to most().
-    double gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const;
+    // Where it is less than `least`, perhaps 0 instead: that costs a fraction.
+    double gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission,
+                double least = 0) const;
 
     // Never more than that.
     double most() const { return most_; }
@@ -49,6 +52,7 @@ private:
     std::optional<GammaDistribution> gamma_;  // Nakagami, unless it is Rayleigh's distribution
     double shape_ = 1;                        // Nakagami
     double most_ = 1;
+    RareGains rare_;
 };
 
 }  // namespace netsim

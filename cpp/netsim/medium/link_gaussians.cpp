@@ -8,32 +8,37 @@
 
 namespace netsim {
 
-GaussianPair LinkGaussians::at(std::uint32_t a, std::uint32_t b, SimTime time,
-                               std::uint64_t transmission) const {
+std::optional<GaussianPair> LinkGaussians::at_if_beyond(double chance, std::uint32_t a, std::uint32_t b,
+                                                        SimTime time, std::uint64_t transmission) const {
     if (a > b) {
         std::swap(a, b);
     }
     if (coherence_time_ == SimTime{}) {
-        return draw(a, b, transmission);
+        const Drawn only = draw(a, b, transmission);
+        return only.chance_beyond > chance ? std::nullopt : std::optional(only.pair());
     }
     const auto index = static_cast<std::uint64_t>(time.ps() / coherence_time_.ps());
     const std::int64_t since_ps = time.ps() % coherence_time_.ps();
-    const GaussianPair before = draw(a, b, index);
+    const Drawn drawn_before = draw(a, b, index);
+    const Drawn drawn_after = draw(a, b, index + 1);
+    // The mixture lies no farther from 0 than √(r² + s²), r and s being the distances of the two (Cauchy and Schwarz).
+    if (drawn_before.chance_beyond * drawn_after.chance_beyond > chance) {
+        return std::nullopt;
+    }
+    const GaussianPair before = drawn_before.pair();
     if (since_ps == 0) {
         return before;
     }
-    const GaussianPair after = draw(a, b, index + 1);
+    const GaussianPair after = drawn_after.pair();
     const double angle =
         std::numbers::pi / 2 * static_cast<double>(since_ps) / static_cast<double>(coherence_time_.ps());
     const double weight_before = std::cos(angle);
     const double weight_after = std::sin(angle);
-    return {weight_before * before.first + weight_after * after.first,
-            weight_before * before.second + weight_after * after.second};
+    return GaussianPair{weight_before * before.first + weight_after * after.first,
+                        weight_before * before.second + weight_after * after.second};
 }
 
-// Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical
-// Statistics 29, 1958.
-GaussianPair LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const {
+LinkGaussians::Drawn LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const {
     // The name of a stream, kernel/random.hpp, has room for one node; the index of the block makes way for the
     // other. Its upper part goes above the purpose, of which 16 bits are more than enough.
     const std::uint32_t purpose =
@@ -45,8 +50,14 @@ GaussianPair LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uin
         return static_cast<double>((static_cast<std::uint64_t>(high_word >> 5) << 26) | (low_word >> 6)) *
                0x1p-53;
     };
-    const double radius = std::sqrt(-2 * std::log(1 - uniform(words[0], words[1])));
-    const double angle = 2 * std::numbers::pi * uniform(words[2], words[3]);
+    return {1 - uniform(words[0], words[1]), uniform(words[2], words[3])};
+}
+
+// Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical
+// Statistics 29, 1958.
+GaussianPair LinkGaussians::Drawn::pair() const {
+    const double radius = std::sqrt(-2 * std::log(chance_beyond));
+    const double angle = 2 * std::numbers::pi * turn;
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "netsim/kernel/sim_time.hpp"
 
@@ -31,10 +32,25 @@ public:
         : seed_(seed), coherence_time_(coherence_time) {}
 
     // The same for (a, b) as for (b, a). `transmission` below 2^48.
-    GaussianPair at(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const;
+    GaussianPair at(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const {
+        constexpr double always = 1;
+        return *at_if_beyond(always, a, b, time, transmission);
+    }
+    // The same, or nothing if it is sure, at a fraction of the cost, that the pair lies no farther from 0 than the distance beyond
+    // which a pair lies with that chance: √(−2 ln chance). Where two pairs are mixed, that is sure of few that lie near it.
+    std::optional<GaussianPair> at_if_beyond(double chance, std::uint32_t a, std::uint32_t b, SimTime time,
+                                             std::uint64_t transmission) const;
 
 private:
-    GaussianPair draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const;
+    // A pair as it is drawn, in polar coordinates.
+    struct Drawn {
+        double chance_beyond;  // of lying farther from 0; in (0, 1]
+        double turn;           // in [0, 1)
+
+        GaussianPair pair() const;
+    };
+
+    Drawn draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const;
 
     std::uint64_t seed_;
     SimTime coherence_time_;

@@ -174,6 +174,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
         entry.reach_m = std::max(entry.reach_m, within_m);
         farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
         const double search_m = std::max(within_m, ring.radius_m());
+        const double least_w = std::min(noticed_w(audience, sent), ring.least_power_w());
         const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
         for (const auto& [radio, place] : near) {
             netsim::fetch(attached_[radio]);
@@ -187,7 +188,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             }
             const ReceiverKind& there = kind(radio);
             const double distance_m = std::sqrt(squared_m2);
-            const double received_w = power_w(sent, share, radio, place, distance_m);
+            const double received_w = power_w(sent, share, radio, place, distance_m, least_w);
             const bool can_lock = is_decodable && received_w >= there.sensitivity_w;
             if (can_lock) {
                 ++noticed_copies;
@@ -256,12 +257,6 @@ void Medium::fetch(RadioId radio, FrameKind kind) const {
     fetch_bytes(there.upper_layer, cache_line);
     fetch_bytes(there.protocol, cache_line);
     fates_.fetch(attached_[radio].interface.node, kind);
-}
-
-double Medium::reach_m(Audience& audience, const Transmission& transmission) const {
-    // Who cannot decode it notices only its energy.
-    const double least_w = can_decode(audience, transmission) ? audience.least_w : audience.least_energy_w;
-    return known_reach_m(audience.reach, transmission, audience, least_w);
 }
 
 void Medium::begin_ring(EnergyRing& ring, Audience& audience, const Transmission& transmission) const {

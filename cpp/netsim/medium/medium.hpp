@@ -215,12 +215,19 @@ private:
     RadioId addressee_of(const Transmission& transmission) const;
     void tell_everybody(OnAir& entry);
     void tell_those_it_matters_to(OnAir& entry);
-    // At `radio`, at `place` when the transmission starts. `share` is that of the transmission in the radio's band.
+    // At `radio`, at `place` when the transmission starts. `share` is that of the transmission in the radio's band. Where
+    // it is less than `least_w`, perhaps 0 instead: that may cost a fraction.
     double power_w(const Transmission& sent, double share, RadioId radio, const Position& place,
-                   double distance_m) const {
-        const double sent_w =
-            sent.power_w * share * propagation_.gain(sent, attached_[radio].interface, place, distance_m);
-        return antennas_.all_isotropic() ? sent_w : sent_w * antennas_.gain(sent, radio, place);
+                   double distance_m, double least_w = 0) const {
+        const InterfaceId receiver = attached_[radio].interface;
+        const double in_band_w = sent.power_w * share;
+        if (antennas_.all_isotropic()) {
+            return in_band_w * propagation_.gain(sent, receiver, place, distance_m, least_w / in_band_w);
+        }
+        const double antenna_gain = antennas_.gain(sent, radio, place);
+        return in_band_w *
+               propagation_.gain(sent, receiver, place, distance_m, least_w / (in_band_w * antenna_gain)) *
+               antenna_gain;
     }
     // With the best that both antennas can do; the way takes its share of that.
     double most_power_w(const Transmission& sent, const Audience& audience) const {
@@ -232,8 +239,15 @@ private:
     // Bounds are taken so much larger and levels so much lower, for rounding.
     static constexpr double margin = 1e-9;
 
-    // Beyond that, a transmission without others beside it cannot matter to the audience.
-    double reach_m(Audience& audience, const Transmission& transmission) const;
+    // Below that, none of the audience notices the transmission without others beside it …
+    static double noticed_w(const Audience& audience, const Transmission& transmission) {
+        // Who cannot decode it notices only its energy.
+        return can_decode(audience, transmission) ? audience.least_w : audience.least_energy_w;
+    }
+    // … and beyond that distance, it cannot matter to any.
+    double reach_m(Audience& audience, const Transmission& transmission) const {
+        return known_reach_m(audience.reach, transmission, audience, noticed_w(audience, transmission));
+    }
     // The sum of several is not noticed below that.
     static double noticed_energy_w(const Audience& audience) {
         return audience.least_energy_w * (1 - margin);

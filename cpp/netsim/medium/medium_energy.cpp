@@ -149,9 +149,10 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
             continue;
         }
         ++energy_looks_;
-        const double received_w = moved_m > 0 || !odometer_.all_stand()
-                                      ? arrival_at(here, radio).power_w
-                                      : power_w(sent, share, radio, place, distance(sent.origin, place));
+        const double received_w =
+            moved_m > 0 || !odometer_.all_stand()
+                ? arrival_at(here, radio).power_w
+                : power_w(sent, share, radio, place, distance(sent.origin, place), ring.least_power_w());
         if (received_w >= ring.least_power_w() && received_w < watched_before_w &&
             !is_surely_loud(kind(radio), received_w)) {
             watch(radio, place, received_w);

@@ -25,13 +25,14 @@ public:
     Propagation(const MediumConfig& config, std::uint64_t seed);
 
     // Received over transmitted power for the interface `receiver`, at `place` when the transmission starts, `distance_m` from
-    // its origin. A function of its arguments: no order, no memory. Reciprocal, if start and id are the same.
-    double gain(const Transmission& sent, InterfaceId receiver, const Position& place,
-                double distance_m) const {
+    // its origin. A function of its arguments: no order, no memory. Reciprocal, if start and id are the same. Where it is less
+    // than `least`, perhaps 0 instead: that may cost a fraction.
+    double gain(const Transmission& sent, InterfaceId receiver, const Position& place, double distance_m,
+                double least = 0) const {
         if (is_power_law_) {
             return path_loss_.gain(distance_m, sent.band.carrier_hz);
         }
-        return other_gain(sent, receiver, place, distance_m);
+        return other_gain(sent, receiver, place, distance_m, least);
     }
 
     // The distance in m beyond which no gain reaches `gain`, up to rounding: a search radius needs a margin. 0 if not
@@ -55,7 +56,7 @@ public:
 
 private:
     double other_gain(const Transmission& sent, InterfaceId receiver, const Position& place,
-                      double distance_m) const;
+                      double distance_m, double least) const;
 
     PathLoss path_loss_;  // of the two-ray models: their bound
     TwoRay two_ray_;

@@ -76,6 +76,33 @@ TEST(Fading, MeanPowerIsUnchanged) {
     }
 }
 
+// Whether a link is looked at closely must not show in any result.
+TEST(Fading, WhereALeastGainIsGivenEitherItIsTheSameOrThereIsLess) {
+    MediumConfig config;
+    config.k_db = 3;
+    config.shape_factor = 1.7;
+    config.sigma_db = 5;
+    for (const char* name : {"LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading"}) {
+        config.path_loss = name;
+        for (const double coherence_time_s : {0.0, 0.005}) {
+            config.coherence_time_s = coherence_time_s;
+            const Fading fading(config, 9);
+            int left_out = 0;
+            for (std::uint64_t id = 0; id < 3000; ++id) {
+                const SimTime time = SimTime::from_us(static_cast<std::int64_t>(37 * id));
+                const double gain = fading.gain(0, 1, time, id);
+                for (const double least : {gain / 2, gain, 2.0, 5.0, fading.most()}) {
+                    const double found = fading.gain(0, 1, time, id, least);
+                    left_out += found == gain ? 0 : 1;
+                    ASSERT_TRUE(found == gain || (found == 0 && gain < least))
+                        << name << ": " << found << " for " << gain << ", at least " << least;
+                }
+            }
+            EXPECT_GT(left_out, 3000) << name;
+        }
+    }
+}
+
 TEST(Fading, ShadowingWithoutASpreadIsNone) {
     MediumConfig shadowing = config_of("LogNormalShadowing");
     shadowing.sigma_db = 0;

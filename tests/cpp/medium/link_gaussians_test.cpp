@@ -48,6 +48,32 @@ TEST(LinkGaussians, HalfWayTheyAreTheMeanOfBothEndsAtUnchangedVariance) {
                 1e-12);
 }
 
+TEST(LinkGaussians, WhatIsNotWorkedOutLiesWithinTheGivenDistance) {
+    for (const SimTime coherence : {SimTime(), coherence_time}) {
+        const LinkGaussians gaussians(7, coherence);
+        for (const double distance : {0.5, 1.0, 2.0, 3.0}) {
+            const double chance = std::exp(-distance * distance / 2);
+            int nothing = 0;
+            for (std::uint32_t other = 1; other <= 2000; ++other) {
+                const SimTime time = SimTime::from_us(1234);
+                const GaussianPair pair = gaussians.at(0, other, time, 0);
+                const auto found = gaussians.at_if_beyond(chance, 0, other, time, 0);
+                if (found) {
+                    ASSERT_EQ(found->first, pair.first);
+                    ASSERT_EQ(found->second, pair.second);
+                } else {
+                    ++nothing;
+                    ASSERT_LE(std::hypot(pair.first, pair.second), distance);
+                }
+            }
+            // Two pairs: one minus the chance that the sum of their squares is more.
+            const double expected =
+                coherence == SimTime() ? 1 - chance : 1 - chance * (1 + distance * distance / 2);
+            EXPECT_NEAR(nothing / 2000.0, expected, 0.045) << distance;  // four standard errors
+        }
+    }
+}
+
 TEST(LinkGaussians, WithoutACoherenceTimeEachTransmissionHasItsOwn) {
     const LinkGaussians fresh(7, SimTime());
     const double first = fresh.at(0, 1, SimTime::from_us(5), 10).first;

@@ -69,6 +69,20 @@ TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
     }
 }
 
+TEST_P(EveryPathLoss, IsTheSameForWhomItIsEnough) {
+    const Propagation propagation(config, 1);
+    for (int i = 0; i < 2000; ++i) {
+        const Transmission sent = sent_from(place(), 0, SimTime::from_us(i));
+        const Position there = place();
+        const double distance_m = distance(sent.origin, there);
+        const double gain = propagation.gain(sent, {1, 0}, there, distance_m);
+        const double least = gain * log_between(0.1, 10);
+        const double found = propagation.gain(sent, {1, 0}, there, distance_m, least);
+        ASSERT_TRUE(found == gain || (found < least && gain < least)) << found << " for " << gain;
+        ASSERT_EQ(propagation.gain(sent, {1, 0}, there, distance_m, gain), gain);
+    }
+}
+
 TEST_P(EveryPathLoss, IsReciprocal) {
     const Propagation propagation(config, 1);
     for (int i = 0; i < 1000; ++i) {
