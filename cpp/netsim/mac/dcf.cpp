@@ -22,7 +22,6 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters
     : simulator_(simulator),
       radio_(radio),
       listener_(listener),
-      own_frames_set_nav_(parameters->config.own_frames_set_nav),
       contention_(simulator, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff),
                   *this),
       queue_(parameters->config.queue_capacity),
@@ -280,7 +279,7 @@ std::map<std::int64_t, std::uint64_t> Dcf::frames_by_bitrate() const {
 }
 
 void Dcf::own_frame_ended(const Frame& frame) {
-    if (own_frames_set_nav_) {
+    if (parameters_.config.own_frames_set_nav) {
         set_nav(frame.duration_field);
     }
 }

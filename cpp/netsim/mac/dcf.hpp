@@ -117,7 +117,6 @@ private:
     bool last_frame_was_broken_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
-    bool own_frames_set_nav_;
 
     // Then what a broadcast frame touches, when it is sent.
     Contention contention_;

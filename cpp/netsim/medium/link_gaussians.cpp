@@ -8,34 +8,35 @@
 
 namespace netsim {
 
-std::optional<GaussianPair> LinkGaussians::at_if_beyond(double chance, std::uint32_t a, std::uint32_t b,
-                                                        SimTime time, std::uint64_t transmission) const {
+LinkGaussians::Mixture LinkGaussians::mixture(std::uint32_t a, std::uint32_t b, SimTime time,
+                                              std::uint64_t transmission) const {
     if (a > b) {
         std::swap(a, b);
     }
     if (coherence_time_ == SimTime{}) {
-        const Drawn only = draw(a, b, transmission);
-        return only.chance_beyond > chance ? std::nullopt : std::optional(only.pair());
+        return {.before = draw(a, b, transmission), .after = {}};
     }
     const auto index = static_cast<std::uint64_t>(time.ps() / coherence_time_.ps());
     const std::int64_t since_ps = time.ps() % coherence_time_.ps();
-    const Drawn drawn_before = draw(a, b, index);
-    const Drawn drawn_after = draw(a, b, index + 1);
-    // The mixture lies no farther from 0 than √(r² + s²), r and s being the distances of the two (Cauchy and Schwarz).
-    if (drawn_before.chance_beyond * drawn_after.chance_beyond > chance) {
-        return std::nullopt;
-    }
-    const GaussianPair before = drawn_before.pair();
     if (since_ps == 0) {
-        return before;
+        return {.before = draw(a, b, index), .after = {}};
     }
-    const GaussianPair after = drawn_after.pair();
-    const double angle =
-        std::numbers::pi / 2 * static_cast<double>(since_ps) / static_cast<double>(coherence_time_.ps());
+    return {.before = draw(a, b, index),
+            .after = draw(a, b, index + 1),
+            .share = static_cast<double>(since_ps) / static_cast<double>(coherence_time_.ps())};
+}
+
+GaussianPair LinkGaussians::Mixture::pair() const {
+    const GaussianPair first = before.pair();
+    if (share == 0) {
+        return first;
+    }
+    const GaussianPair second = after.pair();
+    const double angle = std::numbers::pi / 2 * share;
     const double weight_before = std::cos(angle);
     const double weight_after = std::sin(angle);
-    return GaussianPair{weight_before * before.first + weight_after * after.first,
-                        weight_before * before.second + weight_after * after.second};
+    return {weight_before * first.first + weight_after * second.first,
+            weight_before * first.second + weight_after * second.second};
 }
 
 LinkGaussians::Drawn LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const {

@@ -33,23 +33,36 @@ public:
 
     // The same for (a, b) as for (b, a). `transmission` below 2^48.
     GaussianPair at(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const {
-        constexpr double always = 1;
-        return *at_if_beyond(always, a, b, time, transmission);
+        return mixture(a, b, time, transmission).pair();
     }
     // The same, or nothing if it is sure, at a fraction of the cost, that the pair lies no farther from 0 than the distance beyond
     // which a pair lies with that chance: √(−2 ln chance). Where two pairs are mixed, that is sure of few that lie near it.
     std::optional<GaussianPair> at_if_beyond(double chance, std::uint32_t a, std::uint32_t b, SimTime time,
-                                             std::uint64_t transmission) const;
+                                             std::uint64_t transmission) const {
+        const Mixture numbers = mixture(a, b, time, transmission);
+        return numbers.least_chance_beyond() > chance ? std::nullopt : std::optional(numbers.pair());
+    }
 
 private:
     // A pair as it is drawn, in polar coordinates.
     struct Drawn {
-        double chance_beyond;  // of lying farther from 0; in (0, 1]
-        double turn;           // in [0, 1)
+        double chance_beyond = 1;  // of lying farther from 0; in (0, 1]
+        double turn = 0;           // in [0, 1)
 
         GaussianPair pair() const;
     };
+    // Of the pairs at the borders of an interval.
+    struct Mixture {
+        Drawn before;
+        Drawn after;
+        double share = 0;  // of the interval that is over; 0: `before` alone
 
+        // It lies no farther from 0 than √(r² + s²), r and s being the distances of the two (Cauchy and Schwarz).
+        double least_chance_beyond() const { return before.chance_beyond * after.chance_beyond; }
+        GaussianPair pair() const;
+    };
+
+    Mixture mixture(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const;
     Drawn draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const;
 
     std::uint64_t seed_;

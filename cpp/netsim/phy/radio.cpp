@@ -10,9 +10,7 @@ namespace netsim {
 Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface,
              std::shared_ptr<const RadioKind> kind, double tx_power_w, const Trajectory& trajectory,
              std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
-    : detects_preambles_(kind->preamble_detection.is_on()),
-      captures_frames_(kind->frame_capture.is_on()),
-      kind_(*kind),
+    : kind_(*kind),
       medium_(medium),
       simulator_(simulator),
       interface_(interface),
@@ -80,7 +78,7 @@ void Radio::arrival_started(const Arrival& arrival) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (locked_ == nullptr) {
             begin_reception(arrival);
-        } else if (captures_frames_ && kind_.frame_capture.captures(locked_arrival_, arrival)) {
+        } else if (kind_.frame_capture.captures(locked_arrival_, arrival)) {
             simulator_.cancel(header_end_);
             book(*std::exchange(locked_, nullptr), FrameFate::captured);
             listener_->frame_corrupted();
@@ -93,7 +91,7 @@ void Radio::arrival_started(const Arrival& arrival) {
 }
 
 void Radio::begin_reception(const Arrival& arrival) {
-    if (!detects_preambles_) {
+    if (!detects_preambles()) {
         lock_on(arrival);
         return;
     }
@@ -130,7 +128,7 @@ std::vector<Radio::Candidate>::iterator Radio::candidate_of(const Transmission* 
 }
 
 void Radio::drop_candidates(FrameFate fate) {
-    if (!detects_preambles_) {
+    if (!detects_preambles()) {
         return;
     }
     for (const Candidate& candidate : candidates_) {
@@ -142,7 +140,7 @@ void Radio::drop_candidates(FrameFate fate) {
 
 void Radio::lock_on(const Arrival& arrival) {
     locked_ = arrival.transmission;
-    if (captures_frames_ || kind_.by_chunks) {
+    if (kind_.frame_capture.is_on() || kind_.by_chunks) {
         locked_arrival_ = arrival;
     }
     if (kind_.by_chunks) {

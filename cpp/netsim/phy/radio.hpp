@@ -83,12 +83,12 @@ public:
     SimTime watch_channel(SimTime since) {
         tells_of_channel_ = true;
         const SimTime energy_over =
-            detects_preambles_ ? SimTime::long_ago() : medium_.watch_energy(id_, since);
+            detects_preambles() ? SimTime::long_ago() : medium_.watch_energy(id_, since);
         return std::max(free_since_, energy_over);
     }
     void stop_watching_channel() {
         tells_of_channel_ = false;
-        if (!detects_preambles_) {  // such a radio leaves out what the medium cannot know: it always watches
+        if (!detects_preambles()) {  // such a radio leaves out what the medium cannot know: it always watches
             medium_.stop_watching_energy(id_);
         }
     }
@@ -119,10 +119,11 @@ private:
         EventHandle detection;
     };
 
+    bool detects_preambles() const { return kind_.preamble_detection.is_on(); }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
     bool is_candidate(const Transmission* transmission) {
-        return detects_preambles_ && candidate_of(transmission) != candidates_.end();
+        return detects_preambles() && candidate_of(transmission) != candidates_.end();
     }
     void end_detection(const Transmission* transmission);
     void drop_candidates(FrameFate fate);
@@ -148,8 +149,6 @@ private:
     bool transmitting_ : 1 = false;
     bool turned_ : 1 = false;  // to transmit, which it does not yet
     bool busy_ : 1 = false;
-    bool detects_preambles_ : 1;  // as its kind
-    bool captures_frames_ : 1;    // as its kind
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
     bool tells_of_channel_ : 1 = true;

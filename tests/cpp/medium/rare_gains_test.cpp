@@ -21,7 +21,8 @@ TEST(RareGains, AreAsRareAsTheirDistanceFromZero) {
 
 TEST(RareGains, AreTakenForLessRareByAQuarterAtMost) {
     const RareGains rare(rayleigh, 6);
-    for (double gain = 1.0 / 64; gain < 18; gain *= 1.01) {
+    for (int percent = 2; percent < 1800; ++percent) {
+        const double gain = percent / 100.0;
         EXPECT_GE(rare.chance_beyond(gain), std::exp(-gain)) << gain;
         EXPECT_LE(rare.chance_beyond(gain), std::exp(-gain / 1.25) * (1 + 1e-8)) << gain;
     }
