@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <string>
 #include <utility>
@@ -27,57 +28,73 @@ PyObject* name_of(const char* text) {
     return PyUnicode_InternFromString(text);
 }
 
-// An attribute of a command. What has none is no command of the kind `expected`, but something else that a protocol
-// passed by mistake: a text, or a command to its vehicle in the place of one to its radio.
-py::object attribute(py::handle command, PyObject* name, const char* expected) {
+// What cannot even be taken apart.
+class Unreadable : public std::exception {
+public:
+    const char* what() const noexcept override { return "what was given cannot be read as a command"; }
+};
+
+// An attribute of a command. What has none is no command of that kind, but something else that a protocol passed by
+// mistake: a text, or a command to its vehicle in the place of one to its radio.
+py::object attribute(py::handle command, PyObject* name) {
     PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
         if (!PyErr_ExceptionMatches(PyExc_AttributeError)) {
             throw py::error_already_set();
         }
         PyErr_Clear();
-        throw py::type_error("a " + std::string(expected) + " was expected, not " +
-                             std::string(py::repr(command)));
+        throw Unreadable();
     }
     return py::reinterpret_steal<py::object>(value);
 }
 
-long integer(py::handle value, const char* what) {
-    const long number = PyLong_Check(value.ptr()) ? PyLong_AsLong(value.ptr()) : -1;
-    if (number == -1) {
-        const bool is_minus_one = PyLong_Check(value.ptr()) && !PyErr_Occurred();
-        PyErr_Clear();
-        if (!is_minus_one) {
-            throw py::type_error(std::string(what) + " must be an int, not " + std::string(py::repr(value)));
-        }
+long integer(py::handle value) {
+    int overflow = 0;
+    const long number = PyLong_Check(value.ptr()) ? PyLong_AsLongAndOverflow(value.ptr(), &overflow) : -1;
+    if (!PyLong_Check(value.ptr()) || overflow != 0) {
+        throw Unreadable();
     }
     return number;
 }
 
-double number(py::handle value, const char* what, const char* expected = "a number") {
+double number(py::handle value) {
     const double result = PyFloat_AsDouble(value.ptr());
     if (result == -1.0 && PyErr_Occurred()) {
         PyErr_Clear();
-        throw py::type_error(std::string(what) + " must be " + expected + ", not " +
-                             std::string(py::repr(value)));
+        throw Unreadable();
     }
     return result;
 }
 
+std::string text(py::handle value) {
+    if (!PyUnicode_Check(value.ptr())) {
+        throw Unreadable();
+    }
+    return utf8_from_python(value);
+}
+
+// What is wrong with a command, in the words that prototype mode has, too; "" if nothing is.
+template <typename... Arguments>
+py::object ask(const char* function, const Arguments&... arguments) {
+    return py::module_::import("gradysim.encapsulator.refused_commands").attr(function)(arguments...);
+}
+
 // Carries out a command. What it refuses is raised as that exception of gradysim.protocol.errors, as in every mode.
-template <typename Command>
-void carry_out(const char* exception, Command command) {
-    std::string text;
+// `wrong` asks what is wrong with the command itself; if nothing is, the engine has said what is.
+template <typename Command, typename Wrong>
+void carry_out(const char* exception, Command command, Wrong wrong) {
+    std::string words;
     try {
         command();
         return;
     } catch (const netsim::SimulationError& error) {
-        text = error.what();
-    } catch (const py::builtin_exception& error) {
-        text = error.what();
+        words = error.what();
+    } catch (const Unreadable& error) {
+        words = error.what();
     }
+    const py::object told = wrong();
     const py::object type = py::module_::import("gradysim.protocol.errors").attr(exception);
-    PyErr_SetString(type.ptr(), text.c_str());
+    PyErr_SetObject(type.ptr(), (py::len(told) > 0 ? told : python_from_utf8(words)).ptr());
     throw py::error_already_set();
 }
 
@@ -113,6 +130,7 @@ netsim::NodeId destination_of(py::handle value) {
         if (overflow == 0 && std::in_range<netsim::NodeId>(id)) {
             return static_cast<netsim::NodeId>(id);
         }
+        throw Unreadable();
     }
     const auto check =
         py::module_::import("gradysim.protocol.messages.destination_id").attr("checked_destination");
@@ -123,21 +141,19 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const message_name = name_of("message");
     static PyObject* const destination_name = name_of("destination");
-    const auto value_of = [&](PyObject* name) { return attribute(command, name, "CommunicationCommand"); };
-    const long type = integer(value_of(type_name), "command_type");
+    const long type = integer(attribute(command, type_name));
     const auto interface = interface_of(command);
-    auto payload = std::make_shared<const std::string>(utf8_from_python(value_of(message_name), "a message"));
+    auto payload = std::make_shared<const std::string>(text(attribute(command, message_name)));
     if (type == broadcast_type) {
         node.broadcast(std::move(payload), interface);
         return;
     }
     if (type != send_type) {
-        throw py::value_error("command_type " + std::to_string(type) +
-                              " is not a CommunicationCommandType: expected SEND (0) or BROADCAST (1)");
+        throw Unreadable();
     }
-    const py::object destination = value_of(destination_name);
+    const py::object destination = attribute(command, destination_name);
     if (destination.is_none()) {
-        throw py::value_error("a SEND command needs a destination: the id of a node");
+        throw Unreadable();
     }
     node.send(destination_of(destination), std::move(payload), interface);
 }
@@ -145,54 +161,52 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
 void carry_out_mobility(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const parameter_names[] = {name_of("param_1"), name_of("param_2"), name_of("param_3")};
-    const auto value_of = [&](PyObject* name) { return attribute(command, name, "MobilityCommand"); };
-    const long type = integer(value_of(type_name), "command_type");
-    const auto parameter = [&](int index, const char* what) {
-        return number(value_of(parameter_names[index]), what);
-    };
+    const long type = integer(attribute(command, type_name));
+    const auto parameter = [&](int index) { return attribute(command, parameter_names[index]); };
     if (type == goto_coords_type) {
-        node.go_to(netsim::Position{parameter(0, "x (metres)"), parameter(1, "y (metres)"),
-                                    parameter(2, "z (metres)")});
-    } else if (type == set_speed_type) {
-        if (!value_of(parameter_names[1]).is_none()) {
-            const auto component = [&](int index) {
-                return std::string(py::repr(value_of(parameter_names[index])));
-            };
-            throw py::value_error("a velocity, (" + component(0) + ", " + component(1) + ", " + component(2) +
-                                  "), was given to a vehicle that takes a speed and a target");
-        }
-        node.set_speed(parameter(0, "speed (m/s)"));
+        node.go_to(netsim::Position{number(parameter(0)), number(parameter(1)), number(parameter(2))});
+    } else if (type == set_speed_type && parameter(1).is_none() && parameter(2).is_none()) {
+        node.set_speed(number(parameter(0)));
     } else {
-        throw py::value_error(
-            "command_type " + std::to_string(type) +
-            " is not a MobilityCommandType: expected GOTO_COORDS (1), GOTO_GEO_COORDS (2) or SET_SPEED (3)");
+        throw Unreadable();
     }
 }
 
 }  // namespace
 
 void send_communication_command(netsim::Node& node, py::handle command) {
-    carry_out("CommunicationException", [&] { carry_out_communication(node, command); });
+    carry_out(
+        "CommunicationException", [&] { carry_out_communication(node, command); },
+        [&] {
+            const auto ids = py::module_::import("builtins").attr("range")(node.node_count());
+            return ask("wrong_communication", command, node.id(), ids);
+        });
 }
 
 void send_mobility_command(netsim::Node& node, py::handle command) {
-    carry_out("MasslessMobilityException", [&] { carry_out_mobility(node, command); });
+    carry_out(
+        "MasslessMobilityException", [&] { carry_out_mobility(node, command); },
+        [&] { return ask("wrong_mobility", command, node.id(), node.can_move()); });
 }
 
 void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) {
-    carry_out("TimerException", [&] {
-        std::string name = utf8_from_python(timer, "a timer's name");
-        const double time_s = number(timestamp, "timestamp", "a number of seconds");
-        if (!std::isfinite(time_s)) {
-            throw py::value_error("cannot set timer '" + name + "' for " + std::string(py::repr(timestamp)) +
-                                  ": expected a finite number of seconds");
-        }
-        node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s));
-    });
+    carry_out(
+        "TimerException",
+        [&] {
+            std::string name = text(timer);
+            const double time_s = number(timestamp);
+            if (!std::isfinite(time_s)) {
+                throw Unreadable();
+            }
+            node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s));
+        },
+        [&] { return ask("wrong_timer", timer, timestamp, node.id(), node.now().seconds()); });
 }
 
 void cancel_timer(netsim::Node& node, py::handle timer) {
-    carry_out("TimerException", [&] { node.cancel_timer(utf8_from_python(timer, "a timer's name")); });
+    carry_out(
+        "TimerException", [&] { node.cancel_timer(text(timer)); },
+        [&] { return ask("wrong_timer_name", timer); });
 }
 
 }  // namespace proxy_protocol

@@ -4,10 +4,7 @@ namespace py = pybind11;
 
 namespace proxy_protocol {
 
-std::string utf8_from_python(py::handle text, const char* what) {
-    if (!PyUnicode_Check(text.ptr())) {
-        throw py::type_error(std::string(what) + " must be a str, not " + Py_TYPE(text.ptr())->tp_name);
-    }
+std::string utf8_from_python(py::handle text) {
     Py_ssize_t size = 0;
     if (const char* bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size)) {
         return std::string(bytes, static_cast<std::size_t>(size));

@@ -9,8 +9,8 @@
 
 namespace proxy_protocol {
 
-// Throws a Python TypeError that names `what` if `text` is not a str.
-std::string utf8_from_python(pybind11::handle text, const char* what);
+// `text` is a str.
+std::string utf8_from_python(pybind11::handle text);
 
 // A new reference to a str.
 pybind11::object python_from_utf8(const std::string& text);

@@ -9,7 +9,11 @@ from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
+from gradysim.protocol.messages.communication import (
+    BroadcastMessageCommand,
+    CommunicationCommand,
+    SendMessageCommand,
+)
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     GotoGeoCoordsMobilityCommand,
@@ -140,20 +144,32 @@ def test_an_unknown_destination_is_an_error():
 @pytest.mark.parametrize(
     ("exception", "method", "arguments", "text"),
     [
-        (TimerException, "schedule_timer", ("tick", "5"), "timestamp must be a number of seconds, not '5'"),
-        (TimerException, "schedule_timer", ("tick", None), "timestamp must be a number of seconds, not None"),
-        (TimerException, "schedule_timer", (5, 1), "a timer's name must be a str, not int"),
+        (
+            TimerException,
+            "schedule_timer",
+            ("tick", "5"),
+            "cannot set timer 'tick' of node 0 for '5': expected an absolute time in seconds, not before now,"
+            " 0.0 s",
+        ),
+        (TimerException, "schedule_timer", (5, 1), "the name of a timer must be a str, got 5"),
+        (TimerException, "cancel_timer", (5,), "the name of a timer must be a str, got 5"),
+        (
+            CommunicationException,
+            "send_communication_command",
+            (CommunicationCommand(1.0, "hello"),),
+            "what was given cannot be read as a command",
+        ),
         (
             CommunicationException,
             "send_communication_command",
             ("hello",),
-            "a CommunicationCommand was expected, not 'hello'",
+            "node 0 can send a CommunicationCommand, got 'hello'",
         ),
         (
             MasslessMobilityException,
             "send_mobility_command",
             ("hello",),
-            "a MobilityCommand was expected, not 'hello'",
+            "node 0 can carry out a MobilityCommand, was given 'hello'",
         ),
     ],
 )

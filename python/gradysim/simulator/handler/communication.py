@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
+from gradysim.encapsulator.refused_commands import wrong_communication
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.interface_index import checked_interface
@@ -170,18 +171,10 @@ class CommunicationHandler(INodeHandler):
         event_loop = self._event_loop
         if event_loop is None or sender.id not in self._destinations:
             raise CommunicationException(f"node {sender.id} is not registered with the communication handler")
-        try:
-            message, kind = command.message, command.command_type
-        except AttributeError:
-            raise CommunicationException(
-                f"node {sender.id} can send a CommunicationCommand, got {command!r}"
-            ) from None
-        if not isinstance(message, str):
-            raise CommunicationException(
-                f"node {sender.id} can send text only, such as json.dumps makes, "
-                f"got a {type(message).__name__}: {message!r}"
-            )
+        message, kind = getattr(command, "message", None), getattr(command, "command_type", None)
         interface = getattr(command, "interface", 0)  # commands of one's own may have none
+        if not isinstance(message, str):
+            raise self._refusal(command, sender)
         if type(interface) is not int or interface:
             checked_interface(interface)  # which one it is makes no difference here
         destinations: Collection[CommunicationDestination]
@@ -190,7 +183,7 @@ class CommunicationHandler(INodeHandler):
         elif kind == CommunicationCommandType.SEND:
             destinations = (self._destination_of(command, sender),)
         else:
-            raise CommunicationException(f"node {sender.id} gave an unknown communication command: {kind!r}")
+            raise self._refusal(command, sender)
         _logger.debug("%s sends to %s: %s", sender.id, command.destination, message)
         medium = medium or self.default_medium
         source = self._sources[sender.id]
@@ -224,21 +217,16 @@ class CommunicationHandler(INodeHandler):
         _schedule(copies, source, medium, self._event_loop)
 
     def _destination_of(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationDestination:
-        if command.destination is None:
-            raise CommunicationException(f"node {sender.id} sent a message to one node without a destination")
-        if command.destination == sender.id:
-            raise CommunicationException(f"node {sender.id} sent a message to itself")
         try:
-            destination = self._destinations.get(command.destination)
+            destination = self._destinations.get(command.destination)  # type: ignore[arg-type]
         except TypeError:  # As a list is not hashable.
             destination = None
-        if destination is None:
-            known = sorted(self._destinations)
-            raise CommunicationException(
-                f"node {sender.id} sent a message to node {command.destination!r}, which does not exist: "
-                f"there are {len(known)} nodes, {known[0]} to {known[-1]}"
-            )
+        if destination is None or destination.node is sender:
+            raise self._refusal(command, sender)
         return destination
+
+    def _refusal(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationException:
+        return CommunicationException(wrong_communication(command, sender.id, self._destinations.keys()))
 
 
 def _schedule(

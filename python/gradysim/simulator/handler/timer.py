@@ -3,6 +3,7 @@
 from functools import partial
 from typing import Any
 
+from gradysim.encapsulator.refused_commands import wrong_timer, wrong_timer_name
 from gradysim.protocol.errors import TimerException as TimerException
 from gradysim.protocol.readable_number import readable_number
 from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
@@ -61,7 +62,7 @@ class TimerHandler(INodeHandler):
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):
-            raise TimerException(f"the name of a timer must be a str, got {message!r}")
+            raise TimerException(wrong_timer_name(message))
         if self._event_loop is None:
             raise TimerException("timers can be set only in a simulation: inject an event loop first")
         if timestamp == self._event_loop.crowded_instant:
@@ -71,11 +72,9 @@ class TimerHandler(INodeHandler):
             event = self._event_loop.schedule_event(
                 timestamp, partial(self.fire_timer, message, node, serial), self._contexts[node.id]
             )
-        except EventLoopException:
-            raise TimerException(
-                f"cannot set timer {message!r} of node {node.id} for {timestamp!r}: expected an absolute "
-                f"time in seconds, not before now, {self._event_loop.current_time} s"
-            ) from None
+        except EventLoopException as error:
+            wrong = wrong_timer(message, timestamp, node.id, self._event_loop.current_time)
+            raise TimerException(wrong or str(error)) from None
         pending.setdefault(message, {})[serial] = (timestamp, event)
 
     def cancel_timer(self, message: str, node: Node[Any]) -> None:
@@ -86,7 +85,7 @@ class TimerHandler(INodeHandler):
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):
-            raise TimerException(f"the name of a timer must be a str, got {message!r}")
+            raise TimerException(wrong_timer_name(message))
         timers = pending.pop(message, None)
         if timers is not None and self._event_loop is not None:
             for timestamp, event in timers.values():

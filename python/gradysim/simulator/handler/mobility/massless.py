@@ -2,13 +2,18 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
-from gradysim.encapsulator.command_numbers import finite_number, is_in_scene, three_numbers
+from gradysim.encapsulator.command_numbers import three_numbers
 from gradysim.encapsulator.geo_target import geo_target
+from gradysim.encapsulator.refused_commands import wrong_mobility
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
-from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
-from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    MobilityCommand,
+    MobilityCommandType,
+)
+from gradysim.protocol.position import Position
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
@@ -154,22 +159,16 @@ class MasslessMobilityHandler(INodeHandler):
         """
         if node.id not in self.nodes:
             raise MasslessMobilityException(f"node {node.id} is not registered with the mobility handler")
-        kind = getattr(command, "command_type", None)
-        if kind is None or not hasattr(command, "param_1"):
-            raise MasslessMobilityException(
-                f"node {node.id} can carry out a MobilityCommand, was given {command!r}"
-            )
-        if node.id in self._settings and self._settings[node.id].stationary:
-            raise MasslessMobilityException(f"node {node.id} is stationary, it cannot carry out {command!r}")
-        if kind == MobilityCommandType.GOTO_COORDS:
-            self.targets[node.id] = _point(command, node)
-        elif kind == MobilityCommandType.GOTO_GEO_COORDS:
-            reference = self._configuration.reference_coordinates
-            self.targets[node.id] = geo_target(command, node.id, reference)
-        elif kind == MobilityCommandType.SET_SPEED:
-            self.speeds[node.id] = _speed(command, node)
+        if getattr(command, "command_type", None) == MobilityCommandType.GOTO_GEO_COORDS:
+            target = geo_target(command, node.id, self._configuration.reference_coordinates)
+            command = GotoCoordsMobilityCommand(*target)
+        can_move = node.id not in self._settings or not self._settings[node.id].stationary
+        if wrong := wrong_mobility(command, node.id, can_move):
+            raise MasslessMobilityException(wrong)
+        if command.command_type == MobilityCommandType.SET_SPEED:
+            self.speeds[node.id] = float(cast("float", command.param_1))
         else:
-            raise MasslessMobilityException(f"node {node.id} was given an unknown mobility command: {kind!r}")
+            self.targets[node.id] = cast("Position", three_numbers(command))
 
     def _schedule_update(self, event_loop: EventLoop) -> None:
         self._updates += 1
@@ -212,28 +211,3 @@ def _in_updates(interval_s: float, update_rate_s: float) -> float:
     updates = interval_s / update_rate_s
     whole = round(updates)
     return float(whole) if math.isclose(updates, whole, rel_tol=1e-9) else updates
-
-
-def _point(command: MobilityCommand, node: Node[Any]) -> Position:
-    point = three_numbers(command)
-    if point is None or not is_in_scene(point):
-        expected = f" of metres, each from -{LARGEST_COORDINATE_M} to {LARGEST_COORDINATE_M}" if point else ""
-        raise MasslessMobilityException(
-            f"node {node.id} was sent to ({command.param_1!r}, {command.param_2!r}, {command.param_3!r}): "
-            f"expected three finite numbers{expected}"
-        )
-    return point
-
-
-def _speed(command: MobilityCommand, node: Node[Any]) -> float:
-    if command.param_2 is not None or command.param_3 is not None:
-        raise MasslessMobilityException(
-            f"node {node.id} was given a velocity, ({command.param_1!r}, {command.param_2!r}, "
-            f"{command.param_3!r}): a massless vehicle takes a speed and a target"
-        )
-    speed = finite_number(command.param_1)
-    if speed is None or speed < 0:
-        raise MasslessMobilityException(
-            f"node {node.id} was given the speed {command.param_1!r}: expected a finite number of m/s, >= 0"
-        )
-    return speed
