@@ -2,8 +2,6 @@ from math import pi
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 
 from gradysim.config.error import ConfigError
 from gradysim.config.interface_spec import InterfaceSpec
@@ -351,65 +349,4 @@ def test_a_line_that_leads_too_far_is_an_error_at_its_step(folder: Any) -> None:
     assert error == (
         "test.ini:7: *.uavs[*].mobility.lineStepY = 10000km: "
         "uavs[1] starts at y = 10000001m; expected at most 10000000m from 0m"
-    )
-
-
-SCATTERED = """\
-*.uavs[*].mobility.initialX = uniform(0m, 1km)
-*.uavs[*].mobility.initialY = uniform(0m, 1km)
-*.uavs[*].protocol.launch_interval = exponential(5s)
-*.uavs[*].protocol.retries = intuniform(1, 1000000)
-"""
-
-
-def drawn(scenario: Scenario) -> dict[str, list[object]]:
-    """What each UAV has drawn, by its name."""
-    return {
-        node.name: [*node.initial_position[:2], *node.protocol_parameters.values()]
-        for node in scenario.nodes
-        if node.group == "uavs"
-    }
-
-
-def test_each_parameter_of_each_node_draws_its_own_number(folder: Any) -> None:
-    values = drawn(folder.load(SCATTERED))
-    assert len({value for of_node in values.values() for value in of_node}) == 8
-
-
-@given(st.integers(2, 12), st.permutations(SCATTERED.splitlines()), st.booleans())
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=30)
-def test_other_nodes_and_lines_change_no_draw(
-    folder: Any, count: int, lines: list[str], before: bool
-) -> None:
-    few = drawn(folder.load(SCATTERED))
-    others = '*.others[*].protocol.class = "protocols.py:Sensor"'
-    lines = [*lines, "*.others.count = 3", others, "**.mobility.initialZ = uniform(0m, 1m)"]
-    many = folder.load("\n".join(lines[::-1] if before else lines), "General", f"*.numUavs={count}")
-    assert len(drawn(many)) == count
-    assert {name: set(drawn(many)[name]) for name in few} == {name: set(few[name]) for name in few}
-
-
-def test_nodes_that_draw_a_place_share_all_else(folder: Any) -> None:
-    _, one, other = folder.load(
-        "*.uavs[*].mobility.initialX = uniform(0m, 1km)\n*.uavs[*].mobility.speed = 3mps\n"
-    ).nodes
-    assert one.initial_position != other.initial_position
-    assert one.mobility is other.mobility
-    assert one.protocol_sources is other.protocol_sources
-    assert one.wlan[0] is other.wlan[0]
-
-
-def test_a_drawn_separation_is_each_nodes_own(folder: Any) -> None:
-    added = "*.uavs[*].mobility.separationX = uniform(10m, 20m)\n*.uavs[*].mobility.separationY = 4m\n"
-    (x_0, *_), (x_1, *_) = positions(folder.load(added))
-    assert 5 <= x_0 < 10
-    assert 15 <= x_1 < 30
-    assert x_1 != 3 * x_0
-
-
-def test_a_drawn_value_that_is_out_of_range_names_the_node_and_the_number(folder: Any) -> None:
-    error = folder.error("*.uavs[*].mobility.speed = -intuniform(2, 2) * 1mps\n")
-    assert error == (
-        "test.ini:6: *.uavs[*].mobility.speed = -intuniform(2, 2) * 1mps: that is -2mps for"
-        " uavs[0].mobility.speed: it is out of range; expected a speed such as 10mps, at least 0mps"
     )

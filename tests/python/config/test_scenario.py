@@ -5,7 +5,6 @@ from typing import Any
 import pytest
 
 from gradysim.config import ConfigError, load_scenarios
-from gradysim.config.keys.options import LARGEST_SEED
 from gradysim.config.scenario import CommunicationMediumSpec, Scenario
 
 
@@ -320,92 +319,3 @@ def test_a_script_may_not_leave_a_gap_in_the_ids_of_nodes(folder: Any) -> None:
 def test_settings_can_be_pickled(folder: Any) -> None:
     node = folder.load("**.power = 1mW\n").nodes[0]
     assert pickle.loads(pickle.dumps(node.wlan)) == node.wlan
-
-
-SCATTERED = "*.uavs[*].mobility.initialX = uniform(0m, 1km)\n"
-
-
-def places(scenario: Scenario) -> list[float]:
-    return [node.initial_position[0] for node in scenario.nodes if node.group == "uavs"]
-
-
-def test_runs_of_other_seeds_draw_other_values(folder: Any) -> None:
-    folder.load(f"repeat = 3\n{SCATTERED}")
-    scenarios = load_scenarios(folder.ini)
-    assert len({place for scenario in scenarios for place in places(scenario)}) == 6
-    assert places(load_scenarios(folder.ini, runs="2")[0]) == places(scenarios[2])
-    assert len({scenario.settings_hash for scenario in scenarios}) == 1
-
-
-def test_a_given_seed_draws_what_that_of_the_file_would(folder: Any) -> None:
-    folder.load(f"repeat = 3\n{SCATTERED}")
-    scenarios = load_scenarios(folder.ini, seed=1)
-    assert [scenario.seed for scenario in scenarios] == [1, 2, 3]
-    assert list(map(places, scenarios[:2])) == list(map(places, load_scenarios(folder.ini)[1:]))
-
-
-def test_a_seed_of_numpy_draws_what_an_int_does(folder: Any) -> None:
-    numpy = pytest.importorskip("numpy")
-    folder.load(SCATTERED)
-    scenarios = load_scenarios(folder.ini, seed=numpy.int64(3))
-    assert type(scenarios[0].seed) is int
-    assert places(scenarios[0]) == places(load_scenarios(folder.ini, seed=3)[0])
-    assert type(replace(scenarios[0], seed=numpy.int64(4)).seed) is int
-
-
-def test_equal_seeds_draw_equal_values_for_all_combinations(folder: Any) -> None:
-    folder.load(f"seed-set = 7\n*.uavs[*].mobility.speed = ${{1, 2}}mps\n{SCATTERED}")
-    one, other = map(places, load_scenarios(folder.ini))
-    assert one == other
-
-
-def test_a_variable_may_be_part_of_what_draws(folder: Any) -> None:
-    folder.load("seed-set = 7\n*.uavs[*].mobility.initialX = ${uniform, normal}(1km, 1km)\n")
-    one, other = map(places, load_scenarios(folder.ini))
-    assert one == [1000, 1000]
-    assert len({*one, *other}) == 3
-
-
-def test_repetitions_draw_other_values_by_a_function_that_a_variable_names(folder: Any) -> None:
-    folder.load("repeat = 2\n*.uavs[*].mobility.initialX = ${uniform, normal}(0km, 1km)\n")
-    scenarios = load_scenarios(folder.ini)
-    assert len({place for scenario in scenarios for place in places(scenario)}) == 4 * 2
-
-
-@pytest.mark.parametrize("seed", [-1, LARGEST_SEED + 1])
-def test_a_seed_out_of_range_is_refused(folder: Any, seed: int) -> None:
-    with pytest.raises(
-        ConfigError, match=f"^seed = {seed}: it is out of range; expected 0 to {LARGEST_SEED}"
-    ):
-        load_scenarios(folder.ini, seed=seed)
-
-
-def test_the_network_draws_too(folder: Any) -> None:
-    added = (
-        "*.radioMedium.pathLoss.alpha = uniform(2, 3)\n*.environment.numObstacles = 2\n"
-        "*.environment.obstacle[*].maxX = uniform(1m, 2m)\n*.environment.obstacle[*].maxY = 1m\n"
-        "*.environment.obstacle[*].minX = 0m\n*.environment.obstacle[*].minY = 0m\n"
-        "*.environment.obstacle[*].minZ = 0m\n*.environment.obstacle[*].maxZ = 1m\n"
-        "*.communicationMedium.transmissionRange = uniform(10m, 20m)\n"
-    )
-    scenario = folder.load(added)
-    assert 2 <= float(scenario.medium["alpha"].value) < 3
-    assert 10 <= scenario.communication_medium.transmission_range_m < 20
-    widths = [max(x for x, _ in obstacle.rings[0]) for obstacle in scenario.obstacles]
-    assert len(set(widths)) == 2
-    assert all(1 <= width < 2 for width in widths)
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "sim-time-limit = uniform(1s, 2s)",
-        "seed-set = intuniform(1, 5)",
-        "repeat = intuniform(1, 5)",
-        "constraint = uniform(1, 2) < 3",
-    ],
-)
-def test_options_draw_nothing(folder: Any, line: str) -> None:
-    error = folder.error("[X]\n*.uavs[*].mobility.speed = ${1, 2}mps\n" + line + "\n", "X")
-    assert error.startswith(f"test.ini:8: {line}: `")
-    assert "uniform` draws the value of a parameter, which this is not" in error

@@ -17,5 +17,8 @@ def test_a_seed_that_is_no_whole_number(folder: Any, wrong: Any) -> None:
 
 @pytest.mark.parametrize("wrong", [-1, 2**63])
 def test_a_seed_that_is_out_of_range(folder: Any, wrong: int) -> None:
-    with pytest.raises(ValueError, match=f"seed = {wrong}: it is out of range; expected 0 to"):
-        replace(folder.load(""), seed=wrong)
+    scenario = folder.load("")
+    with pytest.raises(ValueError, match=f"^seed = {wrong}: it is out of range; expected 0 to {2**63 - 1}$"):
+        load_scenarios(folder.ini, seed=wrong)
+    with pytest.raises(ValueError, match=f"^seed = {wrong}: it is out of range; expected 0 to {2**63 - 1}$"):
+        replace(scenario, seed=wrong)
