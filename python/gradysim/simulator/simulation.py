@@ -9,8 +9,7 @@ import weakref
 from collections.abc import Iterable, Mapping
 from datetime import timedelta
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from gradysim.encapsulator.python import PythonEncapsulator
 from gradysim.protocol.checked_values import checked_point
@@ -20,6 +19,7 @@ from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
+from gradysim.simulator.full_speed import FullSpeed, is_full_speed
 from gradysim.simulator.handler.given import (
     finalize_after_failure,
     judge_nothing_more,
@@ -39,29 +39,10 @@ __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Si
 
 _logger = logging.getLogger(__name__)
 
-_FORCE_FAST_EXECUTION = False
+_ForceFastExecution = FullSpeed  # the published name
 
 # Events run between two looks at whether the simulation is over.
 _CHUNK = 1 << 20
-
-
-class _ForceFastExecution:
-    """Simulations that start in this context do not wait for the wall clock, whatever `real_time` says."""
-
-    def __enter__(self) -> Self:
-        global _FORCE_FAST_EXECUTION
-        self._before = _FORCE_FAST_EXECUTION
-        _FORCE_FAST_EXECUTION = True
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        exception: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        global _FORCE_FAST_EXECUTION
-        _FORCE_FAST_EXECUTION = self._before
 
 
 class Simulator:
@@ -305,7 +286,7 @@ class Simulator:
         )
 
     def _real_time_factor(self) -> float:
-        return 0.0 if _FORCE_FAST_EXECUTION else real_time_factor(self._configuration.real_time)
+        return 0.0 if is_full_speed() else real_time_factor(self._configuration.real_time)
 
     def _execute(self, count: int) -> None:
         limit = self._configuration.max_iterations
