@@ -172,8 +172,11 @@ def load_scenarios(
 
     Raises:
         ConfigError: Anything is wrong; nothing has been run.
-        TypeError: `overrides` are no list of texts, `runs` no numbers, or `seed` is no whole number.
+        TypeError: `config` is no text, `overrides` are no list of texts, `runs` no numbers, or `seed` is no
+            whole number.
     """
+    if not isinstance(config, str):
+        raise TypeError(f"{names.config} {config!r}: expected the name of a configuration")
     if seed is not None:
         seed = whole_seed(seed)
     file = Path(file)
@@ -359,6 +362,10 @@ def _network(
         raise
     protocols = load_protocols(lookup, groups, settings, loader)
     if not protocols:
+        for group in groups:  # each is given by the number of its nodes, and that is 0
+            if group.size_found is not None:
+                text = f"that is 0, and there are no nodes; expected one at least{instead}"
+                raise ConfigError.at(group.size_found.entry.source, text)
         raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
     counts = interface_counts(lookup, groups, settings)
     kinds = {name: NodeKind(protocol.cls, counts[name]) for name, protocol in protocols.items()}

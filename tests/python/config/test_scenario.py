@@ -270,6 +270,16 @@ def test_nodes_are_needed(folder: Any) -> None:
     )
 
 
+@pytest.mark.parametrize("size", ["0", "${n=0, 2}"])
+def test_groups_without_nodes_are_told_at_the_line_of_the_first(folder: Any, size: str) -> None:
+    folder.write("test.ini", f"sim-time-limit = 1s\n*.numUavs = {size}\n*.sensors.count = 0\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini)
+    assert str(caught.value) == (
+        f"{folder.ini}:2: *.numUavs = {size}: that is 0, and there are no nodes; expected one at least"
+    )
+
+
 def test_keys_of_nodes_without_any_are_told_the_same(folder: Any) -> None:
     folder.write("test.ini", '[General]\nsim-time-limit = 1s\n**.protocol.class = "protocols.py:Sensor"\n')
     with pytest.raises(ConfigError, match=r"there are no nodes; expected some, such as `\*\.numUavs = 2`"):
@@ -289,6 +299,11 @@ def test_nodes_that_only_other_configurations_have(folder: Any) -> None:
     folder.write("test.ini", '[General]\n*.uavs[*].protocol.class = "a.py:A"\n[Ten]\n*.numUavs = 10\n')
     with pytest.raises(ConfigError, match=r"matches no node.*`config = NAME`, Ten$"):
         load_scenarios(folder.ini)
+
+
+def test_what_is_no_name_of_a_configuration(folder: Any) -> None:
+    with pytest.raises(TypeError, match=r"^config = None: expected the name of a configuration$"):
+        load_scenarios(folder.ini, None)  # type: ignore[arg-type]
 
 
 def test_a_run_that_does_not_exist(folder: Any) -> None:
