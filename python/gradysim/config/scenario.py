@@ -5,19 +5,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from gradysim.config.argument_names import OF_SCRIPT, ArgumentNames
-from gradysim.config.constraint import holds
 from gradysim.config.drawing_functions import drawing_function_in
 from gradysim.config.error import ConfigError
 from gradysim.config.file_hashes import FileHashes
 from gradysim.config.groups import find_groups
 from gradysim.config.interfaces import interface_counts
-from gradysim.config.iterations import (
-    MAX_VALUES,
-    IterationVariable,
-    combinations,
-    count_combinations,
-    name_iterations,
-)
+from gradysim.config.iterations import name_iterations
 from gradysim.config.key import Key
 from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
 from gradysim.config.keys import NETWORK_KEYS
@@ -26,11 +19,11 @@ from gradysim.config.lookup import Lookup, is_ignored, is_option
 from gradysim.config.nearest import nearest
 from gradysim.config.node_spec import NodeSpec
 from gradysim.config.nodes import build_nodes, load_protocols
+from gradysim.config.numbered_runs import numbered_runs
 from gradysim.config.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacles import obstacle_count, obstacle_files, read_obstacles
 from gradysim.config.protocol_loader import ProtocolLoader
 from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
-from gradysim.config.run_numbers import select_runs
 from gradysim.config.sections import config_names, search_order, unused_sections
 from gradysim.config.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
 from gradysim.config.setting import Setting, SettingReader, read_scalar
@@ -192,7 +185,7 @@ def load_scenarios(
     source = sections[0].source
     ranked, variables = name_iterations(ranked)
     only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
-    numbered, run_count = _numbered_runs(_options(only_options), variables, config, runs, source, names.runs)
+    numbered, run_count = numbered_runs(_options(only_options), variables, config, runs, source, names.runs)
     if seed is not None:
         check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
 
@@ -240,43 +233,6 @@ def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
             raise ConfigError(
                 f"`{line.key}` matches no node in any run; expected a node that some run has", line
             )
-
-
-def _numbered_runs(
-    options: Mapping[str, Entry],
-    variables: list[IterationVariable],
-    config: str,
-    runs: str | Iterable[int] | None,
-    source: Source,
-    name: str,
-) -> tuple[list[tuple[int, int, dict[str, str]]], int]:
-    """The runs that are wanted (number, repetition, values of variables), and how many there are in all."""
-    repeat = options.get("repeat")
-    if repeat is not None and "${" in repeat.text:
-        raise ConfigError.at(repeat.source, "it is the same for all combinations; expected a number")
-    repetitions = int(read_scalar(repeat, OPTIONS["repeat"])) if repeat else 1
-    count = count_combinations(variables)
-    chosen: Sequence[dict[str, str]] | None = None
-    if (constraint := options.get("constraint")) is not None:
-        chosen = [values for values in combinations(variables) if holds(constraint, values)]
-        if not chosen:
-            raise ConfigError.at(
-                constraint.source, f"none of {count} combinations of values is left; expected one at least"
-            )
-        count = len(chosen)
-    if count * repetitions > MAX_VALUES:
-        raise ConfigError(
-            f"configuration `{config}` has {count} combinations of values and {repetitions} runs of each;"
-            f" expected at most {MAX_VALUES} runs",
-            repeat.source if repeat else source,
-        )
-    made_of = f"{count} combinations of values, `repeat = {repetitions}`" if variables else ""
-    place = repeat.source if repeat else source
-    numbers = select_runs(runs, count * repetitions, config, place, made_of, name)
-    if chosen is None:
-        chosen = list(combinations(variables))
-    wanted = [(number, number % repetitions, chosen[number // repetitions]) for number in numbers]
-    return wanted, count * repetitions
 
 
 def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section], name: str) -> str:
