@@ -4,6 +4,7 @@ import re
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
 from gradysim.config.error import ConfigError
@@ -79,7 +80,17 @@ def calibrate(
 
     Raises:
         ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.
+        TypeError: What is to be a number or a name is none.
     """
+    for argument, value, kind, expected in (
+        ("range_m", range_m, Real, "a number of metres"),
+        ("ratio", ratio, Real, "a number"),
+        ("message_bytes", message_bytes, Integral, "a whole number"),
+        ("sender", sender, str | None, "the name of a node or interface"),
+        ("receiver", receiver, str | None, "the name of a node or interface"),
+    ):
+        if not isinstance(value, kind):
+            raise TypeError(f"{argument} = {value!r:.80}: expected {expected}")
     whole_sender, from_index = _interface_named(scenario.nodes, sender, "sender")
     from_node = to_node = _with_one_interface(whole_sender, from_index)
     to_name = whole_sender.name

@@ -177,6 +177,21 @@ def test_a_mistake_is_named(options: dict[str, object], text: str) -> None:
         calibrate(link(), **{"range_m": 50.0, **options})  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"range_m": "50m"}, "range_m = '50m': expected a number of metres"),
+        ({"ratio": None}, "ratio = None: expected a number"),
+        ({"message_bytes": 1.5}, r"message_bytes = 1\.5: expected a whole number"),
+        ({"sender": 0}, "sender = 0: expected the name of a node or interface"),
+        ({"receiver": 0}, "receiver = 0: expected the name of a node or interface"),
+    ],
+)
+def test_an_argument_of_another_type_is_named(options: dict[str, object], text: str) -> None:
+    with pytest.raises(TypeError, match=f"^{text}$"):
+        calibrate(link(), **{"range_m": 50.0, **options})  # type: ignore[arg-type]
+
+
 def test_a_message_longer_than_the_mtu_is_an_error_at_its_line() -> None:
     with pytest.raises(ConfigError, match="a message of 50B is too long: expected at most 12B") as error:
         calibrate(link("**.mac.mtu = 40B"), 50)
