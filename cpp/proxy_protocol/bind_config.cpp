@@ -130,6 +130,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("initial_channel_busy", &MacConfig::initial_channel_busy)
         .def_readwrite("skip_backoff_if_idle", &MacConfig::skip_backoff_if_idle)
         .def_readwrite("own_frames_set_nav", &MacConfig::own_frames_set_nav)
+        .def_readwrite("inet_eifs", &MacConfig::inet_eifs)
         .def_readwrite("rate_control", &MacConfig::rate_control)
         .def_readwrite("initial_rate_bps", &MacConfig::initial_rate_bps)
         .def_readwrite("rate_interval_s", &MacConfig::rate_interval_s)

@@ -173,6 +173,7 @@ class MacConfig:
     initial_channel_busy: bool
     skip_backoff_if_idle: bool
     own_frames_set_nav: bool
+    inet_eifs: bool
     rate_control: str
     initial_rate_bps: float
     rate_interval_s: float

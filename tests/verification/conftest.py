@@ -58,7 +58,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
         return
     findings = [
         Finding.from_json(str(value))
-        for outcome in ("passed", "failed", "xfailed")
+        for outcome in ("passed", "failed")
         for report in terminalreporter.getreports(outcome)
         for name, value in report.user_properties
         if name == "finding"

@@ -35,6 +35,7 @@ struct MacConfig {
     bool skip_backoff_if_idle =
         false;                       // DIFS only, from then, for a frame that finds station and channel idle
     bool own_frames_set_nav = true;  // as INET has it; the standard: only frames of others do
+    bool inet_eifs = false;  // EIFS by INET's rules, not by those of the standard (mac/contention.hpp)
 
     // How the bitrate of unicast frames is chosen, attempt by attempt: one of rate_control_names.
     std::string rate_control;

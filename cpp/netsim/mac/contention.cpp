@@ -58,9 +58,18 @@ void Contention::channel_busy_changed(bool busy) {
     }
 }
 
+// When the interframe space is.
+SimTime Contention::space_over(SimTime idle_since) const {
+    const SimTime difs_over = idle_since + parameters_.timing.difs;
+    if (!parameters_.config.inet_eifs) {
+        return std::max(difs_over, eifs_until_);
+    }
+    const bool is_within_eifs = eifs_until_ > simulator_.now() + parameters_.timing.difs;
+    return is_within_eifs ? idle_since + parameters_.timing.eifs : difs_over;
+}
+
 void Contention::schedule_grant(SimTime idle_since) {
-    const SimTime space_over = std::max(idle_since + parameters_.timing.difs, eifs_until_);
-    grant_time_ = std::max(space_over + parameters_.timing.slot * slots_left_, simulator_.now());
+    grant_time_ = std::max(space_over(idle_since) + parameters_.timing.slot * slots_left_, simulator_.now());
     grant_ = simulator_.schedule_at(grant_time_, [this] { granted(); }, Priority::last);
 }
 

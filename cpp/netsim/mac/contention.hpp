@@ -9,6 +9,12 @@
 // Every wait is DIFS (EIFS after a broken frame) + backoff · slot. Immediate access (`backoff_optimization`): time for
 // which the channel was free and this station idle before `start` counts towards it, so a frame that meets a channel
 // idle for long enough leaves at once; before the run the channel counts as busy, unless `initial_channel_busy` is off.
+//
+// EIFS is that of IEEE 802.11-2020, 10.3.2.3.7: from the moment the radio finds the channel free after a frame that was
+// received broken, at every station, until a frame is received well. With `inet_eifs` it follows INET's rules: only at a station
+// that is waiting for the channel, from the end of the broken frame on; a good one does not end it, and what makes the
+// channel busy and ends within it is followed by a whole one.
+//
 // Two stations whose slots end in the same instant both transmit and collide:
 // neither can have sensed the other by then. A grant is the last event of its instant, so that it knows all of it.
 #pragma once
@@ -64,7 +70,13 @@ public:
     // Between the two below.
     bool awaits_end_of_broken_frame() const { return broken_frame_; }
     // A frame was received broken (reported while the radio still finds the channel busy with it) …
-    void frame_corrupted() { broken_frame_ = true; }
+    void frame_corrupted() {
+        if (!parameters_.config.inet_eifs) {
+            broken_frame_ = true;
+        } else if (in_progress()) {
+            eifs_until_ = simulator_.now() + parameters_.timing.eifs;
+        }
+    }
     // … and now it finds it free, told before the above: EIFS from here on, whatever the NAV says, takes the place of
     // DIFS …
     void radio_finds_it_free() {
@@ -75,13 +87,16 @@ public:
     }
     // … unless a frame was received well in between.
     void frame_received() {
-        broken_frame_ = false;
-        eifs_until_ = SimTime::long_ago();
+        if (!parameters_.config.inet_eifs) {
+            broken_frame_ = false;
+            eifs_until_ = SimTime::long_ago();
+        }
     }
 
 private:
     enum class State : std::uint8_t { idle, deferring, waiting };
 
+    SimTime space_over(SimTime idle_since) const;
     void schedule_grant(SimTime idle_since);
     void granted();
 

@@ -348,6 +348,57 @@ TEST_F(ContentionTest, DifsOutlastsTheRestOfAnEifs) {
     EXPECT_EQ(grants, std::vector{us(1350) + difs});
 }
 
+class InetEifsTest : public ContentionTest {
+protected:
+    InetEifsTest() {
+        MacConfig config;
+        config.inet_eifs = true;
+        contention(config);
+    }
+};
+
+TEST_F(InetEifsTest, BeginsWithTheEndOfTheBrokenFrameAndIsWaitedWholeWhenTheChannelIsFree) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(900));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
+}
+
+TEST_F(InetEifsTest, IsOverIfTheChannelIsBusyForSoLongThatDifsOutlastsIt) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(1000) + difs - eifs);
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(InetEifsTest, IsOfNoConcernToAStationThatDoesNotWaitForTheChannel) {
+    busy_at(us(0), us(1000));
+    corrupted_at(us(999));
+    start_at(us(1010));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(InetEifsTest, AGoodFrameDoesNotEndIt) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(900));
+    received_at(us(999));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
+}
+
+TEST_F(InetEifsTest, WhatEndsWithinItIsFollowedByAWholeOne) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(999));
+    busy_at(us(1100), us(100));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1200) + eifs});
+}
+
 using ContentionDeathTest = ContentionTest;
 
 TEST_F(ContentionDeathTest, StartingTwiceIsAnInternalError) {

@@ -177,6 +177,7 @@ private:
         mac.initial_channel_busy = bytes_.flag();
         mac.skip_backoff_if_idle = bytes_.flag();
         mac.own_frames_set_nav = bytes_.flag();
+        mac.inet_eifs = bytes_.flag();
         if (bytes_.flag()) {
             rate_control(mac);
         }

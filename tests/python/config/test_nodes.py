@@ -75,6 +75,7 @@ def test_only_what_was_written_is_set(folder: Any) -> None:
         ("**.controlFrameBitrate", "6Mbps", "mac", "control_bitrate_bps", 6e6),
         ("**.rtsThreshold", "500B", "mac", "rts_threshold_bytes", 500),
         ("**.ownFramesSetNav", "false", "mac", "own_frames_set_nav", False),
+        ("**.contention.inetEifs", "true", "mac", "inet_eifs", True),
         ("**.shortRetryLimit", "4", "mac", "short_retry_limit", 4),
         ("**.cwMin", "15", "mac", "cw_min", 15),
         ("**.cwMax", "63", "mac", "cw_max", 63),

@@ -86,6 +86,12 @@ MAC_KEYS: tuple[Key, ...] = (
         boolean(),
         "Whether a frame that finds station and channel idle waits DIFS from then, without a backoff",
     ),
+    _dcf(
+        "channelAccess.contention.inetEifs",
+        "inet_eifs",
+        boolean(),
+        "Whether EIFS follows INET's rules, not the standard's",
+    ),
     *RATE_CONTROL_KEYS,
     _own(
         "mac.rx.ownFramesSetNav",
