@@ -1,7 +1,7 @@
 """IEEE 802.15.4 against the arithmetic of its times and the combinatorics of its first backoff.
 
-No run of INET was at hand for these. What is compared with is exact, and made apart from the engine: sums of
-the durations of the standard, and the distribution of the least of n numbers.
+What is compared with is exact, and made apart from the engine: sums of the durations of the standard, and the
+distribution of the least of n numbers.
 
 Goodput: a cycle is backoff (0 to 7 periods of 320 us), assessment (128 us), turnaround (192 us), frame
 (192 us + 32 us for each of its bytes) and, with ACKs, 192 us + 352 us.

@@ -8,7 +8,6 @@ of INET.
 
 from collections.abc import Callable
 from functools import cache
-from math import cos, pi, sin
 from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING
@@ -16,6 +15,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from verification.finding import Finding
+from verification.narrowband_circle import circle
 from verification.narrowband_model import Counts, Rules, contend
 from verification.reference_data import rows
 from verification.reference_run import run_reference, tracked
@@ -47,16 +47,8 @@ Measured = dict[str, float]
 
 @cache
 def ours(config: str, acks: bool, stations: int) -> tuple[Measured, ...]:
-    """For each seed. The stations stand on a circle of 5 m around the sink."""
-    overrides = [
-        f"*.stations.count = {stations}",
-        f"**.wlan[*].mac.useMACAcks = {str(acks).lower()}",
-        *(
-            f"*.stations[{index}].mobility.initial{axis} = {5 * of(2 * pi * index / stations):.6f}m"
-            for index in range(stations)
-            for axis, of in (("X", cos), ("Y", sin))
-        ),
-    ]
+    """For each seed."""
+    overrides = circle(stations, acks)
 
     def measure(seed: int) -> Measured:
         result = run_reference("narrowband_contention", config, seed=seed, overrides=overrides)

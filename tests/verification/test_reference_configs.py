@@ -21,7 +21,7 @@ COMPLETED = {"link", "narrowband", "narrowband_contention", "saturation"}
 """Files whose General runs only with what the others add."""
 FILES = {
     *("beacons", "capture", "flood", "hidden", "jittered", "link", "narrowband", "narrowband_contention"),
-    *("rate_control", "saturation", "sir"),
+    *("narrowband_link", "rate_control", "saturation", "sir"),
     "synchronised",
 }
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}

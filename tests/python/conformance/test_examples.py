@@ -34,6 +34,14 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in metres, mo
             '*.stations[*].protocol.class = "../../examples/reference/saturating_source.py:SaturatingSource"',
         ),
     ),
+    "reference/narrowband_link": (
+        "General",
+        150,
+        (
+            '*.sender.protocol.class = "../../examples/reference/beacon.py:Beacon"',
+            '*.receivers[*].protocol.class = "../../examples/reference/sink.py:Sink"',
+        ),
+    ),
     "reference/rate_control": ("Fixed", 1000, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/sir": ("General", 1000, ()),
