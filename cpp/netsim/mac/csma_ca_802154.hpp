@@ -22,9 +22,9 @@
 // it have to know whether frames make the channel busy together.
 //
 // Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments); the choices where the standard
-// leaves room are those of INET 4.5. Three things differ from INET: a frame is given up after its last assessment also if
-// it was never on the air before, where INET starts afresh; cca_whole_window and lifs_s are ours (the latter is 7.5.1.3,
-// and as in ns-3 the wait begins at its end).
+// leaves room are those of INET 4.5. Four things differ from INET: a frame is given up after its last assessment also if
+// it was never on the air before, where INET starts afresh; what arrives in the instant in which an assessment ends makes
+// the channel busy; cca_whole_window and lifs_s are ours (the latter is 7.5.1.3, and as in ns-3 the wait begins at its end).
 #pragma once
 
 #include <cstddef>
