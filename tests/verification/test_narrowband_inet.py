@@ -5,8 +5,8 @@ does, and so do we. A saturated station that starts over does what one does that
 so all else is compared as it is. Access failures are compared with runs of INET that had the standard's rule.
 
 In INET a frame that arrives in the very instant in which an assessment ends does not make the channel busy;
-here it does. Stations that answer each other meet this, those around a sink do not: rings are compared with
-runs of INET in which the assessment ended last.
+here it does. That shows in rings of stations that answer each other, not around a sink: rings are compared
+with runs of INET in which the assessment ended last.
 """
 
 from collections.abc import Callable, Iterator
