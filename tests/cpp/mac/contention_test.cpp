@@ -1,80 +1,21 @@
+// The wait for the channel. EIFS is in contention_eifs_test.cpp.
 #include "netsim/mac/contention.hpp"
 
-#include <memory>
 #include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "support/contention_fixture.hpp"
+
 namespace netsim {
 namespace {
 
-constexpr SimTime us(std::int64_t microseconds) {
-    return SimTime::from_us(microseconds);
-}
-
-// Those of g(mixed), written out.
-constexpr SimTime slot = us(20);
-constexpr SimTime difs = us(50);
-constexpr SimTime eifs = us(364);
-
-class GrantLog final : public ContentionListener {
-public:
-    explicit GrantLog(const Simulator& simulator) : simulator_(simulator) {}
-
-    std::vector<SimTime> times;
-    void channel_granted() override { times.push_back(simulator_.now()); }
-
-private:
-    const Simulator& simulator_;
-};
-
-class ContentionTest : public testing::Test {
-protected:
-    Contention& contention(bool backoff_optimization = true, std::uint64_t seed = 1) {
-        MacConfig config;
-        config.backoff_optimization = backoff_optimization;
-        return contention(config, seed);
-    }
-    Contention& contention(const MacConfig& config, std::uint64_t seed = 1) {
-        if (!contention_) {
-            parameters_ = std::make_unique<DcfParameters>(config);
-            contention_ = std::make_unique<Contention>(simulator, *parameters_,
-                                                       RandomStream(seed, 0, Purpose::backoff), log_);
-        }
-        return *contention_;
-    }
-    // With no slots to wait unless the test says so.
-    void start_at(SimTime time, int contention_window = 0) {
-        simulator.schedule_at(time, [this, contention_window] { contention().start(contention_window); });
-    }
-    void busy_at(SimTime time, SimTime duration) {
-        simulator.schedule_at(time, [this] { contention().channel_busy_changed(true); });
-        simulator.schedule_at(time + duration, [this] {
-            contention().radio_finds_it_free();
-            contention().channel_busy_changed(false);
-        });
-    }
-    void corrupted_at(SimTime time) {
-        simulator.schedule_at(time, [this] { contention().frame_corrupted(); });
-    }
-    void received_at(SimTime time) {
-        simulator.schedule_at(time, [this] { contention().frame_received(); });
-    }
-    void run() { simulator.run_until(SimTime::from_seconds(1)); }
-
-    Simulator simulator;
-
-private:
-    GrantLog log_{simulator};
-
-protected:
-    const std::vector<SimTime>& grants = log_.times;
-
-private:
-    std::unique_ptr<DcfParameters> parameters_;
-    std::unique_ptr<Contention> contention_;
-};
+using test::ContentionTest;
+using test::difs;
+using test::GrantLog;
+using test::slot;
+using test::us;
 
 TEST_F(ContentionTest, WithoutABackoffOnAFreeChannelADifsFromTheStartIsWaited) {
     contention();
@@ -273,130 +214,6 @@ TEST_F(RemainingSlots, AreKeptThroughManyInterruptions) {
     }
     run();
     EXPECT_EQ(grants, std::vector{free + difs + slot * (slots - 4)});
-}
-
-TEST_F(ContentionTest, ABrokenFrameIsFollowedByEifs) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(999));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
-}
-
-TEST_F(ContentionTest, EifsCountsTowardsImmediateAccessAsDifsDoes) {
-    busy_at(us(0), us(1000));
-    corrupted_at(us(999));
-    start_at(us(1010));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
-}
-
-TEST_F(ContentionTest, EifsBeginsWhenTheChannelIsFreeHoweverLongThatTakes) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(100));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
-}
-
-TEST_F(ContentionTest, EifsBeginsWhenTheRadioFindsItFreeWhateverKeepsTheStationSilent) {
-    contention();
-    corrupted_at(us(100));
-    simulator.schedule_at(us(0), [this] { contention().channel_busy_changed(true); });
-    simulator.schedule_at(us(200), [this] { contention().radio_finds_it_free(); });
-    simulator.schedule_at(us(1000),
-                          [this] { contention().channel_busy_changed(false); });  // the end of a NAV
-    start_at(us(500));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + difs});
-}
-
-TEST_F(ContentionTest, AGoodFrameAfterTheBrokenOneBringsBackDifs) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(600));
-    received_at(us(999));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + difs});
-}
-
-TEST_F(ContentionTest, AGoodFrameEndsAnEifsUnderWay) {
-    busy_at(us(0), us(1000));
-    corrupted_at(us(999));
-    start_at(us(1010));
-    busy_at(us(1100), us(100));
-    received_at(us(1199));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1200) + difs});
-}
-
-TEST_F(ContentionTest, NoiseDuringEifsDoesNotBeginItAnew) {
-    busy_at(us(0), us(1000));
-    corrupted_at(us(999));
-    start_at(us(1010));
-    busy_at(us(1100), us(100));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
-}
-
-TEST_F(ContentionTest, DifsOutlastsTheRestOfAnEifs) {
-    busy_at(us(0), us(1000));
-    corrupted_at(us(999));
-    start_at(us(1010));
-    busy_at(us(1100), us(250));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1350) + difs});
-}
-
-class InetEifsTest : public ContentionTest {
-protected:
-    InetEifsTest() {
-        MacConfig config;
-        config.inet_eifs = true;
-        contention(config);
-    }
-};
-
-TEST_F(InetEifsTest, BeginsWithTheEndOfTheBrokenFrameAndIsWaitedWholeWhenTheChannelIsFree) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(900));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
-}
-
-TEST_F(InetEifsTest, IsOverIfTheChannelIsBusyForSoLongThatDifsOutlastsIt) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(1000) + difs - eifs);
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + difs});
-}
-
-TEST_F(InetEifsTest, IsOfNoConcernToAStationThatDoesNotWaitForTheChannel) {
-    busy_at(us(0), us(1000));
-    corrupted_at(us(999));
-    start_at(us(1010));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + difs});
-}
-
-TEST_F(InetEifsTest, AGoodFrameDoesNotEndIt) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(900));
-    received_at(us(999));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1000) + eifs});
-}
-
-TEST_F(InetEifsTest, WhatEndsWithinItIsFollowedByAWholeOne) {
-    busy_at(us(0), us(1000));
-    start_at(us(500));
-    corrupted_at(us(999));
-    busy_at(us(1100), us(100));
-    run();
-    EXPECT_EQ(grants, std::vector{us(1200) + eifs});
 }
 
 using ContentionDeathTest = ContentionTest;
