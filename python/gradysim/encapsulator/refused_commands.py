@@ -25,16 +25,16 @@ def wrong_communication(command: object, node_id: int, ids: Collection[int]) -> 
     message, kind = command.message, command.command_type
     if not isinstance(message, str):
         return f"node {node_id} can send text only, such as json.dumps makes, got {message!r}"
+    if not _is_one_of(CommunicationCommandType, kind):
+        expected = _listed(CommunicationCommandType)
+        return f"node {node_id} gave an unknown communication command: {kind!r}; expected {expected}"
     try:
         checked_interface(getattr(command, "interface", 0))  # commands of one's own may have none
         if kind == CommunicationCommandType.SEND:
             return _wrong_destination(getattr(command, "destination", None), node_id, ids)
     except CommunicationException as wrong:
         return str(wrong)
-    if kind == CommunicationCommandType.BROADCAST:
-        return ""
-    expected = _listed(CommunicationCommandType)
-    return f"node {node_id} gave an unknown communication command: {kind!r}; expected {expected}"
+    return ""
 
 
 def wrong_mobility(command: object, node_id: int, can_move: bool) -> str:
@@ -42,13 +42,13 @@ def wrong_mobility(command: object, node_id: int, can_move: bool) -> str:
     if not hasattr(command, "command_type") or not hasattr(command, "param_1"):
         return f"node {node_id} can carry out a MobilityCommand, was given {command!r}"
     kind = command.command_type
-    if kind == MobilityCommandType.GOTO_COORDS:
-        wrong = _wrong_point(command, node_id)
+    if not _is_one_of(MobilityCommandType, kind):
+        expected = _listed(MobilityCommandType)
+        wrong = f"node {node_id} was given an unknown mobility command: {kind!r}; expected {expected}"
     elif kind == MobilityCommandType.SET_SPEED:
         wrong = _wrong_speed(command, node_id)
     else:
-        expected = _listed(MobilityCommandType)
-        wrong = f"node {node_id} was given an unknown mobility command: {kind!r}; expected {expected}"
+        wrong = _wrong_point(command, node_id)
     if wrong or can_move:
         return wrong
     return (
@@ -110,6 +110,11 @@ def _wrong_speed(command: Any, node_id: int) -> str:
     if speed_mps is not None and speed_mps >= 0:
         return ""
     return f"node {node_id} was given the speed {command.param_1!r}: expected a finite number of m/s, >= 0"
+
+
+def _is_one_of(kinds: type[Enum], kind: object) -> bool:
+    """Whether it is the number of a kind: 1.0, which equals one, is none."""
+    return isinstance(kind, int) and kind in {known.value for known in kinds}
 
 
 def _listed(kinds: type[Enum]) -> str:

@@ -157,7 +157,7 @@ def test_an_unknown_destination_is_an_error():
             CommunicationException,
             "send_communication_command",
             (CommunicationCommand(1.0, "hello"),),
-            "what was given cannot be read as a command",
+            "node 0 gave an unknown communication command: 1.0; expected SEND (0) or BROADCAST (1)",
         ),
         (
             CommunicationException,
