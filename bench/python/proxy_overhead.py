@@ -19,7 +19,7 @@ from time import process_time
 from typing import Any
 
 from gradysim import _netsim
-from gradysim.config.protocol_class import parametrize
+from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.encapsulator.netsim import NetsimProvider
 from gradysim.encapsulator.random_stream import Purpose, RandomStream

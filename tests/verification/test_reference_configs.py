@@ -8,10 +8,10 @@ import pytest
 import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.config import Scenario, load_scenarios
-from gradysim.config.error import ConfigError
-from gradysim.config.native_protocol import NativeProtocol
-from gradysim.config.reader import read_ini
-from gradysim.config.sections import config_names
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.file.reader import read_ini
+from gradysim.config.file.sections import config_names
+from gradysim.config.protocol.native import NativeProtocol
 from gradysim.results.run_result import RunResult
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference

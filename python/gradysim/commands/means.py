@@ -18,7 +18,7 @@ def print_means(
     ] = False,
 ) -> int:
     """Print means of tracked variables and deliveries over all runs, with 95 % confidence intervals."""
-    from gradysim.config.error import ConfigError
+    from gradysim.config.errors.config_error import ConfigError
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
     from gradysim.results.means import means, of_different_files, of_different_settings, read_results

@@ -103,7 +103,7 @@ def run(
     ] = False,
 ) -> int:
     """Run the runs of a configuration and say what came out."""
-    from gradysim.config.error import ConfigError
+    from gradysim.config.errors.config_error import ConfigError
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report.waiting import waiting
 
@@ -174,7 +174,7 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
 
 def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO, jobs: int) -> int:
     """Carry out runs in `jobs` processes; return the exit code of the command."""
-    from gradysim.config.error import ConfigError
+    from gradysim.config.errors.config_error import ConfigError
     from gradysim.integrated.compiled_part import CompiledPartMissingError
 
     if jobs < 1:
@@ -202,7 +202,7 @@ def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", outp
 
 def make_result_dir(directory: Path) -> None:
     """Make the folder of --result-dir. Raises ConfigError, which names the option."""
-    from gradysim.config.error import ConfigError
+    from gradysim.config.errors.config_error import ConfigError
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -213,7 +213,7 @@ def make_result_dir(directory: Path) -> None:
 
 def check_may_be_written_to(directory: Path) -> None:
     """Raise ConfigError, which names the option, before a run that takes hours finds it out."""
-    from gradysim.config.error import ConfigError
+    from gradysim.config.errors.config_error import ConfigError
 
     if not os.access(directory, os.W_OK | os.X_OK):
         raise ConfigError(f"--result-dir {directory}: it takes no files from you; expected another folder")
@@ -230,9 +230,9 @@ def left_to_do(
 
     Raises ConfigError without a folder, and for names in `fates_at` and `pcap` that are none of nodes.
     """
-    from gradysim.config.error import ConfigError
-    from gradysim.config.file_hashes import text_of_files
-    from gradysim.config.run_numbers import text_of_runs
+    from gradysim.config.errors.config_error import ConfigError
+    from gradysim.config.runs.file_hashes import text_of_files
+    from gradysim.config.runs.run_numbers import text_of_runs
     from gradysim.results.run_file import files_changed_since
 
     if result_dir is None:

@@ -7,8 +7,8 @@ from gradysim.commands.scenarios import load
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
-    from gradysim.config.error import ConfigError
-    from gradysim.config.iterations import text_of_iterations
+    from gradysim.config.errors.config_error import ConfigError
+    from gradysim.config.runs.iterations import text_of_iterations
 
     try:
         for scenario in load(file, config, None, settings):

@@ -12,7 +12,7 @@ def load(
     file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
 ) -> "list[Scenario]":
     """Return one scenario per run. Raises ConfigError."""
-    from gradysim.config.argument_names import ArgumentNames
+    from gradysim.config.errors.argument_names import ArgumentNames
     from gradysim.config.scenario import load_scenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")

@@ -56,7 +56,7 @@ def simulator(
 
 def require_no_names(option: str, names: Sequence[str], reason: str) -> None:
     """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
-    from gradysim.config.error import ConfigError
+    from gradysim.config.errors.config_error import ConfigError
 
     if names:
         raise ConfigError(f"{option} {names[0]}: prototype mode has {reason}; expected --mode integrated")

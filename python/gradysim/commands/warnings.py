@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gradysim.config.node_spec import NodeSpec
+    from gradysim.config.node.node_spec import NodeSpec
     from gradysim.config.scenario import Scenario
 
 
@@ -24,7 +24,7 @@ def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
 
 def warn_of_shadowed_lines(scenario: "Scenario") -> None:
     """Say on the error output which lines of its file have no effect, because of others above them."""
-    from gradysim.config.shadowed_lines import shadowed_lines
+    from gradysim.config.doubts.shadowed_lines import shadowed_lines
 
     medium = scenario.medium.get("typename")
     has_powers = medium is None or medium.value != "UnitDiskRadioMedium"
@@ -34,14 +34,14 @@ def warn_of_shadowed_lines(scenario: "Scenario") -> None:
 
 def warn_of_doubtful_times(scenarios: "Sequence[Scenario]") -> None:
     """Say on the error output, once for all runs, which times of protocols are given as something else."""
-    from gradysim.config.doubtful_times import doubtful_times
+    from gradysim.config.doubts.doubtful_times import doubtful_times
 
     _tell_of_nodes(scenarios, doubtful_times)
 
 
 def warn_of_mission_speeds(scenarios: "Sequence[Scenario]") -> None:
     """Say on the error output, once for all runs, which speeds missions override by their default."""
-    from gradysim.config.mission_speeds import mission_speeds
+    from gradysim.config.doubts.mission_speeds import mission_speeds
 
     _tell_of_nodes(scenarios, mission_speeds)
 

@@ -1,11 +1,18 @@
 """Scenarios in .ini files: OMNeT++'s grammar, INET's names, and errors that say where and what was expected.
 
-Text goes through one stage after the other: reader, sections, variables, lookup (patterns), groups and nodes,
-with values read by keys, kinds, expression, quantity and units. What comes out is a list of Scenario.
+`load_scenarios` takes a file through the sub-packages, each of which imports only those above it:
+
+    errors                what all others say of a mistake
+    file                  the text as sections and entries
+    value                 the text of one value
+    keys, protocol        what may be set, and what the nodes run
+    matching              which entry is in force for what
+    runs, node, obstacle  the parts of a Scenario
+    doubts                what is valid and probably not meant
 """
 
-from gradysim.config.error import ConfigError, format_config_error
-from gradysim.config.protocol_class import parametrize
+from gradysim.config.errors.config_error import ConfigError, format_config_error
+from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import (
     CommunicationMediumSpec,
     NodeSpec,

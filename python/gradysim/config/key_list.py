@@ -5,13 +5,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
-from gradysim.config.key import Key
+from gradysim.config.errors.nearest import misspelt
 from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS, PROTOCOL_PARAMETER
 from gradysim.config.keys.options import OPTION_KEYS
-from gradysim.config.native_protocol import NativeProtocol
-from gradysim.config.nearest import misspelt
-from gradysim.config.protocol_parameters import parameters_of
+from gradysim.config.protocol.native import NativeProtocol
+from gradysim.config.protocol.parameters import parameters_of
 from gradysim.config.scenario import CommunicationMediumSpec
 
 Structs = Mapping[str, Mapping[str, object]]

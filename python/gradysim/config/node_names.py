@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from gradysim.config.error import ConfigError
-from gradysim.config.nearest import did_you_mean
-from gradysim.config.node_spec import NodeSpec
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
 
 ALL = "all"

@@ -4,33 +4,33 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from gradysim.config.argument_names import OF_SCRIPT, ArgumentNames
-from gradysim.config.drawing_functions import drawing_function_in
-from gradysim.config.error import ConfigError
-from gradysim.config.file_hashes import FileHashes
-from gradysim.config.groups import find_groups
-from gradysim.config.interfaces import interface_counts
-from gradysim.config.iterations import name_iterations
-from gradysim.config.key import Key
-from gradysim.config.key_check import NodeKind, check_names, check_option, check_parameters
+from gradysim.config.errors.argument_names import OF_SCRIPT, ArgumentNames
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.nearest import nearest
+from gradysim.config.errors.source import Source
+from gradysim.config.file.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
+from gradysim.config.file.sections import config_names, search_order, unused_sections
 from gradysim.config.keys import NETWORK_KEYS
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.options import LONGEST_RUN_S, OPTIONS
-from gradysim.config.lookup import Lookup, is_ignored, is_option
-from gradysim.config.nearest import nearest
-from gradysim.config.node_spec import NodeSpec
-from gradysim.config.nodes import build_nodes, load_protocols
-from gradysim.config.numbered_runs import numbered_runs
-from gradysim.config.obstacle_spec import ObstacleSpec
-from gradysim.config.obstacles import obstacle_count, obstacle_files, read_obstacles
-from gradysim.config.protocol_loader import ProtocolLoader
-from gradysim.config.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
-from gradysim.config.sections import config_names, search_order, unused_sections
-from gradysim.config.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
-from gradysim.config.setting import Setting, SettingReader, read_scalar
-from gradysim.config.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash, settings_hash
-from gradysim.config.source import Source
-from gradysim.config.struct_reader import read_struct
-from gradysim.config.variables import depends_on_run, run_variables, substitute
+from gradysim.config.matching.groups import find_groups
+from gradysim.config.matching.key_check import NodeKind, check_names, check_option, check_parameters
+from gradysim.config.matching.lookup import Lookup, is_ignored, is_option
+from gradysim.config.matching.struct_reader import read_struct
+from gradysim.config.node.interfaces import interface_counts
+from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.node.nodes import build_nodes, load_protocols
+from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
+from gradysim.config.obstacle.obstacles import obstacle_count, obstacle_files, read_obstacles
+from gradysim.config.protocol.loader import ProtocolLoader
+from gradysim.config.runs.file_hashes import FileHashes
+from gradysim.config.runs.iterations import name_iterations
+from gradysim.config.runs.numbered_runs import numbered_runs
+from gradysim.config.runs.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
+from gradysim.config.runs.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash, settings_hash
+from gradysim.config.runs.variables import depends_on_run, run_variables, substitute
+from gradysim.config.value.drawing_functions import drawing_function_in
+from gradysim.config.value.setting import Setting, SettingReader, read_scalar
 from gradysim.protocol.checked_values import checked_number
 
 __all__ = ["CommunicationMediumSpec", "NodeSpec", "Scenario", "Setting", "Source", "load_scenarios"]

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
-from gradysim.config.error import ConfigError
-from gradysim.config.nearest import did_you_mean
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.nearest import did_you_mean
 from gradysim.config.scenario import NodeSpec, Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at

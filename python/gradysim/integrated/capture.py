@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.node_names import nodes_named
 from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from gradysim.config.error import ConfigError
-from gradysim.config.neighbours import file_meant
-from gradysim.config.setting import Setting
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.sibling_files import file_meant
+from gradysim.config.value.setting import Setting
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
 

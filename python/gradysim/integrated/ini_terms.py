@@ -8,10 +8,10 @@ import re
 from collections.abc import Mapping
 from functools import cache
 
-from gradysim.config.key import Key
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.config.keys.interface import written_for
-from gradysim.config.units import UNITS
+from gradysim.config.keys.key import Key
+from gradysim.config.value.units import UNITS
 
 FIELD = re.compile(
     r"(?P<interface>\bwlan\[\d+\]\.)?\b(?P<target>"

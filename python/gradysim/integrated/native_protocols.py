@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, cast
 
-from gradysim.config.native_protocol import NativeParameter, NativeProtocol
-from gradysim.config.protocol_class import parametrize
+from gradysim.config.protocol.native import NativeParameter, NativeProtocol
+from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import NodeSpec
-from gradysim.config.setting import Setting
+from gradysim.config.value.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider

@@ -9,10 +9,10 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from gradysim.config.error import ConfigError
-from gradysim.config.interface_spec import InterfaceSpec
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.keys.interface import DEFAULT_INTERFACE
-from gradysim.config.obstacle_spec import ObstacleSpec
+from gradysim.config.node.interface_spec import InterfaceSpec
+from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.config.scenario import NodeSpec, Scenario, Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target

@@ -2,10 +2,10 @@
 
 from typing import TYPE_CHECKING
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.keys.radio_media import RADIO_MEDIA
-from gradysim.config.node_spec import NodeSpec
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at_line
 from gradysim.integrated.two_ray_ground import ground_hint

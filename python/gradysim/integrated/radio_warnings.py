@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from gradysim.config.interface_spec import InterfaceSpec
+from gradysim.config.errors.source import Source
 from gradysim.config.keys.interface import IEEE802154
 from gradysim.config.keys.radio_media import RADIO_MEDIA
-from gradysim.config.node_spec import NodeSpec
+from gradysim.config.node.interface_spec import InterfaceSpec
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
-from gradysim.config.source import Source
 from gradysim.integrated.network import node_config
 from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
 

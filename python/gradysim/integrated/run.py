@@ -11,7 +11,7 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
-from gradysim.config.protocol_class import parametrize
+from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator

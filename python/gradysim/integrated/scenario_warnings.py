@@ -4,10 +4,10 @@ import math
 from collections.abc import Container, Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from gradysim.config.doubts.unread_lines import Chosen, UnreadLines
+from gradysim.config.errors.source import Source
 from gradysim.config.scenario import Scenario
-from gradysim.config.setting import Setting
-from gradysim.config.source import Source
-from gradysim.config.unread_lines import Chosen, UnreadLines
+from gradysim.config.value.setting import Setting
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.node_kinds import one_of_each_kind
 from gradysim.integrated.radio_warnings import radio_warnings

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from gradysim.config.keys.radio_media import RADIO_MEDIA
-from gradysim.config.node_spec import NodeSpec
+from gradysim.config.node.node_spec import NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig

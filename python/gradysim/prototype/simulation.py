@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from gradysim.config.error import ConfigError
-from gradysim.config.native_protocol import NativeProtocol, text_of_only_integrated
-from gradysim.config.protocol_class import parametrize
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.protocol.native import NativeProtocol, text_of_only_integrated
+from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import NodeSpec, Scenario
 from gradysim.results.run_file import run_name
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium

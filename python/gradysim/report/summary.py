@@ -8,7 +8,7 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from gradysim.config.iterations import text_of_iterations
+from gradysim.config.runs.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
 from gradysim.protocol.readable_number import readable_number
 from gradysim.report.count_tables import CountTables

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from rich.console import Console
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.report.progress import RunProgress

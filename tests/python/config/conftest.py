@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.scenario import Scenario, load_scenarios
 
 PROTOCOLS = """

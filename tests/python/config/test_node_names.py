@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.node_names import nodes_named
 from gradysim.config.scenario import load_scenarios
 

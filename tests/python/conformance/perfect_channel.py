@@ -6,7 +6,7 @@ from pathlib import Path
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config.interface_spec import InterfaceSpec
+from gradysim.config.node.interface_spec import InterfaceSpec
 from gradysim.config.scenario import CommunicationMediumSpec, NodeSpec, Scenario, Setting, Source
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position

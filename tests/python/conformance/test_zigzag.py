@@ -25,7 +25,7 @@ from typing import Any, cast
 
 import pytest
 
-from gradysim.config.protocol_class import parametrize
+from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.interface import IProtocol, IProvider

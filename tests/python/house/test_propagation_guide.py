@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.key import Key
 from gradysim.config.keys.antenna import ANTENNA_KEYS
 from gradysim.config.keys.environment import MATERIALS, OBSTACLE_LOSS_KEYS
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
 from gradysim.config.scenario import Scenario
 

@@ -12,7 +12,7 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
 from gradysim.config import Scenario, load_scenarios
-from gradysim.config.drawing_functions import FUNCTIONS
+from gradysim.config.value.drawing_functions import FUNCTIONS
 from gradysim.prototype.run import run
 
 GUIDE = "docs/guides/results.md"

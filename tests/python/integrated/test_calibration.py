@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli import calibrate_power
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.keys.radio import RADIO_KEYS
 from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.integrated.calibration import calibrate

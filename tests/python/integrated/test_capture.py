@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.integrated.capture import CaptureError, capture_files, checked_captures, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
 

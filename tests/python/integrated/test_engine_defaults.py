@@ -3,10 +3,10 @@ import re
 import pytest
 
 from gradysim import _netsim
-from gradysim.config.expression import parse_value
 from gradysim.config.key_list import OWN_STRUCTS, UNKNOWN, key_sections
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.config.keys.mobility import STATIC_GRID
+from gradysim.config.value.expression import parse_value
 from gradysim.integrated.engine_defaults import engine_defaults
 
 MADE_WITH = {

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.scenario import Setting, Source, load_scenarios
 from gradysim.integrated.engine_errors import errors_at
 from gradysim.integrated.network import check_scenario

@@ -4,7 +4,7 @@ from contextlib import nullcontext
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import run

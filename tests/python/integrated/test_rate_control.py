@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.scenario import Scenario
 from gradysim.integrated.run import run
 

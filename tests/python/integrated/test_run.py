@@ -3,9 +3,9 @@ import weakref
 
 import pytest
 
-from gradysim.config.error import BadValue
-from gradysim.config.expression import parse_value
+from gradysim.config.errors.config_error import BadValue
 from gradysim.config.keys.options import OPTIONS
+from gradysim.config.value.expression import parse_value
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
 

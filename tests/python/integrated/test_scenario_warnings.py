@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.config import Scenario, load_scenarios
-from gradysim.config.reader import read_ini
-from gradysim.config.sections import config_names
+from gradysim.config.file.reader import read_ini
+from gradysim.config.file.sections import config_names
 from gradysim.integrated.scenario_warnings import scenario_warnings
 
 CONFIGS = Path(__file__).parents[3] / "configs"

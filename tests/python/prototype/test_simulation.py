@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.scenario import CommunicationMediumSpec
 from gradysim.prototype.simulation import build_simulation, communication_medium
 

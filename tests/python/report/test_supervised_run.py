@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
-from gradysim.config.error import ConfigError
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.report.supervised_run import carry_out
 from gradysim.results.run_result import RunResult

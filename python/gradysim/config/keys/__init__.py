@@ -5,12 +5,12 @@ makes no sense in any model. To add a key, add a line to the table of its subjec
 this order.
 """
 
-from gradysim.config.key import Key
 from gradysim.config.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
 from gradysim.config.keys.coordinate_system import COORDINATE_SYSTEM_KEYS
 from gradysim.config.keys.csma import CSMA_KEYS
 from gradysim.config.keys.environment import ENVIRONMENT_KEYS
 from gradysim.config.keys.interface import INTERFACE_KEYS, NUM_WLAN_INTERFACES
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.mac import MAC_KEYS
 from gradysim.config.keys.medium import MEDIUM_KEYS
 from gradysim.config.keys.mobility import MOBILITY_KEYS

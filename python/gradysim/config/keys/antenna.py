@@ -1,10 +1,10 @@
 """Keys of a node's antenna. The names are INET's, and those of its AttachedMobility for how it is mounted."""
 
-from gradysim.config.key import Key
 from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.kinds import choice, power_ratio, quantity
+from gradysim.config.value.kinds import choice, power_ratio, quantity
 
 _own = Below(f"{WLAN}.radio.antenna", "antenna", RADIO_MEDIA)
 _constant = _own.only_for("antenna.typename", "ConstantGainAntenna")

@@ -1,8 +1,8 @@
 """Keys of prototype mode's medium."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import number, quantity
+from gradysim.config.value.kinds import number, quantity
 
 _own = Below("communicationMedium", "communication_medium")
 

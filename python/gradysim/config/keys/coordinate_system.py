@@ -1,8 +1,8 @@
 """Keys of where on the earth the origin lies."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import quantity
+from gradysim.config.value.kinds import quantity
 
 _own = Below("coordinateSystem", "reference")
 

@@ -1,9 +1,9 @@
 """Keys of the MAC and the queue of an 802.15.4 interface."""
 
-from gradysim.config.key import Key
 from gradysim.config.keys.interface import IEEE802154, WLAN
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import boolean, choice, integer, quantity
+from gradysim.config.value.kinds import boolean, choice, integer, quantity
 
 _mac = Below(f"{WLAN}.mac", "csma", IEEE802154)
 _exponential = _mac.only_for("csma.backoff_method", "exponential", shown="802.15.4, exponential")

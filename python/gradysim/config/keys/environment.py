@@ -1,10 +1,10 @@
 """Keys of what stands between the nodes: the model of its losses, and obstacles one by one or as a file."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.kinds import boolean, choice, coordinate, integer, number, text
-from gradysim.config.obstacle_spec import DEFAULT_MATERIAL
+from gradysim.config.obstacle.obstacle_spec import DEFAULT_MATERIAL
+from gradysim.config.value.kinds import boolean, choice, coordinate, integer, number, text
 
 MATERIALS = (
     "concrete",

@@ -2,10 +2,10 @@
 
 import re
 
-from gradysim.config.key import Key, ReadBy
+from gradysim.config.keys.key import Key, ReadBy
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import choice, integer
+from gradysim.config.value.kinds import choice, integer
 from gradysim.protocol.messages.interface_index import MOST_INTERFACES
 
 WLAN = "wlan[0]"

@@ -1,10 +1,10 @@
 """Keys of the MAC of an 802.11 interface: its mode, rates, frame exchange and channel access."""
 
-from gradysim.config.key import Key
 from gradysim.config.keys.interface import IEEE80211, WLAN
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.rate_control import RATE_CONTROL_KEYS
 from gradysim.config.keys.shapes import Below, bit_rate
-from gradysim.config.kinds import boolean, choice, integer, whole_bytes
+from gradysim.config.value.kinds import boolean, choice, integer, whole_bytes
 
 _own = Below(WLAN, "mac", IEEE80211)
 _dcf = _own.below("mac.dcf")

@@ -1,10 +1,10 @@
 """Keys of the air: its model, its noise, and how frames travel through it."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, level
-from gradysim.config.kinds import choice, quantity
+from gradysim.config.value.kinds import choice, quantity
 
 _own = Below("radioMedium", "medium")
 _of_radios = Below("radioMedium", "medium", RADIO_MEDIA)

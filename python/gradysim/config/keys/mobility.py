@@ -1,8 +1,8 @@
 """Keys of where a node starts, how it is turned, and how it moves."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.kinds import boolean, choice, coordinate, integer, quantity
+from gradysim.config.value.kinds import boolean, choice, coordinate, integer, quantity
 
 _own = Below("mobility", "mobility")
 _flight = _own.only_for("mobility.typename", "MasslessMobility", shown="")

@@ -1,8 +1,8 @@
 """Keys of a group of nodes and of what its nodes run."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import integer, si_number, text
+from gradysim.config.value.kinds import integer, si_number, text
 
 _protocol = Below("protocol", "protocol")
 

@@ -1,7 +1,7 @@
 """Options of a run, and what is ignored because only OMNeT++ needs it."""
 
-from gradysim.config.key import Key
-from gradysim.config.kinds import Kind, integer, quantity, text
+from gradysim.config.keys.key import Key
+from gradysim.config.value.kinds import Kind, integer, quantity, text
 
 LONGEST_RUN_S = 9_200_000
 """The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""

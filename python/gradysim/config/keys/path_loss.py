@@ -1,9 +1,9 @@
 """Keys of how power falls with distance, and how it fades."""
 
-from gradysim.config.key import Key
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import choice, number, number_in, quantity
+from gradysim.config.value.kinds import choice, number, number_in, quantity
 
 _NOT_OF_ALPHA = ("BreakpointPathLoss", "TwoRayInterference")
 _FADING = ("LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading")

@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 
-from gradysim.config.bands import CHANNEL_OF_802154, channel_by_default, first_channel_of_band
-from gradysim.config.key import Key
 from gradysim.config.keys.antenna import ANTENNA_KEYS
+from gradysim.config.keys.bands import CHANNEL_OF_802154, channel_by_default, first_channel_of_band
 from gradysim.config.keys.interface import IEEE80211, WLAN
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.receiver import RECEIVER_KEYS
 from gradysim.config.keys.shapes import Below
-from gradysim.config.kinds import quantity
+from gradysim.config.value.kinds import quantity
 
 _own = Below(f"{WLAN}.radio", "radio", RADIO_MEDIA)
 _of_all_media = Below(f"{WLAN}.radio", "radio")

@@ -1,9 +1,9 @@
 """Keys of how an 802.11 interface chooses the rate of its unicast frames."""
 
-from gradysim.config.key import Key
 from gradysim.config.keys.interface import IEEE80211, WLAN
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below, bit_rate
-from gradysim.config.kinds import choice, integer, number, quantity
+from gradysim.config.value.kinds import choice, integer, number, quantity
 
 _NAMES = ("ArfRateControl", "AarfRateControl", "MinstrelRateControl")
 

@@ -1,10 +1,10 @@
 """Keys of a radio's receiver: from which level on, and when it takes up a frame or gives it up."""
 
-from gradysim.config.key import Key
 from gradysim.config.keys.interface import WLAN
+from gradysim.config.keys.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, level
-from gradysim.config.kinds import choice, file_name, power_ratio, quantity
+from gradysim.config.value.kinds import choice, file_name, power_ratio, quantity
 
 _own = Below(f"{WLAN}.radio.receiver", "radio", RADIO_MEDIA)
 _ber_table = _own.only_for("radio.error_model", "Ieee80211BerTableErrorModel")

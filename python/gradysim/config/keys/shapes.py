@@ -3,10 +3,10 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
-from gradysim.config.error import BadValue
-from gradysim.config.expression import Value
-from gradysim.config.key import Key, ReadBy
-from gradysim.config.kinds import Kind, Scalar, quantity
+from gradysim.config.errors.config_error import BadValue
+from gradysim.config.keys.key import Key, ReadBy
+from gradysim.config.value.expression import Value
+from gradysim.config.value.kinds import Kind, Scalar, quantity
 
 _STRONGEST_W = 1
 

@@ -1,8 +1,8 @@
 import ast
 from pathlib import Path
 
-from gradysim.config.key import ReadBy
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.config.keys.key import ReadBy
 from gradysim.config.keys.node import GROUP_SIZE
 
 ALL_KEYS = (*NODE_KEYS, *NETWORK_KEYS)

@@ -2,11 +2,11 @@ import math
 
 import pytest
 
-from gradysim.config.error import BadValue
-from gradysim.config.expression import parse_value
-from gradysim.config.key import Key, ReadBy
+from gradysim.config.errors.config_error import BadValue
+from gradysim.config.keys.key import Key, ReadBy
 from gradysim.config.keys.shapes import Below, angle, bit_rate, level
-from gradysim.config.kinds import Kind
+from gradysim.config.value.expression import parse_value
+from gradysim.config.value.kinds import Kind
 
 
 def test_a_key_stands_below_its_path_and_goes_to_its_struct() -> None:

@@ -1,0 +1,62 @@
+"""`interval = 5m` is five metres, and a minute is `min`; `timeout = 5Hz` is no time either.
+
+Where something says what a parameter of a protocol measures (see parameter_unit), all else is refused. Where
+nothing does, any quantity is taken and converted to its SI unit: a protocol that takes its interval for
+seconds then has 5 of them in the place of 300. Names that end in a word for times leave little doubt, so that
+other quantities are told; they are taken all the same, as an interval may be one of metres. A `jitter` may
+well be, and nobody has one of minutes.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+
+from gradysim.config.errors.config_error import BadValue
+from gradysim.config.errors.source import Source
+from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.protocol.parameter_unit import unit_of
+from gradysim.config.value.expression import parse_value
+from gradysim.config.value.parameter_stream import ParameterDraws
+from gradysim.config.value.quantity import Quantity
+from gradysim.config.value.units import Dimension, Unit
+
+_TIMES = ("interval", "timeout", "period", "delay", "duration")
+"""What names of times end in."""
+
+_METRES_IN_A_LIST = re.compile(r"[\d.]\s*m\b|[,.][^{}]*\}\s*m\b", re.ASCII)
+"""`${5m, 10m}`, `${5, 10}m` and `${5..10}m`, but not `${runnumber}m`."""
+
+
+def doubtful_times(nodes: Iterable[NodeSpec]) -> Iterator[str]:
+    """Yield one line of text for each, "FILE:LINE: warning: ..."."""
+    seen: set[int] = set()  # nodes with the same lines in force share their sources
+    told: set[Source] = set()
+    for spec in nodes:
+        if id(spec.protocol_sources) in seen:
+            continue
+        seen.add(id(spec.protocol_sources))
+        for name, source in spec.protocol_sources.items():
+            if not _is_named_like_a_time(name) or unit_of(spec.protocol, name) is not None:
+                continue
+            unit = _unit_of_no_time(source.value)
+            if source not in told and unit:
+                told.add(source)
+                hint = "; a minute is `min`" if unit == "m" else ""
+                yield (
+                    f"{source}: warning: `{name}` is given in `{unit}`, and by its name it is a time{hint}"
+                    f" (in {spec.protocol.__name__}, "
+                    f'`{name}: Annotated[float, "{unit}"]` says that it is none)'
+                )
+
+
+def _is_named_like_a_time(name: str) -> bool:
+    return name.casefold().endswith(_TIMES)
+
+
+def _unit_of_no_time(text: str) -> str:
+    """The name of the unit that the text has, if it is none of times; else ""."""
+    try:
+        value = parse_value(text, ParameterDraws(0, ""))  # whatever is drawn, its unit is the same
+    except BadValue:  # with a variable in it, or a list of values
+        return "m" if "${" in text and '"' not in text and _METRES_IN_A_LIST.search(text) else ""
+    unit: Unit | None = value.unit if isinstance(value, Quantity) else None
+    return unit.name if unit is not None and unit.dimension is not Dimension.TIME else ""

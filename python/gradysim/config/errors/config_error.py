@@ -1,0 +1,63 @@
+"""The errors of a configuration: for the person who wrote the file, with the place and what was expected."""
+
+from pathlib import Path
+from typing import Self
+
+from gradysim.config.errors.source import Source
+
+_MOST_LETTERS = 200
+"""Of a value in a message. The corners of an outline would fill a screen before it says what is wrong."""
+
+
+class ConfigError(ValueError):
+    """A mistake in a configuration. Its text is "FILE:LINE: what is wrong; what was expected".
+
+    Attributes:
+        message: The text without the place.
+        source: The place, or None for a mistake that has none (a run number that does not exist).
+        file: The file of the place, or None.
+        line: The line of the place; 0 for an override, for a whole file and for no place.
+        key: The key concerned, or "".
+    """
+
+    def __init__(self, message: str, source: Source | None = None) -> None:
+        super().__init__(message, source)
+        self.message = message
+        self.source = source
+        self.file: Path | None = source.file if source else None
+        self.line = source.line if source else 0
+        self.key = source.key if source else ""
+
+    @classmethod
+    def at(cls, source: Source, text: str) -> Self:
+        """An error found elsewhere (the engine's check of a range, say) in the value at `source`."""
+        is_told = source.is_override or not source.key
+        return cls(text if is_told else f"{source.key} = {_shortened(source.value)}: {text}", source)
+
+    def __str__(self) -> str:
+        return f"{self.source}: {self.message}" if self.source else self.message
+
+
+def _shortened(value: str) -> str:
+    return value if len(value) <= _MOST_LETTERS else f"{value[: _MOST_LETTERS // 2]}…"
+
+
+class BadValue(ValueError):  # noqa: N818 - no error of its own: see below
+    """A text is not a value of the kind that was asked for. Who knows the place turns it into a ConfigError.
+
+    Attributes:
+        problem: What is wrong.
+        suggestion: "" or "; did you mean ...?", to be put at the end of the whole message.
+        expected: What was expected, if that is more to the point than what such values have to be in general.
+    """
+
+    def __init__(self, problem: str, suggestion: str = "", *, expected: str = "") -> None:
+        super().__init__(problem + suggestion)
+        self.problem = problem
+        self.suggestion = suggestion
+        self.expected = expected
+
+
+def format_config_error(error: ConfigError) -> str:
+    """The text that a user sees: "FILE:LINE: what is wrong; what was expected; did you mean ...?"."""
+    return str(error)

@@ -1,0 +1,160 @@
+"""Finds the entry that is in force for a parameter: the first one, in search order, whose pattern matches.
+
+A path is looked up in two parts: the name below the network (`uavs[3]`) and the rest (`mobility.speed`).
+Patterns are compiled once; which of them can match a rest is found once per rest, and what is left to do per
+node is one step for entries that name the node, and one match for each of the others.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+
+from gradysim.config.errors.config_error import BadValue, ConfigError
+from gradysim.config.file.reader import Entry
+from gradysim.config.keys.options import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
+from gradysim.config.matching.pattern import Pattern, compile_pattern
+from gradysim.config.value.drawing_functions import drawing_function_in
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """An entry with its place in the search order.
+
+    Attributes:
+        order: Its position among all entries; the least one that matches is in force.
+        rank: The position of its section; 0 is the command line, the highest is [General].
+        entry: The entry.
+        pattern: Its key, compiled.
+        parts: The pattern for the network, for the name below it and for the rest (which may be missing), or
+            None if `**` makes them uncertain.
+        draws: Whether its value is drawn, so that no two parameters have the same.
+    """
+
+    order: int
+    rank: int
+    entry: Entry
+    pattern: Pattern
+    parts: list[Pattern] | None
+    draws: bool
+
+    @property
+    def is_default(self) -> bool:
+        """Whether the entry says to look no further and to leave the default."""
+        return self.entry.text == "default"
+
+    def may_end_in(self, rest: str) -> bool:
+        """Whether paths that end in `rest` can match at all, judged by the last part; spares most matches."""
+        tail = self.pattern.tail
+        return tail is None or not rest or tail.matches(rest.rpartition(".")[2])
+
+    def name_pattern(self) -> Pattern | None:
+        """The part that names something below the network, if it is certain."""
+        return self.parts[1] if self.parts else None
+
+    def rest_pattern(self) -> Pattern | None:
+        """The part below that, if there is one and it is certain."""
+        return self.parts[2] if self.parts and len(self.parts) == 3 else None
+
+
+class Candidates:
+    """The entries that can match one rest below some name."""
+
+    def __init__(self, network: str, rest: str, found: Iterable[Found]) -> None:
+        self._prefix = f"{network}."
+        self._suffix = f".{rest}" if rest else ""
+        self._by_name: dict[str, Found] = {}
+        self._patterns: list[tuple[Found, Pattern | None]] = []
+        for candidate in found:
+            name = candidate.name_pattern()
+            if name is None:
+                self._patterns.append((candidate, None))
+            elif name.literal is None:
+                self._patterns.append((candidate, name))
+            else:
+                self._by_name.setdefault(name.literal, candidate)
+
+    def __bool__(self) -> bool:
+        return bool(self._by_name or self._patterns)
+
+    def first(self, name: str) -> Found | None:
+        """The entry in force for that name."""
+        best = self._by_name.get(name)
+        for candidate, pattern in self._patterns:
+            if best is not None and candidate.order > best.order:
+                break
+            if pattern is not None:
+                if pattern.matches(name):
+                    return candidate
+            elif candidate.pattern.matches(f"{self._prefix}{name}{self._suffix}"):
+                return candidate
+        return best
+
+
+class Lookup:
+    """All entries of a configuration, in search order.
+
+    Attributes:
+        network: What paths begin with.
+        options: The first entry of each option.
+        found: The entries of parameters in search order, without those that are OMNeT++'s alone.
+    """
+
+    def __init__(self, ranked: Sequence[tuple[int, Entry]]) -> None:
+        """Take entries in search order, each with its section's rank. A bad pattern is a ConfigError."""
+        self.options: dict[str, Entry] = {}
+        for _, entry in ranked:
+            if is_option(entry):
+                self.options.setdefault(entry.key, entry)
+        network = self.options.get("network")
+        self.network = network.text.strip('"').rpartition(".")[2] if network else "Network"
+        self.found = [
+            _compile(order, rank, entry)
+            for order, (rank, entry) in enumerate(ranked)
+            if not is_option(entry) and not is_ignored(entry)
+        ]
+        self._uncertain = [found for found in self.found if found.parts is None]
+        self._by_rest: dict[str | None, tuple[Pattern | None, list[Found]]] = {}
+        for found in self.found:
+            if found.parts is not None and found.parts[0].matches(self.network):
+                rest = found.rest_pattern()
+                self._by_rest.setdefault(rest.text if rest else None, (rest, []))[1].append(found)
+        self._candidates: dict[str, Candidates] = {}
+
+    def candidates(self, rest: str) -> Candidates:
+        """The entries that can match `NETWORK.<a name>.<rest>`, or `NETWORK.<a name>` for an empty rest."""
+        candidates = self._candidates.get(rest)
+        if candidates is None:
+            found = [uncertain for uncertain in self._uncertain if uncertain.may_end_in(rest)]
+            for pattern, entries in self._by_rest.values():
+                if pattern.matches(rest) if rest and pattern else not (rest or pattern):
+                    found += entries
+            found.sort(key=lambda candidate: candidate.order)
+            candidates = self._candidates[rest] = Candidates(self.network, rest, found)
+        return candidates
+
+    def first(self, name: str, rest: str = "") -> Found | None:
+        """The entry in force for one path."""
+        return self.candidates(rest).first(name)
+
+
+def is_option(entry: Entry) -> bool:
+    """Whether the key is one of an option: it has no dot."""
+    return "." not in entry.key
+
+
+def is_ignored(entry: Entry) -> bool:
+    """Whether an entry is OMNeT++'s alone, so that its value is not even looked at."""
+    parts = entry.key.split(".")
+    if len(parts) == 1:
+        return any(fnmatchcase(entry.key, option) for option in IGNORED_OPTIONS)
+    return parts[-1].startswith(IGNORED_ENDS) or (len(parts) > 2 and parts[1] in IGNORED_MODULES)
+
+
+def _compile(order: int, rank: int, entry: Entry) -> Found:
+    try:
+        pattern = compile_pattern(entry.key)
+    except BadValue as error:
+        raise ConfigError(f"{entry.key}: {error}", entry.source) from error
+    parts = pattern.split()
+    draws = bool(drawing_function_in(entry.text))
+    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None, draws)

@@ -1,0 +1,1 @@
+"""The nodes of a scenario as plain data, and how they are built from the entries in force."""

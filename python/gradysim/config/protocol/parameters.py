@@ -1,0 +1,64 @@
+"""The parameters of a protocol: its public class attributes that are plain values."""
+
+import re
+from dataclasses import replace
+from functools import cache, lru_cache
+
+from gradysim.config.protocol.parameter_unit import annotations_of, unit_of
+from gradysim.config.value.kinds import Kind, boolean, integer, number_in, si_number, text
+from gradysim.protocol.interface import IProtocol
+
+
+@cache
+def _float_of(unit: str | None) -> Kind:
+    return si_number() if unit is None else number_in(unit)
+
+
+@cache
+def _integer_of(unit: str | None) -> Kind:
+    number = "a whole number" if unit is None else f"a whole number of {unit}, without the unit"
+    return replace(integer(at_most=None), expected=f"{number}, as the parameter is an int")
+
+
+_BOOLEAN = boolean()
+_TEXT = text()
+_CONTRACT = {*dir(IProtocol), *annotations_of(IProtocol)}
+"""Names that mean something to every environment."""
+
+
+@lru_cache(maxsize=1024)
+def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
+    """Names of the parameters that can be set, each with what its value has to be: the type of its default.
+
+    A default such as `delay: float = 0` is a float. Quantities are converted to the unit of the parameter, if
+    something says it, otherwise to SI units.
+    """
+    parameters: dict[str, Kind] = {}
+    for base in reversed(cls.__mro__):
+        if base in IProtocol.__mro__:
+            continue
+        annotations = annotations_of(base)
+        for name, default in vars(base).items():
+            if name.startswith("_") or name in _CONTRACT:
+                continue
+            kind = _kind_of(default, annotations.get(name), unit_of(cls, name))
+            if kind is not None:
+                parameters[name] = kind
+            else:
+                parameters.pop(name, None)
+    return parameters
+
+
+def _kind_of(default: object, annotation: object, unit: str | None) -> Kind | None:
+    if type(default) is bool:
+        return _BOOLEAN
+    if type(default) is float or (type(default) is int and _mentions_float(annotation)):
+        return _float_of(unit)
+    if type(default) is int:
+        return _integer_of(unit)
+    return _TEXT if type(default) is str else None
+
+
+def _mentions_float(annotation: object) -> bool:
+    text_of_it = annotation.__name__ if isinstance(annotation, type) else str(annotation)
+    return re.search(r"\bfloat\b", text_of_it) is not None

@@ -1,0 +1,31 @@
+"""A hash of what a file and a command line say of one run: whether a result is that of the same settings."""
+
+import hashlib
+from collections.abc import Iterable
+
+from gradysim.config.file.reader import Entry
+from gradysim.config.matching.lookup import is_ignored
+
+_OF_NO_RUN = ("repeat", "constraint", "description", "extends", "abstract")
+"""Options that say which runs there are, or nothing of what happens in them."""
+
+SAME_IN_ALL_RUNS = {"runnumber": "${runnumber}", "repetition": "${repetition}"}
+"""Values of variables for the hash: runs that differ in their numbers alone are of the same settings."""
+
+_LENGTH = 16
+"""Hexadecimal digits, as many as a fingerprint has."""
+
+
+def entries_of_the_hash(ranked: Iterable[tuple[int, Entry]]) -> list[tuple[int, Entry]]:
+    """Return the entries that count: the first one of each key, if it says something of a run."""
+    first: dict[str, tuple[int, Entry]] = {}
+    for rank, entry in ranked:
+        if entry.key not in _OF_NO_RUN and not is_ignored(entry):
+            first.setdefault(entry.key, (rank, entry))
+    return list(first.values())
+
+
+def settings_hash(entries: Iterable[tuple[int, Entry]]) -> str:
+    """Return the hash of entries whose variables have been replaced: of keys, values and their order."""
+    text = "\0".join(f"{entry.key}={entry.text}" for _, entry in entries)
+    return hashlib.sha256(text.encode()).hexdigest()[:_LENGTH]

@@ -1,0 +1,174 @@
+"""Functions that draw the value of a parameter: `uniform(0m, 1km)`, by OMNeT++'s names and arguments.
+
+The distributions are our own, so that results agree on every platform. All values of a call measure the same,
+and so does the number that is drawn.
+"""
+
+import math
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from gradysim.config.errors.config_error import BadValue
+from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.value.parameter_stream import ParameterStream
+from gradysim.config.value.quantity import Number, Quantity
+from gradysim.config.value.units import Dimension
+
+_MOST_INTEGERS = 2**64
+_FARTHEST = 3.0
+"""Standard deviations by which the mean of `truncnormal` may be negative: from there on fewer than one in a
+thousand numbers would be left."""
+
+
+@dataclass(frozen=True)
+class _Function:
+    """One function: how it is written, with the names of its values, and what draws."""
+
+    written: str
+    draw: Callable[[ParameterStream, Sequence[Quantity]], Number]
+
+    @property
+    def value_count(self) -> int:
+        return self.written.count(",") + 1
+
+
+def draw(name: str, values: Sequence[Quantity], stream: ParameterStream) -> Quantity:
+    """The number that the function of that name draws, in the unit of its first value.
+
+    Raises:
+        BadValue: The values do not go with the function or with each other.
+    """
+    function = FUNCTIONS[name]
+    if len(values) != function.value_count:
+        one_more = len(values) == function.value_count + 1
+        hint = "; generators have no numbers here, each parameter has its own" if one_more else ""
+        takes = f"{function.value_count} value{'' if function.value_count == 1 else 's'}"
+        raise BadValue(f"`{function.written}` takes {takes}, not {len(values)}", hint)
+    try:
+        return Quantity(function.draw(stream, _in_one_unit(values)), values[0].unit)
+    except BadValue as error:
+        raise BadValue(f"`{name}`: {error.problem}", error.suggestion) from None
+
+
+def check_function(name: str) -> None:
+    """Raise BadValue if there is no function of that name."""
+    if name not in FUNCTIONS:
+        *names, last = FUNCTIONS
+        problem = f"there is no function `{name}`, only {', '.join(names)} and {last}"
+        raise BadValue(problem, did_you_mean(name, FUNCTIONS))
+
+
+def drawing_function_in(text: str) -> str:
+    """The name of the first function that a value calls, or "" if it draws nothing."""
+    return next((match[1] for match in _CALL_OR_TEXT.finditer(text) if match[1]), "")
+
+
+def _in_one_unit(values: Sequence[Quantity]) -> list[Quantity]:
+    """The values in the unit of the first one; all are finite."""
+    first = values[0]
+    for value in values:
+        if not math.isfinite(value.number):
+            raise BadValue(f"`{value}` is not finite")
+    return [value if value.unit == first.unit else _converted(value, first) for value in values]
+
+
+def _converted(value: Quantity, first: Quantity) -> Quantity:
+    if first.unit is None or value.unit is None or first.unit.dimension is not value.unit.dimension:
+        hint = _level_meant(value, first)
+        raise BadValue(f"`{first}` and `{value}` measure different things", hint)
+    if first.unit.logarithmic or value.unit.logarithmic:
+        raise BadValue(f"`{first}` and `{value}` have different units, and one is a logarithm")
+    return Quantity(0, first.unit).plus(value)
+
+
+def _level_meant(value: Quantity, first: Quantity) -> str:
+    """A hint for `normal(10dBm, 3dB)`: what spreads a level by 3 dB is written like the level itself."""
+    if value.unit is None or value.unit.dimension is not Dimension.LEVEL:
+        return ""
+    is_level = first.unit is not None and first.unit.logarithmic
+    return f"; did you mean `{Quantity(value.number, first.unit)}`?" if is_level else ""
+
+
+def _uniform(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """In [a, b): a + (b - a) u with u uniform in [0, 1); a if both are equal."""
+    low, high = _ordered(values)
+    start, end = float(low.number), float(high.number)
+    if not math.isfinite(end - start):
+        raise BadValue(f"`{low}` and `{high}` are too far apart")
+    number = start + (end - start) * stream.uniform()
+    return min(number, math.nextafter(end, start))  # which the sum may be rounded to
+
+
+def _intuniform(stream: ParameterStream, values: Sequence[Quantity]) -> int:
+    """One of the whole numbers a … b, both included."""
+    low, high = _ordered(values)
+    first, last = _whole(low), _whole(high)
+    if last - first >= _MOST_INTEGERS:
+        raise BadValue(f"`{low}` and `{high}` are too far apart")
+    return first + stream.uniform_int(last - first + 1)
+
+
+def _exponential(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """-mean ln(1 - u): the inverse of the distribution function.
+
+    Source: L. Devroye, "Non-Uniform Random Variate Generation", 1986, II.2.
+    """
+    mean = _not_negative(values[0], "mean")
+    return mean * -math.log(1.0 - stream.uniform())
+
+
+def _normal(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """Mean + stddev r cos(2 pi v) with r = sqrt(-2 ln(1 - u)), as the engine's fading has it.
+
+    Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of
+    Mathematical Statistics 29, 1958.
+    """
+    mean, deviation = float(values[0].number), _not_negative(values[1], "standard deviation")
+    u, v = stream.uniform_pair()
+    return mean + deviation * (math.sqrt(-2.0 * math.log(1.0 - u)) * math.cos(2.0 * math.pi * v))
+
+
+def _truncnormal(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """The part of the normal distribution that is not negative: drawn again until it is."""
+    mean, deviation = float(values[0].number), _not_negative(values[1], "standard deviation")
+    if mean < -_FARTHEST * deviation:
+        given = f"a mean of `{values[0]}` and a standard deviation of `{values[1]}`"
+        raise BadValue(f"with {given} not one number in a thousand is positive")
+    while (number := _normal(stream, values)) < 0:
+        pass
+    return number
+
+
+def _ordered(values: Sequence[Quantity]) -> tuple[Quantity, Quantity]:
+    low, high = values
+    if low.number > high.number:
+        raise BadValue(f"`{low}` is more than `{high}`", "; the smaller one comes first")
+    return low, high
+
+
+def _whole(value: Quantity) -> int:
+    if isinstance(value.number, int):
+        return value.number
+    if isinstance(value.number, Fraction) and value.number.denominator == 1:  # of another unit, 1km in metres
+        return value.number.numerator
+    raise BadValue(f"`{value}` is no whole number")
+
+
+def _not_negative(value: Quantity, what: str) -> float:
+    if value.number < 0:
+        raise BadValue(f"the {what} `{value}` is negative")
+    return float(value.number)
+
+
+FUNCTIONS: dict[str, _Function] = {
+    "uniform": _Function("uniform(a, b)", _uniform),
+    "intuniform": _Function("intuniform(a, b)", _intuniform),
+    "exponential": _Function("exponential(mean)", _exponential),
+    "normal": _Function("normal(mean, stddev)", _normal),
+    "truncnormal": _Function("truncnormal(mean, stddev)", _truncnormal),
+}
+"""By name."""
+
+_CALL_OR_TEXT = re.compile(rf'"(?:[^"\\]|\\.)*"|\b({"|".join(FUNCTIONS)})\s*\(', re.ASCII | re.DOTALL)

@@ -1,0 +1,121 @@
+"""A number with a unit. Exact until it is converted, so that 0.3ms is the same double as 0.0003s."""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from gradysim.config.errors.config_error import BadValue
+from gradysim.config.value.units import Dimension, Unit
+
+Number = int | Fraction | float
+"""An int was written without point and exponent; a Fraction is any other exact number; a float is inf, nan
+or a rounded result."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number and its unit, None for a plain number. BadValue if no double is as large as the number."""
+
+    number: Number
+    unit: Unit | None = None
+
+    def __post_init__(self) -> None:
+        try:
+            float(self.number)
+        except OverflowError:
+            raise BadValue("the result is too large for a number") from None
+
+    def __str__(self) -> str:
+        number = self.number if isinstance(self.number, int) else float(self.number)
+        return f"{number}{self.unit.name if self.unit else ''}"
+
+    def to(self, unit: Unit) -> float:
+        """The number in another unit of the same dimension, rounded once.
+
+        Raises:
+            BadValue: The dimensions differ, there is no unit, or the result is no double.
+        """
+        if self.unit is None:
+            raise BadValue(f"`{self}` has no unit")
+        if self.unit.dimension is not unit.dimension:
+            hint = "; `m` is metres, a minute is `min`" if (self.unit.name, unit.name) == ("m", "s") else ""
+            raise BadValue(f"`{self.unit.name}` is the unit of {_plain_name(self.unit.dimension)}{hint}")
+        try:
+            return float(self._to(unit))
+        except OverflowError:
+            raise BadValue(f"`{self}` is too large for a number") from None
+
+    def _to(self, unit: Unit) -> Number:
+        assert self.unit is not None
+        if self.unit == unit:
+            return self.number
+        if unit.logarithmic:
+            ratio = self.unit.factor / unit.factor
+            if self.unit.logarithmic:
+                return float(self.number) + 10.0 * math.log10(ratio)
+            linear = float(self.number * ratio)
+            if linear <= 0.0:
+                raise BadValue(f"`{self}` has no logarithm, so it is no number of {unit.name}")
+            return 10.0 * math.log10(linear)
+        if self.unit.logarithmic:
+            return math.pow(10.0, float(self.number) / 10.0) * float(self.unit.factor / unit.factor)
+        scale = self.unit.factor / unit.factor
+        if isinstance(self.number, float):
+            return self.number * float(scale)
+        exact: Fraction = self.number * scale
+        return exact
+
+    def plus(self, other: "Quantity", sign: int = 1) -> "Quantity":
+        """The sum, in the unit of this one (the difference for sign = -1)."""
+        number = other.number
+        if self.unit != other.unit:
+            if self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension:
+                raise BadValue(f"`{self}` and `{other}` measure different things and cannot be added")
+            if self.unit.logarithmic or other.unit.logarithmic:
+                raise BadValue(f"`{self}` and `{other}` cannot be added, one is a logarithm")
+            number = other._to(self.unit)
+        elif self.unit is not None and self.unit.logarithmic:
+            raise BadValue(f"`{self}` and `{other}` cannot be added, they are logarithms")
+        return Quantity(self.number + sign * number, self.unit)
+
+    def times(self, other: "Quantity") -> "Quantity":
+        """The product; one of the two is a plain number."""
+        if self.unit is not None and other.unit is not None:
+            raise BadValue(f"`{self}` times `{other}` has no unit here")
+        return Quantity(self.number * other.number, self.unit or other.unit)
+
+    def over(self, other: "Quantity") -> "Quantity":
+        """The quotient; by a plain number, or of two quantities of one dimension."""
+        divisor = other.number
+        if other.unit is not None:
+            if (
+                self.unit is None
+                or self.unit.dimension is not other.unit.dimension
+                or self.unit.logarithmic
+                or other.unit.logarithmic
+            ):
+                raise BadValue(f"`{self}` divided by `{other}` has no unit here")
+            divisor = other._to(self.unit)
+        if divisor == 0:
+            raise BadValue(f"`{self}` is divided by zero")
+        if isinstance(self.number, float) or isinstance(divisor, float):
+            quotient: Number = float(self.number) / float(divisor)
+        else:
+            quotient = Fraction(self.number) / divisor
+        return Quantity(quotient, self.unit if other.unit is None else None)
+
+    def power(self, other: "Quantity") -> "Quantity":
+        """A plain number to the power of a plain number."""
+        if self.unit is not None or other.unit is not None:
+            raise BadValue(f"`{self}` ^ `{other}`: powers are for plain numbers")
+        base, exponent = self.number, other.number
+        if isinstance(base, int) and isinstance(exponent, int) and abs(base) < 2**32 and 0 <= exponent <= 64:
+            return Quantity(int(base**exponent))
+        try:
+            return Quantity(math.pow(base, exponent))
+        except (ValueError, OverflowError):
+            raise BadValue(f"`{self}` ^ `{other}` is no number") from None
+
+
+def _plain_name(dimension: Dimension) -> str:
+    return dimension.value.partition(" such as ")[0]

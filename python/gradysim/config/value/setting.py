@@ -1,0 +1,86 @@
+"""Reads the value of an entry as what its key wants it to be."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from gradysim.config.errors.config_error import BadValue, ConfigError
+from gradysim.config.errors.source import Source
+from gradysim.config.file.reader import Entry
+from gradysim.config.value.drawing_functions import drawing_function_in
+from gradysim.config.value.expression import Value, parse_value
+from gradysim.config.value.kinds import Kind, Scalar
+from gradysim.config.value.parameter_stream import ParameterDraws
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A value with the place where it was written, for errors that come up later."""
+
+    value: Scalar
+    source: Source
+
+
+class SettingReader:
+    """Reads values; each entry once for each kind, however many nodes it is in force for, unless it draws."""
+
+    def __init__(self, seed: int = 0) -> None:
+        """For the run with that seed."""
+        self._seed = seed
+        self._settings: dict[tuple[int, int], tuple[Entry, Kind, Setting]] = {}
+
+    def setting(self, entry: Entry, kind: Kind, path: str = "") -> Setting:
+        """The value of an entry. Raises ConfigError with its place if it is not of that kind.
+
+        `path` is the parameter that it is for, from below the network; without one nothing is drawn.
+        """
+        key = (id(entry), id(kind))
+        known = self._settings.get(key)
+        if known is None:
+            if path and drawing_function_in(entry.text):
+                drawn = read_scalar(entry, kind, path, ParameterDraws(self._seed, path))
+                return Setting(drawn, entry.source)
+            # Entry and kind are kept beside the value, so that their ids are not given to others.
+            setting = Setting(read_scalar(entry, kind, path), entry.source)
+            known = self._settings[key] = (entry, kind, setting)
+        return known[2]
+
+    def files(self) -> list[Path]:
+        """The files that the values read up to now name."""
+        return [
+            Path(str(setting.value))
+            for _, kind, setting in self._settings.values()
+            if kind.is_file and setting.value
+        ]
+
+    def scalar(self, entry: Entry, kind: Kind, path: str = "") -> Scalar:
+        """Only the value."""
+        return self.setting(entry, kind, path).value
+
+
+def read_scalar(entry: Entry, kind: Kind, path: str = "", draws: ParameterDraws | None = None) -> Scalar:
+    """The value of an entry. Raises ConfigError with its place if it is not of that kind.
+
+    `path` is the parameter that it is for, which the error tells if the key does not. It may draw if `draws`
+    are given.
+    """
+    written: Value | None = None
+    try:
+        written = _value_of(entry, kind, draws)
+        value = kind.convert(written)
+        return str(entry.source.file.parent / str(value)) if kind.is_file and value else value
+    except BadValue as error:
+        is_of_one_run = "${" in entry.source.value and "${" not in entry.text
+        this = f"that is {entry.text}: " if is_of_one_run else ""
+        if draws is not None and written is not None:
+            this += f"that is {written} for {path}: "
+        elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
+            this += f"for {path}: "
+        text = f"{this}{error.problem}; expected {kind.expected}{error.suggestion}"
+        raise ConfigError.at(entry.source, text) from error
+
+
+def _value_of(entry: Entry, kind: Kind, draws: ParameterDraws | None) -> Value:
+    """The value; where a text is meant, an override needs no quotes, which a shell takes away."""
+    if kind.is_text and entry.source.is_override and not entry.text.startswith('"'):
+        return entry.text
+    return parse_value(entry.text, draws)

@@ -1,0 +1,85 @@
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.source import Source
+from gradysim.config.file.reader import Entry
+from gradysim.config.matching.lookup import Lookup
+from gradysim.config.matching.pattern import compile_pattern
+
+
+def entries(*keys: str) -> list[tuple[int, Entry]]:
+    """Entries in search order; the value is the position."""
+    return [
+        (1, Entry(key, str(order), Source(Path("a.ini"), order + 1, key), "General"))
+        for order, key in enumerate(keys)
+    ]
+
+
+def in_force(lookup: Lookup, name: str, rest: str = "") -> str | None:
+    found = lookup.first(name, rest)
+    return found.entry.text if found else None
+
+
+def test_the_first_match_wins() -> None:
+    lookup = Lookup(entries("*.uavs[3].x.y", "*.uavs[*].x.y", "**.y", "*.uavs[4].x.y"))
+    assert in_force(lookup, "uavs[3]", "x.y") == "0"
+    assert in_force(lookup, "uavs[4]", "x.y") == "1"
+    assert in_force(lookup, "sensors[4]", "x.y") == "2"
+    assert in_force(lookup, "sensors[4]", "x.z") is None
+
+
+def test_paths_of_two_parts() -> None:
+    lookup = Lookup(entries("*.numUavs.x", "*.numUavs", "**.numSensors"))
+    assert in_force(lookup, "numUavs") == "1"
+    assert in_force(lookup, "numSensors") == "2"
+
+
+def test_paths_begin_with_the_name_of_the_network() -> None:
+    ranked = entries("Other.a.b", "Network.a.b")
+    assert in_force(Lookup(ranked), "a", "b") == "1"
+    network = Entry("network", '"pkg.Other"', Source(Path("a.ini"), 9), "General")
+    assert in_force(Lookup([*ranked, (1, network)]), "a", "b") == "0"
+
+
+def test_what_omnetpp_alone_reads_is_left_out() -> None:
+    keys = [
+        "*.visualizer.a.b",
+        "**.visualizer.**.c",
+        "**.cmdenv-log-level",
+        "*.uavs[*].x.y",
+        "*.uavs[*].protocol.network",
+    ]
+    assert [found.entry.key for found in Lookup(entries(*keys)).found] == keys[3:]
+
+
+def test_a_bad_pattern_is_an_error_with_its_line() -> None:
+    with pytest.raises(ConfigError) as caught:
+        Lookup(entries("*.a.b", "*.a{.b"))
+    assert (
+        str(caught.value)
+        == "a.ini:2: *.a{.b: `{` is not closed; expected `}` after it (a plain brace is written `\\{`)"
+    )
+
+
+KEYS = st.from_regex(
+    r"(\*|\*\*|N)\.([ab*?]{1,2}(\[(\*|0|1|1\.\.|\*\*)\])?)(\.(x|\*|\*\*|x\.y|\*\*\.y|z))?",
+    fullmatch=True,
+)
+
+
+@given(
+    st.lists(KEYS, max_size=6),
+    st.sampled_from(["a", "a[0]", "a[1]", "ab[2]"]),
+    st.sampled_from(["", "x", "x.y", "z.x.y"]),
+)
+def test_agrees_with_matching_whole_paths_one_by_one(keys: list[str], name: str, rest: str) -> None:
+    path = ".".join(["Network", name, *([rest] if rest else [])])
+    expected = next(
+        (str(order) for order, key in enumerate(keys) if compile_pattern(key).matches(path)),
+        None,
+    )
+    assert in_force(Lookup(entries(*keys)), name, rest) == expected

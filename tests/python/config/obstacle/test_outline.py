@@ -1,0 +1,105 @@
+"""Outlines of obstacles that enclose nothing or cross themselves."""
+
+import math
+from itertools import combinations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing, sides_cross
+
+SQUARE: Ring = ((0, 0), (10, 0), (10, 10), (0, 10))
+
+
+def test_corners_on_one_line_enclose_nothing() -> None:
+    assert encloses_nothing(((0, 0), (1, 2), (3, 6)))
+    assert not encloses_nothing(SQUARE)
+
+
+@pytest.mark.parametrize(
+    "rings",
+    [
+        [SQUARE],
+        [SQUARE[::-1]],
+        [SQUARE, ((3, 3), (3, 7), (7, 7))],
+        [SQUARE, ((0, 3), (0, 7), (7, 7))],  # a courtyard at the wall
+        [((0, 0), (10, 0), (10, 0), (10, 10), (0, 10))],  # a corner twice
+        [((0, 0), (5, 0), (10, 0), (10, 10), (0, 10))],  # a corner that is none
+        [((0, 0), (10, 0), (10, 10), (10, 20), (10, 10), (0, 10))],  # there and back
+        [((0, 0), (5, 5), (10, 0), (10, 10), (5, 5), (0, 10))],  # two triangles that meet in a corner
+        [((0, 0), (10, 0), (10, 10), (5, -0.05), (0, 10))],  # touches as far as anybody can know
+        [((0, 0), (10, 0.05), (10, 10), (0, 10)), ((3, 0), (7, 0), (5, 5))],  # at the wall but for rounding
+    ],
+)
+def test_sides_that_touch_do_not_cross(rings: list[Ring]) -> None:
+    assert crossing_sides(rings) is None
+
+
+def test_finds_the_sides_that_cross() -> None:
+    bow_tie = ((0.0, 0.0), (10.0, 0.0), (0.0, 10.0), (10.0, 10.0))
+    assert crossing_sides([bow_tie]) == ((0, 1), (0, 3))
+    assert crossing_sides([SQUARE, ((5, 5), (5, 7), (12, 6))]) == ((0, 1), (1, 1))
+
+
+def star(radii: list[float], turned_rad: float = 0.0) -> list[tuple[float, float]]:
+    angles = [turned_rad + 2 * math.pi * index / len(radii) for index in range(len(radii))]
+    return [(r * math.cos(angle), r * math.sin(angle)) for r, angle in zip(radii, angles, strict=True)]
+
+
+@given(st.lists(st.floats(1, 100), min_size=4, max_size=12), st.floats(0, 7))
+def test_a_star_does_not_cross_itself(radii: list[float], turned_rad: float) -> None:
+    assert crossing_sides([tuple(star(radii, turned_rad))]) is None
+
+
+@given(st.integers(4, 12), st.floats(0, 7), st.data())
+def test_two_corners_exchanged_make_sides_cross(count: int, turned_rad: float, data: st.DataObject) -> None:
+    ring = star([10.0] * count, turned_rad)
+    at = data.draw(st.integers(0, count - 2))
+    ring[at : at + 2] = reversed(ring[at : at + 2])
+    assert crossing_sides([tuple(ring)]) is not None
+
+
+def comb(teeth: int, turned_rad: float, length_m: float = 100.0) -> Ring:
+    """A wall with long teeth, which all overlap as seen from their side."""
+    corners = [(-1.0, 0.0)]
+    for y in range(0, 2 * teeth, 2):
+        corners += [(length_m, y), (length_m, y + 1), (0.0, y + 1), (0.0, y + 2)]
+    corners.append((-1.0, 2.0 * teeth))
+    cos, sin = math.cos(turned_rad), math.sin(turned_rad)
+    return tuple((cos * x - sin * y, sin * x + cos * y) for x, y in corners)
+
+
+@given(st.integers(1, 60), st.floats(0, 7))
+def test_the_teeth_of_a_comb_do_not_cross(teeth: int, turned_rad: float) -> None:
+    assert crossing_sides([comb(teeth, turned_rad)]) is None
+
+
+@given(st.integers(20, 60), st.floats(0, 7), st.data())
+def test_one_bent_tooth_of_a_comb_is_found(teeth: int, turned_rad: float, data: st.DataObject) -> None:
+    at = data.draw(st.integers(0, teeth - 2))
+    ring = list(comb(teeth, turned_rad))
+    ring[1 + 4 * at] = ring[1 + 4 * (at + 1) + 2]  # the tip is bent across the next tooth
+    found = crossing_sides([tuple(ring)])
+    assert found is not None
+    assert all(4 * at <= corner <= 4 * (at + 2) for _, corner in found)
+
+
+coordinates = st.floats(-50, 50)
+corners_of_a_ring = st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=80).map(tuple)
+
+
+@given(st.lists(corners_of_a_ring, min_size=1, max_size=3))
+def test_agrees_with_the_comparison_of_each_side_with_each(rings: list[Ring]) -> None:
+    sides = {
+        (ring, corner): (corners[corner], corners[(corner + 1) % len(corners)])
+        for ring, corners in enumerate(rings)
+        for corner in range(len(corners))
+    }
+    crossing = {
+        (one, other)
+        for one, other in combinations(sorted(sides), 2)
+        if sides_cross(*sides[one], *sides[other])
+    }
+    found = crossing_sides(rings)
+    assert found in crossing if crossing else found is None
