@@ -12,15 +12,11 @@
 """
 
 from gradysim.config.errors.config_error import ConfigError, format_config_error
+from gradysim.config.errors.source import Source
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.scenario import (
-    CommunicationMediumSpec,
-    NodeSpec,
-    Scenario,
-    Setting,
-    Source,
-    load_scenarios,
-)
+from gradysim.config.scenario import CommunicationMediumSpec, Scenario, load_scenarios
+from gradysim.config.value.setting import Setting
 
 __all__ = [
     "CommunicationMediumSpec",

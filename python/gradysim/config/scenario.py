@@ -33,9 +33,6 @@ from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
 from gradysim.protocol.checked_values import checked_number
 
-__all__ = ["CommunicationMediumSpec", "NodeSpec", "Scenario", "Setting", "Source", "load_scenarios"]
-
-
 MAX_NAMES = 20
 """Configurations that a message lists."""
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import did_you_mean
-from gradysim.config.scenario import NodeSpec, Scenario
+from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at
 from gradysim.integrated.ini_terms import in_ini_terms

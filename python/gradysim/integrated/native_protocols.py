@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, cast
 
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeParameter, NativeProtocol
 from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.scenario import NodeSpec
 from gradysim.config.value.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.node.interface_spec import InterfaceSpec
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
-from gradysim.config.scenario import NodeSpec, Scenario, Setting
+from gradysim.config.scenario import Scenario
+from gradysim.config.value.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.integrated.native_protocols import is_native, set_native_protocol

@@ -3,9 +3,10 @@
 from collections.abc import Iterable
 
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeProtocol, text_of_only_integrated
 from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.scenario import NodeSpec, Scenario
+from gradysim.config.scenario import Scenario
 from gradysim.results.run_file import run_name
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.copy_ledger import CopyLedger

@@ -6,8 +6,11 @@ from pathlib import Path
 
 import gradysim.integrated.run
 import gradysim.prototype.run
+from gradysim.config.errors.source import Source
 from gradysim.config.node.interface_spec import InterfaceSpec
-from gradysim.config.scenario import CommunicationMediumSpec, NodeSpec, Scenario, Setting, Source
+from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.scenario import CommunicationMediumSpec, Scenario
+from gradysim.config.value.setting import Setting
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.results.run_result import RunResult

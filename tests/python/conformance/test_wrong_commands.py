@@ -11,7 +11,8 @@ from typing import Any, cast
 import pytest
 from perfect_channel import MODES, Case
 
-from gradysim.config.scenario import Setting, Source
+from gradysim.config.errors.source import Source
+from gradysim.config.value.setting import Setting
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
 from gradysim.protocol.interface import IProvider
 from gradysim.protocol.messages.communication import (

@@ -3,7 +3,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import Setting, Source
+from gradysim.config.errors.source import Source
+from gradysim.config.value.setting import Setting
 from gradysim.integrated.network import (
     build_network,
     check_scenario,

@@ -3,7 +3,6 @@
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.obstacle.obstacle_spec import DEFAULT_MATERIAL
 from gradysim.config.value.kinds import boolean, choice, coordinate, integer, number, text
 
 MATERIALS = (
@@ -19,6 +18,9 @@ MATERIALS = (
     "metal",
 )
 """The names in the engine's table of materials."""
+
+DEFAULT_MATERIAL = "concrete"
+"""Of obstacles that do not say theirs."""
 
 _LOSSES = ("IdealObstacleLoss", "DielectricObstacleLoss")
 

@@ -18,8 +18,8 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import misspelt
 from gradysim.config.errors.sibling_files import file_meant
 from gradysim.config.errors.source import Source
-from gradysim.config.keys.environment import OBSTACLE_FILE
-from gradysim.config.obstacle.obstacle_spec import DEFAULT_MATERIAL, ObstacleSpec
+from gradysim.config.keys.environment import DEFAULT_MATERIAL, OBSTACLE_FILE
+from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
 

@@ -4,10 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gradysim.config.errors.source import Source
+from gradysim.config.keys.environment import DEFAULT_MATERIAL
 from gradysim.config.obstacle.outline import Ring
-
-DEFAULT_MATERIAL = "concrete"
-"""Of obstacles that do not say theirs."""
 
 
 @dataclass(frozen=True)

@@ -6,11 +6,17 @@ from pathlib import Path
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
-from gradysim.config.keys.environment import NUM_OBSTACLES, OBSTACLE_FILE, OBSTACLE_KEYS, obstacle_path
+from gradysim.config.keys.environment import (
+    DEFAULT_MATERIAL,
+    NUM_OBSTACLES,
+    OBSTACLE_FILE,
+    OBSTACLE_KEYS,
+    obstacle_path,
+)
 from gradysim.config.keys.key import Key
 from gradysim.config.matching.lookup import Lookup
 from gradysim.config.obstacle.geojson import read_geojson
-from gradysim.config.obstacle.obstacle_spec import DEFAULT_MATERIAL, ObstacleSpec
+from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.value.setting import Setting, SettingReader
 from gradysim.protocol.position import Position, rotate_position_2d
