@@ -27,14 +27,18 @@ def user_for(wanted: str | None) -> str | None:
 
 
 def command_as(user: str | None, command: Sequence[str]) -> list[str]:
-    """Return the command that runs a command as a user; the same one for None.
+    """Return the command that runs a command as a user, None for who asks. It is killed when its parent ends.
+
+    An autopilot that has given up, over a parameter that it does not know, sees to nothing any more, not even
+    to the end of its connection; so the kernel does, where there is `setpriv`.
 
     ArduPilot ends when it cannot signal its parent, which nobody but root may do if the parent is root's. So
     `setpriv` gives up root's rights, and `timeout`, with no limit, stays as a parent of the same user; it
-    passes signals on. It is killed when whoever started it ends, and the autopilot ends with it.
+    passes signals on.
     """
+    mortal = ["setpriv", "--pdeathsig=KILL"]
     if user is None:
-        return list(command)
+        return [*(mortal if shutil.which("setpriv") else []), *command]
     group = str(pwd.getpwnam(user).pw_gid)
-    rights = ["setpriv", f"--reuid={user}", f"--regid={group}", "--clear-groups", "--no-new-privs"]
-    return [*rights, "--pdeathsig=KILL", "timeout", "0", *command]
+    rights = [f"--reuid={user}", f"--regid={group}", "--clear-groups", "--no-new-privs"]
+    return [*mortal, *rights, "timeout", "0", *mortal, *command]

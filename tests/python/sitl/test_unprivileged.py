@@ -1,6 +1,7 @@
 import getpass
 import os
 import subprocess
+import sys
 
 import pytest
 
@@ -24,7 +25,27 @@ def test_its_status_is_passed_on():
 
 def test_root_may_want_root():
     assert user_for(None) is None
+    assert subprocess.run(command_as(None, ["true"]), check=False, timeout=20).returncode == 0
+
+
+def test_without_the_tool_whoever_is_not_root_runs_it_as_it_is(monkeypatch):
+    monkeypatch.setenv("PATH", "")
     assert command_as(None, ["a", "b"]) == ["a", "b"]
+
+
+PARENT = """
+import os, signal, subprocess, sys
+child = subprocess.Popen(sys.argv[1:], stdout=subprocess.PIPE)
+child.stdout.readline()
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.parametrize("wanted", ["nobody", None])
+def test_it_ends_with_its_parent(wanted):
+    """What it holds open, here the standard error of all, is closed then."""
+    command = command_as(user_for(wanted), ["sh", "-c", "trap '' HUP TERM PIPE; echo; exec sleep 60"])
+    subprocess.run([sys.executable, "-c", PARENT, *command], stderr=subprocess.PIPE, check=False, timeout=20)
 
 
 def test_an_unknown_user_is_refused(monkeypatch):
