@@ -81,7 +81,7 @@ def options(
     Args:
         home: (latitude deg, longitude deg, altitude m); it looks North.
         speedup: Seconds of its clock for each wall second.
-        parameters: A file with its parameters.
+        parameters: A file with its parameters, seen from its working directory.
         instance: Shifts the ports that it opens besides, by ten each.
         system_id: Its MAVLink id, 1 to 255.
         port: Of 127.0.0.1, where it connects to for MAVLink.
@@ -104,7 +104,7 @@ def options(
 def parameter_file(*, system_id: int, help_text: str, more: Mapping[str, float]) -> str:
     """Return the text of a file of parameters for one vehicle; see `options`. `more` come last."""
     ids = {} if _takes_system_id(help_text) else {_SYSTEM_ID_OF_OLD: system_id}
-    return "".join(f"{name} {value:g}\n" for name, value in {**PARAMETERS, **ids, **more}.items())
+    return "".join(f"{name} {value:.9g}\n" for name, value in {**PARAMETERS, **ids, **more}.items())
 
 
 def _takes_system_id(help_text: str) -> bool:

@@ -84,7 +84,7 @@ class Fleet:
         folder = self._folder / str(identifier)
         folder.mkdir()
         self._hand_over(folder)
-        file = self._folder / f"{identifier}.parm"
+        file = folder / "defaults.parm"
         system_id = identifier % 255 + 1
         help_text = self._help_text()
         file.write_text(parameter_file(system_id=system_id, help_text=help_text, more=parameters or {}))
@@ -99,7 +99,9 @@ class Fleet:
             arguments = options(
                 home=home,
                 speedup=speedup,
-                parameters=file,
+                parameters=Path(
+                    file.name
+                ),  # A list to it if there is a comma, as the folder's path may have.
                 instance=instance,
                 port=server.sockets[0].getsockname()[1],
                 system_id=system_id,
@@ -109,6 +111,7 @@ class Fleet:
             process = AutopilotProcess(link.name, command, folder, console)
             self._processes.append(process)
             connection.explain = process.obituary
+            link.last_words = process.last_words
             await _connected(connection, process, timeout_s)
         finally:
             server.close()

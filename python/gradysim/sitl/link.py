@@ -30,6 +30,7 @@ class MavlinkLink:
         send_bytes: Takes what goes to the vehicle; set by who makes the connection.
         on_message: Called with each message of the autopilot.
         on_bytes: Called with all bytes that come, for who passes them on.
+        last_words: Returns what the autopilot's program printed last, if somebody knows.
     """
 
     def __init__(self, name: str) -> None:
@@ -41,6 +42,7 @@ class MavlinkLink:
         self.send_bytes: Callable[[bytes], None] = _discard
         self.on_message: Callable[[Message], None] = _discard
         self.on_bytes: Callable[[bytes], None] = _discard
+        self.last_words: Callable[[], str] = str
         self._dialect = load_dialect()
         self._codec = self._dialect.MAVLink(None, srcSystem=_GROUND_STATION, srcComponent=_MISSION_PLANNER)
         self._codec.robust_parsing = True

@@ -66,8 +66,12 @@ class AutopilotProcess:
             is_signal = signalled in set(signal.Signals)
             how = "the autopilot died of " + signal.Signals(signalled).name if is_signal else ""
             how = how or f"the autopilot ended with status {status}"
-        lines = self._console.read_text(errors="replace").splitlines()[-_LAST_LINES:]
-        return f"{how}; it printed last: {' | '.join(lines)}" if lines else f"{how}, and printed nothing"
+        printed = self.last_words()
+        return f"{how}; it printed last: {printed}" if printed else f"{how}, and printed nothing"
+
+    def last_words(self) -> str:
+        """Return the last lines that it printed, in one."""
+        return " | ".join(self._console.read_text(errors="replace").splitlines()[-_LAST_LINES:])
 
     def send(self, number: signal.Signals) -> None:
         """Send a signal to it and to what it started; no-op if all have ended."""

@@ -7,6 +7,7 @@ Times are wall times.
 import asyncio
 import math
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any
 
 from gradysim.protocol.position import geo_to_cartesian, squared_distance
@@ -51,6 +52,7 @@ class Vehicle:
         self.link = link
         self._dialect = load_dialect()
         self._commands = asyncio.Lock()
+        self._is_of_old = False
 
     @property
     def position(self) -> tuple[float, float, float] | None:
@@ -99,13 +101,27 @@ class Vehicle:
             dialect.MAVLINK_MSG_ID_SYS_STATUS: 1.0,
         }
         for identifier, rate_hz in rates_hz.items():
-            ack = await self._answer(
-                "telemetry", dialect.MAV_CMD_SET_MESSAGE_INTERVAL, identifier, round(1e6 / rate_hz)
-            )
-            if ack.result == dialect.MAV_RESULT_UNSUPPORTED:
-                self._stream_as_of_old(position_hz)
+            # Refused once is no reason to end: that may be the answer to a ground station's own wish.
+            await self._insist("telemetry", partial(self._ask_for, identifier, rate_hz), _CONFIRM_S)
+            if self._is_of_old:
+                self._request_stream(dialect.MAV_DATA_STREAM_POSITION, position_hz)
+                self._request_stream(dialect.MAV_DATA_STREAM_EXTENDED_STATUS, 1.0)
+                self._request_stream(dialect.MAV_DATA_STREAM_EXTRA3, 2.0)
                 return
-            self._check("telemetry", ack)
+
+    def restore_stream(self, position_hz: float) -> None:
+        """Ask again for positions, without waiting for an answer: somebody may have changed their rate."""
+        dialect = self._dialect
+        if self._is_of_old:
+            self._request_stream(dialect.MAV_DATA_STREAM_POSITION, position_hz)
+            return
+        identifier, interval_us = dialect.MAVLINK_MSG_ID_GLOBAL_POSITION_INT, round(1e6 / position_hz)
+        command = dialect.MAV_CMD_SET_MESSAGE_INTERVAL
+        self.link.send(
+            dialect.MAVLink_command_long_message(
+                *self.link.target, command, 0, identifier, interval_us, *([0] * 5)
+            )
+        )
 
     async def find_position(self, timeout_s: float) -> None:
         """Wait until the autopilot knows where it is, by GPS."""
@@ -239,19 +255,18 @@ class Vehicle:
             mode = self.link.latest["HEARTBEAT"].custom_mode
             raise self._failure(step, f"it left mode GUIDED for mode number {mode}")
 
-    def _stream_as_of_old(self, position_hz: float) -> None:
-        """Ask by REQUEST_DATA_STREAM, which has no answer, for what ArduCopter 3 has no command for."""
+    async def _ask_for(self, identifier: int, rate_hz: float) -> Message | None:
+        """Ask for a message; None, and `_is_of_old`, if it knows no such wish."""
         dialect = self._dialect
-        for stream, rate_hz in (
-            (dialect.MAV_DATA_STREAM_POSITION, position_hz),
-            (dialect.MAV_DATA_STREAM_EXTENDED_STATUS, 1.0),
-            (dialect.MAV_DATA_STREAM_EXTRA3, 2.0),
-        ):
-            self.link.send(
-                dialect.MAVLink_request_data_stream_message(
-                    *self.link.target, stream, max(1, round(rate_hz)), 1
-                )
-            )
+        command = dialect.MAV_CMD_SET_MESSAGE_INTERVAL
+        ack = await self._answer("telemetry", command, identifier, round(1e6 / rate_hz))
+        self._is_of_old = bool(ack.result == dialect.MAV_RESULT_UNSUPPORTED)
+        return None if self._is_of_old else ack
+
+    def _request_stream(self, stream: int, rate_hz: float) -> None:
+        """Ask by REQUEST_DATA_STREAM, which has no answer, for what ArduCopter 3 has no command for."""
+        rate = max(1, round(rate_hz))
+        self.link.send(self._dialect.MAVLink_request_data_stream_message(*self.link.target, stream, rate, 1))
 
     async def _answer(self, step: str, command: int, *parameters: float) -> Message:
         """Send a command until it is answered; return the COMMAND_ACK."""
@@ -313,6 +328,8 @@ class Vehicle:
     def _failure(self, step: str, why: str) -> SitlError:
         texts = list(dict.fromkeys(self.link.texts))[-3:]
         said = "; ".join(f'"{text}"' for text in texts) if texts else "nothing"
+        printed = "" if texts else self.link.last_words()
+        said += f"; it printed last: {printed}" if printed else ""
         return SitlError(f"{self.name}: {step}: {why}; the autopilot said: {said}")
 
 

@@ -87,6 +87,10 @@ def test_an_old_version_gets_its_id_as_a_parameter():
     assert "SYSID_THISMAV 8\n" in parameter_file(system_id=8, help_text=OLD, more={})
 
 
+def test_a_parameter_keeps_all_digits_that_an_autopilot_knows():
+    assert "MASK 16777215\n" in parameter_file(system_id=8, help_text=NEW, more={"MASK": 16777215})
+
+
 def test_more_parameters_win():
     lines = parameter_file(
         system_id=8, help_text=NEW, more={"BATT_MONITOR": 0, "WPNAV_ACCEL": 250}

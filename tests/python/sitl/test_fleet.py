@@ -126,6 +126,17 @@ def test_a_fleet_that_is_dropped_ends_too(toy_copter, tmp_path):
     assert list(tmp_path.glob("gradysim-sitl-*")) == []
 
 
+def test_the_path_of_its_folder_may_have_a_comma(toy_copter, tmp_path, monkeypatch):
+    folder = tmp_path / "a, b"
+    folder.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(folder))
+    fly(new_fleet(toy_copter()), ready)
+
+
+def test_a_message_that_seems_to_be_refused_is_asked_for_again(toy_copter):
+    fly(new_fleet(toy_copter({0: {"refuses_first": True}})), ready)
+
+
 def test_an_autopilot_that_does_not_connect_is_told(tmp_path):
     program = tmp_path / "sleeper"
     program.write_text('#!/bin/sh\n[ "$1" = --help ] || exec sleep 60\n')

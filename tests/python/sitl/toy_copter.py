@@ -19,6 +19,9 @@ hangs_at        it goes on so long, and then sends nothing
 old             it knows neither SET_MESSAGE_INTERVAL nor DO_SET_MODE, as ArduCopter 3
 stubborn        it ignores SIGTERM
 exits           it prints a line and ends with status 3 before it connects
+gives_up        it connects, prints a line and does nothing any more, whatever happens
+slow            its clock goes at half the pace
+refuses_first   the first wish for a message is refused, as if that were the answer to somebody else's
 """
 
 import json
@@ -35,6 +38,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 GUIDED, LAND = 4, 9
 EARTH_RADIUS_M = 6_371_000.0
 FIX_S = 2.0
+UNKNOWN = "NONESUCH"  # a parameter that it does not know
 
 
 def place(latitude, longitude, north, east):
@@ -84,6 +88,9 @@ class Copter:
         self.sent = {}
         self.lost = set()
         self.greetings = 0
+        files = options["--defaults"].split(",")
+        lines = [line for file in files for line in Path(file).read_text().splitlines()]
+        self.parameters = {name: float(value) for name, value in map(str.split, lines) if name != UNKNOWN}
 
     def run(self):
         while True:
@@ -95,7 +102,8 @@ class Copter:
                 for message in self.codec.parse_buffer(data) or ():
                     self.obey(message)
             wall = time.monotonic()
-            self.advance((wall - self.wall) * self.speedup)
+            pace = 0.5 if self.wrongs.get("slow") else 1.0
+            self.advance((wall - self.wall) * self.speedup * pace)
             self.wall = wall
 
     def advance(self, dt):
@@ -125,6 +133,7 @@ class Copter:
             "speed": self.speed,
             "velocity": self.velocity if moving else None,
             "greetings": self.greetings,
+            "parameters": self.parameters,
         }
 
     def move(self, dt):
@@ -195,6 +204,10 @@ class Copter:
             }
             for name in names[message.req_stream_id]:
                 self.intervals[name] = 1 / message.req_message_rate
+        elif kind == "PARAM_SET" and message.param_id in self.parameters:
+            self.send(
+                mavlink.MAVLink_param_value_message(message.param_id.encode(), message.param_value, 9, 1, 0)
+            )
         elif kind == "PARAM_SET" and message.param_id == "SIM_SPEEDUP":
             self.speedup = message.param_value
             self.begun = self.now
@@ -220,6 +233,8 @@ class Copter:
         if message.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
             if self.wrongs.get("old"):
                 return unsupported
+            if self.wrongs.pop("refuses_first", False):
+                return failed
             self.intervals[mavlink.mavlink_map[int(message.param1)].msgname] = message.param2 / 1e6
             return accepted
         if message.command == mavlink.MAV_CMD_DO_SET_MODE:
@@ -267,6 +282,10 @@ def main():
     else:
         signal.signal(signal.SIGTERM, lambda number, frame: sys.exit())
     copter = Copter(options, wrongs)
+    if wrongs.get("gives_up"):
+        print("invalid param", flush=True)
+        while True:
+            time.sleep(60)
     try:
         copter.run()
     finally:

@@ -1,5 +1,6 @@
 """Which autopilots fly the nodes, and how they are started."""
 
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -36,6 +37,8 @@ class ArdupilotMobilityConfiguration:
             for each `update_rate` is asked for.
         vehicle_addresses: Where the vehicles are if they are not simulated, by node id: "tcp:HOST:PORT" or
             "udpout:HOST:PORT" to connect to, "udpin:HOST:PORT" to listen on.
+        autopilot_parameters: ArduCopter's parameters by name, such as {"SIM_WIND_SPD": 5}, for simulated
+            autopilots; each has to confirm them.
         autopilot_user: Whom simulated autopilots belong to if root runs the simulation; None for root.
     """
 
@@ -54,6 +57,7 @@ class ArdupilotMobilityConfiguration:
     mavlink_streamrate: float = 10
     vehicle_addresses: Mapping[int, str] | None = None
     autopilot_user: str | None = "nobody"
+    autopilot_parameters: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
         for name, unit in (
@@ -66,6 +70,9 @@ class ArdupilotMobilityConfiguration:
             value = getattr(self, name)
             if not is_in_range(value, 0, above=True):
                 raise ValueError(f"{name} must be finite and > 0 {unit}".rstrip() + f", got {value!r}")
+        for name, value in (self.autopilot_parameters or {}).items():
+            if not is_in_range(value, -math.inf, above=True):
+                raise ValueError(f"the autopilot's parameter {name} must be a finite number, got {value!r}")
         check_reference(self.reference_coordinates)
         for address in (self.vehicle_addresses or {}).values():
             parse_address(address)

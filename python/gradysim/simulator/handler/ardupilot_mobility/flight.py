@@ -32,7 +32,16 @@ _SILENCE_S = 10.0
 _FARTHEST_START_M = 10_000.0
 """A real vehicle that is farther from its initial position than this has been given a wrong one."""
 
+_DEEPEST_START_M = 1.0
+"""Below ground, where no vehicle arrives."""
+
+_CLOCK_OFF_S = 1.0
+"""Simulated time by which an autopilot's clock may be off before somebody ought to know."""
+
 _HELLO_S = 1.0
+
+_RESTORE_S = 1.0
+"""Wall time after which positions come as often as they should again, whatever a ground station asked for."""
 
 
 class Flight:
@@ -55,6 +64,7 @@ class Flight:
         self._event_loop = event_loop
         self._configuration = configuration
         self._real_time = real_time
+        self._position_hz = max(configuration.mavlink_streamrate, 1 / configuration.update_rate)
         self._reference: Position = configuration.reference_coordinates
         self._link = MavlinkLink(f"node {node.id} ({label_node(node)})")
         self._link.on_message = self._note
@@ -79,9 +89,14 @@ class Flight:
         timeout_s = configuration.uav_api_startup_timeout
         vehicle = self._vehicle
         initial = self._node.position
+        if fleet is not None and initial[2] < -_DEEPEST_START_M:
+            raise SitlError(f"{vehicle.name}: its initial position is below the ground: z = {initial[2]:g} m")
         await self._connect(fleet, timeout_s)
         await vehicle.meet(timeout_s)
-        await vehicle.stream(max(configuration.mavlink_streamrate, 1 / configuration.update_rate))
+        if fleet is not None:
+            for name, value in (configuration.autopilot_parameters or {}).items():
+                await vehicle.set_parameter(name, value)
+        await vehicle.stream(self._position_hz)
         await vehicle.find_position(timeout_s)
         if fleet is None:
             self._check_distance(initial)
@@ -103,7 +118,7 @@ class Flight:
 
     async def attend(self) -> None:
         """Keep the vehicle flying, for ever. SitlError as soon as it is gone or does not obey any more."""
-        await asyncio.gather(self._watch(), self._pilot.attend())
+        await asyncio.gather(self._watch(), self._pilot.attend(), self._keep_positions_coming())
 
     def obey(self, command: MobilityCommand) -> None:
         """Carry out a command of the protocol."""
@@ -128,8 +143,17 @@ class Flight:
             self._deliver()
 
     def end(self) -> None:
-        """Note the state at the end."""
+        """Note the state at the end, and warn of a flight that was not at the simulation's pace."""
         self.report.battery_end = self._vehicle.battery_percent
+        error_s = self.report.clock_error_s
+        if abs(error_s) > _CLOCK_OFF_S:
+            side = "behind" if error_s < 0 else "ahead of"
+            _logger.warning(
+                "%s: its autopilot's clock was up to %.1f s %s simulated time; a smaller real_time may help",
+                self._link.name,
+                abs(error_s),
+                side,
+            )
 
     def close(self) -> None:
         """Leave the vehicle; no-op if that has happened."""
@@ -150,6 +174,7 @@ class Flight:
                 home_of(self._reference, self._node.position),
                 speedup=configuration.simulation_startup_speedup,
                 timeout_s=timeout_s,
+                parameters=configuration.autopilot_parameters,
             )
         else:
             address = (configuration.vehicle_addresses or {})[self._node.id]
@@ -161,6 +186,12 @@ class Flight:
         while self._link.lost is None:
             self._vehicle.say_hello()
             await asyncio.sleep(_HELLO_S)
+
+    async def _keep_positions_coming(self) -> None:
+        """Undo what a ground station, which speaks by the same connection, makes of their rate."""
+        while self._ground_station is not None:
+            await asyncio.sleep(_RESTORE_S)
+            self._vehicle.restore_stream(self._position_hz)
 
     async def _watch(self) -> None:
         vehicle = self._vehicle

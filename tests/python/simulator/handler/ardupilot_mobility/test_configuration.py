@@ -28,6 +28,12 @@ def test_a_place_that_is_none_is_refused(place):
         ArdupilotMobilityConfiguration(reference_coordinates=place)
 
 
+@pytest.mark.parametrize("value", [float("nan"), "1", None, True])
+def test_a_parameter_that_is_no_number_is_refused(value):
+    with pytest.raises(ValueError, match="the autopilot's parameter SIM_WIND_SPD must be a finite number"):
+        ArdupilotMobilityConfiguration(autopilot_parameters={"SIM_WIND_SPD": value})
+
+
 def test_an_address_that_is_none_is_refused():
     with pytest.raises(ValueError, match="expected the address of a vehicle"):
         ArdupilotMobilityConfiguration(vehicle_addresses={0: "10.0.0.2"})

@@ -21,6 +21,7 @@ def test_refused_arming_ends_it_with_the_reason_that_was_given(toy_copter):
     ("wrong", "said"),
     [
         ({"silent": True}, r"heartbeat: not done after 1 s; the autopilot said: nothing"),
+        ({"gives_up": True}, "the autopilot said: nothing; it printed last: invalid param"),
         ({"exits": True}, r"start: the autopilot ended with status 3; it printed last: no such model"),
         ({"no_fix": True}, "position estimate: not done after 1 s; the autopilot said: nothing"),
         ({"deaf": True}, "telemetry: no answer after 5 tries; the autopilot said: nothing"),

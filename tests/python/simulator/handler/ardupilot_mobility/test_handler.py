@@ -1,6 +1,7 @@
 """What the handler's settings change: report, logs, autopilots."""
 
 import csv
+import json
 import logging
 
 from gradysim.simulator.handler.timer import TimerHandler
@@ -46,6 +47,20 @@ def test_what_autopilots_say_can_be_logged(toy_copter, caplog):
     program = toy_copter({0: {"refuse_arming": True}})
     failure_of(program, Flyer, uav_api_log_console=True, uav_api_startup_timeout=1)
     assert "node 0 (Flyer 0) says: PreArm: Compass not calibrated" in caplog.messages
+
+
+def test_a_flight_at_another_pace_is_warned_of(toy_copter, caplog):
+    fly(toy_copter({0: {"slow": True}}), Flyer, duration=5)
+    (warning,) = [record.message for record in caplog.records if record.levelno == logging.WARNING]
+    assert warning.startswith("node 0 (Flyer 0): its autopilot's clock was up to ")
+    assert " s behind simulated time; " in warning
+
+
+def test_autopilots_have_the_parameters_that_are_wished(toy_copter):
+    program = toy_copter()
+    fly(program, Flyer, duration=0.5, autopilot_parameters={"SIM_WIND_SPD": 5.5, "BATT_MONITOR": 0})
+    parameters = json.loads(program.with_name("final_0.json").read_text())["parameters"]
+    assert (parameters["SIM_WIND_SPD"], parameters["BATT_MONITOR"]) == (5.5, 0)
 
 
 def test_the_environment_may_name_the_autopilot(toy_copter, monkeypatch):

@@ -62,7 +62,7 @@ def vehicle(program, serial, home):
         "--sysid",
         "7",
         "--defaults",
-        "none",
+        "/dev/null",
         "--model",
         "quad",
     ]
@@ -87,6 +87,32 @@ def test_every_node_needs_a_vehicle(toy_copter):
     with pytest.raises(ArdupilotMobilityException, match=r"node 1 has no vehicle: .* it has \[0\]"):
         build(None, Flyer, Flyer, simulate_drones=False, vehicle_addresses={0: "tcp:127.0.0.1:5760"})
     gc.collect()
+
+
+@pytest.mark.parametrize("old", [False, True])
+def test_a_ground_station_does_not_change_how_often_nodes_get_telemetry(toy_copter, monkeypatch, old):
+    mavlink = load_dialect()
+    monkeypatch.setattr("gradysim.simulator.handler.ardupilot_mobility.flight._RESTORE_S", 0.1)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as station:
+        station.bind(("127.0.0.1", 0))
+        monkeypatch.setattr(
+            "gradysim.sitl.ground_station.open_ground_station.__defaults__", (station.getsockname()[1],)
+        )
+        codec = mavlink.MAVLink(None, srcSystem=254, srcComponent=190)
+
+        def ask_for_few(protocol):
+            order = mavlink.MAVLink_request_data_stream_message(1, 1, mavlink.MAV_DATA_STREAM_POSITION, 1, 1)
+            station.sendto(order.pack(codec), station.recvfrom(65536)[1])
+
+        (protocol,) = fly(
+            toy_copter({0: {"old": old}}),
+            flyer(at_1=ask_for_few),
+            duration=13,
+            real_time=2,
+            ground_station_ip="127.0.0.1",
+        )
+    late = [moment for moment, _ in protocol.telemetry if moment > 3]
+    assert len(late) > 50
 
 
 def test_a_ground_station_sees_all_vehicles_and_may_command_them(toy_copter, monkeypatch):
