@@ -7,12 +7,20 @@ from collections.abc import Coroutine, Iterable
 from pathlib import Path
 from typing import Any
 
-from gradysim.protocol.messages.mobility import MobilityCommand
+from gradysim.encapsulator.geo_target import geo_target
+from gradysim.encapsulator.refused_commands import wrong_mobility
+from gradysim.protocol.errors import MasslessMobilityException
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    MobilityCommand,
+    MobilityCommandType,
+)
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
 from gradysim.simulator.handler.ardupilot_mobility.exception import ArdupilotMobilityException
 from gradysim.simulator.handler.ardupilot_mobility.flight import Flight
+from gradysim.simulator.handler.ardupilot_mobility.pilot import is_velocity
 from gradysim.simulator.handler.ardupilot_mobility.report import FILE_NAME, write_report
 from gradysim.simulator.handler.interface import IAsyncNodeHandler
 from gradysim.simulator.handler.mobility.update_times import UpdateTimes
@@ -140,14 +148,16 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
         if node.id not in self._flights:
             raise ArdupilotMobilityException(f"node {node.id} was given {command!r} before its take-off")
         try:
-            self._flights[node.id].obey(command)
+            self._flights[node.id].obey(self._checked(command, node.id))
+        except MasslessMobilityException as error:
+            raise ArdupilotMobilityException(str(error)) from None
         except ArdupilotMobilityException as error:
             raise ArdupilotMobilityException(f"node {node.id} was {error}") from error.__cause__
         except SitlError as error:
             raise ArdupilotMobilityException(str(error)) from error
 
     def finalize(self) -> None:
-        """Write the report, and end the autopilots; real vehicles stay where they are, in the air."""
+        """Write the report, and end the autopilots; real vehicles are left in the air."""
         try:
             if self._has_begun:
                 for flight in self._flights.values():
@@ -157,10 +167,24 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
                     write_report(Path(FILE_NAME), reports)
                 if not self._configuration.simulate_drones:
                     _logger.warning(
-                        "The simulation is over; its vehicles are in the air and hold their position"
+                        "The simulation is over; its vehicles are in the air and hold their position, "
+                        "unless a failsafe of theirs takes over"
                     )
         finally:
             self._close()
+
+    def _checked(self, command: MobilityCommand, node_id: int) -> MobilityCommand:
+        """Return the command, to a place of the frame instead of a geographic one.
+
+        Raises:
+            MasslessMobilityException: It cannot be carried out, in the words of the other handlers.
+        """
+        if getattr(command, "command_type", None) == MobilityCommandType.GOTO_GEO_COORDS:
+            place = geo_target(command, node_id, self._configuration.reference_coordinates)
+            return GotoCoordsMobilityCommand(*place)
+        if not is_velocity(command) and (wrong := wrong_mobility(command, node_id, can_move=True)):
+            raise MasslessMobilityException(wrong)
+        return command
 
     async def _take_off(self) -> None:
         await _all(flight.prepare(self._fleet) for flight in self._flights.values())

@@ -4,7 +4,7 @@ import asyncio
 
 from gradysim.encapsulator.command_numbers import finite_number, three_numbers
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
-from gradysim.protocol.position import Position, geo_to_cartesian
+from gradysim.protocol.position import Position
 from gradysim.simulator.handler.ardupilot_mobility.exception import ArdupilotMobilityException
 from gradysim.sitl.frame import cartesian_to_geo
 from gradysim.sitl.vehicle import Vehicle
@@ -41,25 +41,20 @@ class Pilot:
     def obey(self, command: MobilityCommand) -> None:
         """Carry out a command: at once, but for the speed, which the autopilot has to confirm.
 
+        Args:
+            command: A velocity, or GOTO_COORDS or a speed with nothing wrong by `wrong_mobility`.
+
         Raises:
-            ArdupilotMobilityException: The command means nothing.
+            ArdupilotMobilityException: It is no velocity, or the place is none; says what the node "was".
             SitlError: The vehicle is gone.
         """
-        kind = getattr(command, "command_type", None)
-        if kind == MobilityCommandType.GOTO_COORDS:
+        if command.command_type == MobilityCommandType.GOTO_COORDS:
             self._go_to(_numbers(command))
-        elif kind == MobilityCommandType.GOTO_GEO_COORDS:
-            place = _numbers(command)
-            if abs(place[0]) > 90:
-                raise ArdupilotMobilityException(f"sent to latitude {place[0]!r}: expected -90 to 90 degrees")
-            self._go_to(geo_to_cartesian(self._reference, place))
-        elif kind == MobilityCommandType.SET_SPEED and command.param_2 is command.param_3 is None:
-            self._set_speed(command.param_1)
-        elif kind == MobilityCommandType.SET_SPEED:
+        elif is_velocity(command):
             self._velocity = _numbers(command)
             self.vehicle.set_velocity(*self._velocity)
         else:
-            raise ArdupilotMobilityException(f"given an unknown mobility command: {command!r}")
+            self._set_speed(_speed(command))
 
     async def attend(self) -> None:
         """Do what takes time, for ever: have speeds confirmed, renew velocities. SitlError if that fails."""
@@ -87,12 +82,7 @@ class Pilot:
             self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
         self.vehicle.go_to(latitude, longitude, target[2])
 
-    def _set_speed(self, given: float | None) -> None:
-        speed = finite_number(given)
-        if speed is None or speed < 0:
-            raise ArdupilotMobilityException(
-                f"given the speed {given!r}: expected a finite number of m/s, >= 0"
-            )
+    def _set_speed(self, speed: float) -> None:
         before, self._speed_mps = self._speed_mps, speed
         if speed == 0:  # Which ArduCopter refuses.
             self._velocity = (0.0, 0.0, 0.0)
@@ -101,6 +91,19 @@ class Pilot:
         self._speed_is_new.set()
         if before == 0 and self._target is not None:
             self._go_to(self._target)
+
+
+def is_velocity(command: MobilityCommand) -> bool:
+    """Whether a command sets three components of a velocity."""
+    return getattr(command, "command_type", None) == MobilityCommandType.SET_SPEED and not (
+        command.param_2 is command.param_3 is None
+    )
+
+
+def _speed(command: MobilityCommand) -> float:
+    speed = finite_number(command.param_1)
+    assert speed is not None
+    return speed
 
 
 def _numbers(command: MobilityCommand) -> Position:

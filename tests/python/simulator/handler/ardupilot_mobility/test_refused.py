@@ -36,12 +36,24 @@ def test_without_an_autopilot_the_error_says_what_to_give(tmp_path):
     assert "there is no such file" in failure_of(tmp_path / "nothing", Flyer)
 
 
+def test_a_node_below_the_ground_is_refused_before_take_off(toy_copter):
+    said = failure_of(toy_copter(), Flyer, positions=[(0, 0, -5)])
+    assert said == "node 0 (Flyer 0): its initial position is below the ground: z = -5 m"
+
+
+def test_a_parameter_that_the_autopilot_does_not_know_is_refused(toy_copter, quick_answers):
+    said = failure_of(toy_copter(), Flyer, autopilot_parameters={"NONESUCH": 1})
+    assert said.startswith("node 0 (Flyer 0): parameter NONESUCH = 1: not confirmed")
+
+
 @pytest.mark.parametrize(
     ("command", "said"),
     [
         (GotoCoordsMobilityCommand(float("nan"), 0, 0), "expected three finite numbers"),
-        (GotoCoordsMobilityCommand(0, 1e8, 0), "beyond the Earth's edge"),
+        (GotoCoordsMobilityCommand(0, 1e8, 0), "expected three finite numbers of metres, each from"),
+        (GotoCoordsMobilityCommand(-9e6, 0, 0), "beyond the Earth's edge"),
         (GotoGeoCoordsMobilityCommand(91, 0, 0), "latitude 91"),
+        (GotoGeoCoordsMobilityCommand(-47.92, -15.84, 10), "did you mean latitude -15.84, longitude -47.92?"),
         (SetSpeedMobilityCommand(-1), "speed -1"),
         (SetVelocityMobilityCommand(1, None, 0), "expected three finite numbers"),
         (MobilityCommand(17), "unknown mobility command"),
