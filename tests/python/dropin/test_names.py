@@ -46,8 +46,8 @@ DELIBERATE = {
         "simulate_drones=True, ground_station_ip=None, starting_api_port=8000, ardupilot_path=None, "
         "uav_api_log_path=None, uav_api_startup_timeout=120, uav_api_log_console=False, "
         "simulation_startup_speedup=5, mavlink_streamrate=10, vehicle_addresses=None, "
-        "autopilot_user='nobody')",
-        "new last fields: where real vehicles are, and who owns simulated autopilots",
+        "autopilot_user='nobody', autopilot_parameters=None)",
+        "new last fields: where real vehicles are; who owns simulated autopilots, and how they are set",
     ),
     "ArdupilotMobilityHandler": ("(configuration=None)", NO_CONFIGURATION),
     "CommunicationHandler": (
