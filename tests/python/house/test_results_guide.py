@@ -3,6 +3,7 @@
 import json
 import re
 from collections.abc import Callable
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ import gradysim.integrated.run
 from gradysim.config import Scenario, load_scenarios
 from gradysim.config.value.drawing_functions import FUNCTIONS
 from gradysim.prototype.run import run
+from gradysim.results.run_result import NodeResult
 
 GUIDE = "docs/guides/results.md"
 
@@ -111,6 +113,12 @@ def test_its_table_of_functions_has_all_of_them(root: Path) -> None:
 def test_its_table_has_all_fields(root: Path, make_scenario: Callable[..., Scenario]) -> None:
     names = names_in_table((root / GUIDE).read_text().partition("A row for each node")[0])
     assert names == set(run(make_scenario()).to_json_object())
+
+
+def test_its_row_of_nodes_has_all_fields_of_a_node(root: Path) -> None:
+    row = re.search(r"^\| `nodes` \| (.*) \|$", (root / GUIDE).read_text(), re.MULTILINE)
+    assert row is not None
+    assert set(re.findall(r"`(\w+)`", row[1])) == {field.name for field in fields(NodeResult)}
 
 
 @pytest.fixture
