@@ -1,8 +1,12 @@
 """`gradysim --help` and `--version`."""
 
+import re
 import subprocess
 import sys
 
+import pytest
+
+from gradysim.cli import app
 from python.cli.command import environment
 
 
@@ -13,10 +17,15 @@ def test_help_names_the_commands(gradysim):
     assert "runs " in done.stdout
 
 
-def test_help_of_run_names_its_options(gradysim):
-    text = gradysim("run", "--help").stdout
-    for option in ("--config", "-c", "--runs", "-r", "--mode", "--set", "--result-dir", "--json", "--quiet"):
-        assert option in text
+@pytest.mark.parametrize("command", ["run", "runs", "means", "keys", "calibrate"])
+def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
+    shown = re.findall(
+        r"^│ *\*? *(--\S+)(?: (-\w))?.*? {2,}\w", gradysim(command, "--help").stdout, re.MULTILINE
+    )
+    options = [argument.names for argument in app[command].assemble_argument_collection()]
+    assert [tuple(filter(None, names)) for names in shown] == [
+        names for names in options if names[0].startswith("--")
+    ]
 
 
 def test_help_loads_nothing_heavy(folder):
