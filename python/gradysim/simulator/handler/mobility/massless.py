@@ -146,7 +146,10 @@ class MasslessMobilityHandler(INodeHandler):
             self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Carry out an order to a vehicle; it shows from the next update on.
+        """Carry out an order to a vehicle; it counts for the whole step that the next update makes.
+
+        So a vehicle may turn up to one `update_rate` too early: by a timer at 1 s, which comes before the
+        update at 1 s, at the place where it was at 0.99 s.
 
         Args:
             command: GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.

@@ -124,6 +124,16 @@ def test_a_new_target_replaces_the_old_one(world, handler):
     assert node.position == (5, 5, 0)
 
 
+@pytest.mark.parametrize("time_s", [0.6, 0.9, 1.0])
+def test_a_command_counts_for_the_whole_step_to_the_next_update(world, handler, time_s):
+    node = world.node(0, handler=handler)
+    handler.handle_command(GotoCoordsMobilityCommand(100, 0, 0), node)
+    turn = GotoCoordsMobilityCommand(5, 100, 0)
+    world.loop.schedule_event(time_s, lambda: handler.handle_command(turn, node))
+    world.run(1.0)
+    assert telemetry(node) == [(0.5, (5, 0, 0)), (1.0, (5, 5, 0))]
+
+
 def test_a_geographic_target_is_placed_by_the_reference(world):
     reference = (10, 20, 0)
     handler = MasslessMobilityHandler(
