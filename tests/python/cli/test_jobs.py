@@ -8,6 +8,7 @@ import sys
 
 import pytest
 
+from gradysim.cli import main
 from python.cli.command import both_modes, environment, objects, run_command
 
 COSTS = ("wall_s", "cpu_s")
@@ -175,6 +176,14 @@ def test_there_is_a_job_at_least(gradysim, jobs):
     done = gradysim("run", "test.ini", "--mode", "prototype", f"--jobs={jobs}")
     assert done.returncode == 2
     assert done.stderr == f"--jobs {jobs}: it is out of range; expected 1 or more\n"
+
+
+def test_a_system_that_cannot_fork_has_one_job(folder, monkeypatch, capsys):
+    monkeypatch.delattr(os, "fork")
+    monkeypatch.chdir(folder)
+    assert main(["run", "test.ini", "--mode", "prototype", "--json", "-j", "2"]) == 2
+    told = "--jobs 2: this system cannot divide a process into two; expected --jobs 1\n"
+    assert capsys.readouterr() == ("", told)
 
 
 @pytest.fixture

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.cli import main
 from python.cli.command import compiled, environment, run_command
 
 FULL_DISK = Path("/dev/full")
@@ -76,14 +75,6 @@ def test_a_result_that_finds_no_room_is_told_in_one_line(folder):
     shell = ["sh", "-c", 'ulimit -f 0; exec "$@"', "sh"]
     done = run_command(folder, *shell, sys.executable, "-m", "gradysim", *arguments)
     assert (done.returncode, done.stderr) == (2, "out/General-#0.prototype.json: File too large\n")
-
-
-def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatch, capsys):
-    monkeypatch.setattr(os, "access", lambda path, mode: False)
-    monkeypatch.chdir(folder)
-    assert main(["run", "test.ini", "--mode", "prototype", *QUIET, "--result-dir", "out"]) == 2
-    told = "--result-dir out: it takes no files from you; expected another folder\n"
-    assert capsys.readouterr() == ("", told)
 
 
 @pytest.mark.parametrize("closed", ["1", "2"])

@@ -2,7 +2,6 @@
 
 import contextlib
 import io
-import json
 import subprocess
 import sys
 from dataclasses import fields
@@ -124,27 +123,6 @@ def test_a_seed_that_leaves_no_room_for_the_last_run_is_refused(gradysim, mode):
 def test_the_largest_seed_runs(gradysim, mode):
     done = gradysim("run", "test.ini", "--mode", mode, f"--seed={2**63 - 1}", "-r", "0", "--json")
     assert [run["seed"] for run in objects(done.stdout)] == [2**63 - 1]
-
-
-def test_the_result_directory(gradysim, folder):
-    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0,2", "--result-dir", "out/here")
-    assert sorted(path.name for path in (folder / "out" / "here").iterdir()) == [
-        "General-#0.prototype.json",
-        "General-#2.prototype.json",
-    ]
-    assert "General-#2.prototype.json" in done.stdout
-    assert json.loads((folder / "out" / "here" / "General-#2.prototype.json").read_text())["run"] == 2
-
-
-@pytest.mark.parametrize(
-    ("name", "reason"),
-    [("test.ini", "it is no folder"), ("dangling", "it is no folder"), ("d" * 300, "File name too long")],
-)
-def test_a_result_directory_that_cannot_be_is_named_with_its_option(folder, gradysim, name, reason):
-    (folder / "dangling").symlink_to("nowhere/at/all")
-    done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", name)
-    expected = f"--result-dir {name}: {reason}; expected a folder, or a new name"
-    assert (done.returncode, done.stderr.strip()) == (2, expected)
 
 
 @compiled

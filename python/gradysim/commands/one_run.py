@@ -1,0 +1,71 @@
+"""One run of `gradysim run`: carried out, shown and written."""
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, TextIO
+
+from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+    from gradysim.report.interrupt import StopOnInterrupt
+    from gradysim.report.supervised_run import Outcome, Run
+    from gradysim.results.run_result import RunResult
+
+
+def run_one(
+    build: "Callable[[Scenario], Run]", scenario: "Scenario", interrupt: "StopOnInterrupt", *, bar: bool
+) -> "Outcome":
+    """Carry out one run, with a progress bar if `bar` and the error output is a terminal.
+
+    Raises KeyboardInterrupt if Ctrl-C is pressed before it is built.
+    """
+    from rich.console import Console
+
+    from gradysim.report.supervised_run import carry_out
+    from gradysim.report.waiting import waiting
+
+    def build_it(scenario: "Scenario") -> "Run":
+        with interrupt.at_once(), waiting(f"building {len(scenario.nodes):,} nodes", shown=bar):
+            return build(scenario)
+
+    console = Console(stderr=True) if bar and sys.stderr.isatty() else None
+    return carry_out(build_it, scenario, interrupt.should_stop, console)
+
+
+def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool, quiet: bool) -> int:
+    """Show and write what came out of a run, and return the exit code; show only JSON if it is to be `quiet`.
+
+    Why it failed comes last, where somebody looks whose screen the tables fill.
+    """
+    from gradysim.report.failure import print_failure
+    from gradysim.results.run_file import write_run_file
+
+    try:
+        if outcome.result is not None:
+            if as_json or not quiet:
+                show(outcome.result, output, as_json=as_json)
+            written = None if result_dir is None else write_run_file(outcome.result, result_dir)
+            if written is not None and not quiet:
+                print(f"written to {written}")
+            output.flush()
+    finally:  # also if the output takes no more
+        if outcome.failure is not None:
+            print_failure(outcome.failure, sys.stderr)
+    if outcome.failure is not None:
+        return FAILED
+    return INTERRUPTED if outcome.interrupted else OK
+
+
+def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
+    """Print a result: a line of JSON, or the summary for people."""
+    if as_json:
+        print(json.dumps(result.to_json_object()), file=output, flush=True)
+        return
+    from gradysim.report.console import console
+    from gradysim.report.summary import print_summary
+
+    print_summary(result, console(output))
+    print(file=output)

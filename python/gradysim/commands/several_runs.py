@@ -1,0 +1,85 @@
+"""Many runs, one after the other or several at once, and what is told if not all come to their end."""
+
+import os
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, TextIO
+
+from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK, say_mistake
+from gradysim.commands.sudden_end import tell_of_crashes, told_of_exit
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+    from gradysim.report.interrupt import StopOnInterrupt
+
+    CarryOut = Callable[[Scenario, StopOnInterrupt, TextIO], int]
+    """Carries out a run, prints to the output it is given, and returns an exit code."""
+
+
+def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO) -> int:
+    """Carry out runs up to the first that fails or is interrupted; return the exit code of the command."""
+    from gradysim.report.interrupt import StopOnInterrupt
+
+    tell_of_crashes()
+    with StopOnInterrupt() as interrupt:
+        for done, scenario in enumerate(scenarios):
+            if interrupt.should_stop():  # pressed between two runs
+                say_unfinished(scenarios, dict.fromkeys(range(done), OK))
+                return INTERRUPTED
+            codes = dict.fromkeys(range(done), OK)
+            say_failed = partial(say_unfinished, scenarios, {**codes, done: FAILED})
+            try:
+                with told_of_exit(f"{scenario.config} run {scenario.run_number}", say_failed):
+                    code = carry_out(scenario, interrupt, output)
+            except KeyboardInterrupt:  # while it was built
+                say_unfinished(scenarios, codes)
+                return INTERRUPTED
+            if code != OK:
+                say_unfinished(scenarios, {**codes, done: code})
+                return code
+    return OK
+
+
+def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO, jobs: int) -> int:
+    """Carry out runs in `jobs` processes; return the exit code of the command."""
+    from gradysim.config.errors.config_error import ConfigError
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+
+    if jobs < 1:
+        raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
+    if not hasattr(os, "fork"):
+        raise ConfigError(f"--jobs {jobs}: this system cannot divide a process into two; expected --jobs 1")
+    from gradysim.commands.processes import in_processes
+
+    def work(index: int, interrupt: "StopOnInterrupt", output: TextIO) -> int:
+        try:
+            return carry_out(scenarios[index], interrupt, output)
+        except KeyboardInterrupt:  # while it was built
+            return INTERRUPTED
+        except (ConfigError, CompiledPartMissingError, OSError) as mistake:
+            return say_mistake(mistake)
+
+    tell_of_crashes()
+    names = [f"{scenario.config} run {scenario.run_number}" for scenario in scenarios]
+    codes = in_processes(work, names, jobs, output)
+    if len(codes) < len(scenarios) or any(codes.values()):
+        say_unfinished(scenarios, codes)
+        return next((code for code in codes.values() if code not in (OK, INTERRUPTED)), INTERRUPTED)
+    return OK
+
+
+def say_unfinished(scenarios: "Sequence[Scenario]", codes: Mapping[int, int]) -> None:
+    """Say on the error output which of several runs are not there; `codes` are those of the runs begun."""
+    from gradysim.report.unfinished_runs import text_of_unfinished
+
+    if len(scenarios) > 1:
+        numbers = [scenario.run_number for scenario in scenarios]
+        done = [number for index, number in enumerate(numbers) if codes.get(index) == OK]
+        left = [number for index, number in enumerate(numbers) if index not in codes]
+        ended = {
+            numbers[index]: "was interrupted" if code == INTERRUPTED else "failed"
+            for index, code in sorted(codes.items())
+            if code != OK
+        }
+        print(text_of_unfinished(scenarios[0].config, done, ended, left), file=sys.stderr)
