@@ -25,9 +25,10 @@ def warn_of_equal_seeds(scenarios: "Sequence[Scenario]") -> None:
 def warn_of_shadowed_lines(scenario: "Scenario") -> None:
     """Say on the error output which lines of its file have no effect, because of others above them."""
     from gradysim.config.doubts.shadowed_lines import shadowed_lines
+    from gradysim.config.keys.radio_media import RADIO_MEDIA
 
     medium = scenario.medium.get("typename")
-    has_powers = medium is None or medium.value != "UnitDiskRadioMedium"
+    has_powers = medium is None or medium.value in RADIO_MEDIA.names
     for text in shadowed_lines(scenario.sections, has_powers=has_powers):
         print(text, file=sys.stderr)
 
