@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.keys.radio import CENTER_FREQUENCY
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.ini_terms import in_ini_terms
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
@@ -92,6 +93,10 @@ def calibrate(
     ):
         if not isinstance(value, kind):
             raise TypeError(f"{argument} = {value!r:.80}: expected {expected}")
+    if not range_m > 0:
+        raise ConfigError(f"range_m = {range_m:g} m: expected more than 0 m")
+    if not 0 < ratio < 1:
+        raise ConfigError(f"ratio = {ratio:g}: expected more than 0 and less than 1")
     whole_sender, from_index = _interface_named(scenario.nodes, sender, "sender")
     from_node = to_node = _with_one_interface(whole_sender, from_index)
     to_name = whole_sender.name
@@ -108,20 +113,17 @@ def calibrate(
         )
     try:
         budget = link_budget(scenario, from_node, to_node, message_bytes)
-    except ConfigError as error:
-        if of_several and "does not receive the channel" in error.message:
+    except EngineError as error:
+        if of_several and error.target == CENTER_FREQUENCY.target:
             expected = f"; expected interfaces of one channel, such as {of_several[0]}.wlan[1]"
             raise ConfigError(error.message + expected, error.source) from error
         raise
     try:
         power_w = budget.tx_power_w_for(range_m, ratio)
-    except ValueError as error:
-        text = str(error)
-        if text.startswith("no power"):
-            nodes = [from_node] if to_node.id == from_node.id else [from_node, to_node]
-            hint = ground_hint(medium_config(scenario), nodes)
-            text = in_ini_terms(text) + (f"; {hint}" if hint else "")
-        raise ConfigError(text) from error
+    except ValueError as error:  # no power would do
+        nodes = [from_node] if to_node.id == from_node.id else [from_node, to_node]
+        hint = ground_hint(medium_config(scenario), nodes)
+        raise ConfigError(in_ini_terms(str(error)) + (f"; {hint}" if hint else "")) from error
     distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
     return Calibration(
         sender=from_node.name,

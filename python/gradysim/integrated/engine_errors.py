@@ -44,9 +44,19 @@ The key that chooses the field's model can, too; it is not listed here.
 _LITERAL = re.compile(r'[-+]?[\d.]+(?:[eE][-+]?\d+)? *[A-Za-z]*|"[^"$]*"')
 
 
+class EngineError(ConfigError):
+    """A mistake that the engine has found.
+
+    Attributes:
+        target: The field that it is about, "radio.carrier_hz", as keys have it; "" if the engine names none.
+    """
+
+    target: str = ""
+
+
 @contextmanager
 def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
-    """Turn an error of the engine's check into a ConfigError in the terms of the .ini file.
+    """Turn an error of the engine's check into an EngineError in the terms of the .ini file.
 
     `settings` are those that the engine was given, by the targets of their keys: "radio.tx_power_w". The
     place is the line of the field that the text names; if that field has its default, the line of the setting
@@ -74,10 +84,10 @@ def settings_by_target(struct: str, settings: Mapping[str, Setting]) -> dict[str
     return {f"{struct}.{field}": setting for field, setting in settings.items()}
 
 
-def _told(text: str, settings: Mapping[str, Setting]) -> ConfigError:
+def _told(text: str, settings: Mapping[str, Setting]) -> EngineError:
     field = FIELD.search(text)
     if field is None:
-        return ConfigError(text)
+        return EngineError(text)
     named = [match["target"] for match in FIELD.finditer(text)]
     target = named[0]
     place = settings.get(_nearest(named, settings))
@@ -92,7 +102,9 @@ def _told(text: str, settings: Mapping[str, Setting]) -> ConfigError:
             told = rest + _file_meant(target, settings[target])
         else:
             told = f"that is {shown}: {rest}{_file_meant(target, settings[target])}"
-    return ConfigError(told) if place is None else ConfigError.at(place.source, told)
+    error = EngineError(told) if place is None else EngineError.at(place.source, told)
+    error.target = target
+    return error
 
 
 def _file_meant(target: str, setting: Setting) -> str:

@@ -94,18 +94,14 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
-    settings = spec.mobility
-    typename = settings.get("typename")
+    typename = spec.mobility.get("typename")
     stationary = typename is not None and typename.value == "StationaryMobility"
-    speed, interval = settings.get("speed_mps"), settings.get("telemetry_interval_s")
-    try:
-        mobility.configure_node(
-            spec.id,
-            speed=None if speed is None else float(speed.value),
-            telemetry_interval=None if interval is None else float(interval.value),
-            stationary=stationary,
-        )
-    except ValueError as error:
-        wrong = interval if interval is not None and "telemetry_interval" in str(error) else speed
-        assert wrong is not None
-        raise ConfigError.at(wrong.source, str(error)) from error
+    mobility.configure_node(spec.id, stationary=stationary)
+    numbers: dict[str, float] = {}
+    for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
+        if (setting := spec.mobility.get(field)) is not None:
+            numbers[argument] = float(setting.value)
+            try:
+                mobility.configure_node(spec.id, stationary=stationary, **numbers)
+            except ValueError as error:  # those before it are right
+                raise ConfigError.at(setting.source, str(error)) from error

@@ -6,7 +6,7 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.scenario import load_scenarios
 from gradysim.config.value.setting import Setting
-from gradysim.integrated.engine_errors import errors_at
+from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.network import check_scenario
 
 WLAN = "*.uavs[*].wlan[*]"
@@ -46,6 +46,20 @@ def test_the_field_that_is_named_first_is_the_wrong_one():
     settings = {"mac.cw_max": setting(3, "cwMax"), "mac.cw_min": setting(7, "cwMin")}
     told = error_of("mac.cw_min = 7: expected at most mac.cw_max", settings)
     assert told == "a.ini:7: cwMin = 7: expected at most wlan[*].mac.dcf.channelAccess.cwMax"
+
+
+@pytest.mark.parametrize(
+    ("text", "target"),
+    [
+        ("wlan[1].mac.cw_min = 7: expected at most mac.cw_max", "mac.cw_min"),
+        ("radio.carrier_hz: a hears no b", "radio.carrier_hz"),
+        ("nothing works", ""),
+    ],
+)
+def test_the_field_that_it_is_about_is_a_value_of_the_error(text, target):
+    with pytest.raises(EngineError) as error, errors_at({"mac.cw_min": setting(7, "cwMin")}):
+        raise ValueError(text)
+    assert error.value.target == target
 
 
 def test_a_part_of_a_name_is_no_name():

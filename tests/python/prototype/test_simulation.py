@@ -3,7 +3,9 @@ from dataclasses import replace
 import pytest
 
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.source import Source
 from gradysim.config.scenario import CommunicationMediumSpec
+from gradysim.config.value.setting import Setting
 from gradysim.prototype.simulation import build_simulation, communication_medium
 
 
@@ -81,6 +83,20 @@ def test_a_telemetry_interval_below_the_simulators_step_is_an_error_at_its_setti
     with pytest.raises(ConfigError, match="telemetry_interval") as error:
         build_simulation(make_scenario("class Tested(Quiet): pass", f"{setting} = 1ms"))
     assert error.value.key == setting
+
+
+@pytest.mark.parametrize(("wrong", "value"), [("speed_mps", -1.0), ("telemetry_interval_s", 0.001)])
+def test_of_speed_and_telemetry_interval_the_one_that_is_wrong_is_named(make_scenario, wrong, value):
+    scenario = make_scenario("class Tested(Quiet): pass")
+    right = {"speed_mps": 5.0, "telemetry_interval_s": 1.0}
+    mobility = {
+        field: Setting(number, Source(scenario.file, 0, field))
+        for field, number in (right | {wrong: value}).items()
+    }
+    nodes = tuple(replace(node, mobility=mobility) for node in scenario.nodes)
+    with pytest.raises(ConfigError) as error:
+        build_simulation(replace(scenario, nodes=nodes))
+    assert error.value.key == wrong
 
 
 def test_the_medium(make_scenario):
