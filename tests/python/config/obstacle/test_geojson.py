@@ -156,6 +156,11 @@ def test_a_missing_file_is_told(folder: Any) -> None:
     assert "town.geojson: cannot read it: No such file" in folder.error(LINE)
 
 
+def test_a_file_that_is_not_utf_8_is_told(folder: Any) -> None:
+    (folder.path / "town.geojson").write_text(town(feature(name="Café")).replace(r"\u00e9", "é"), "latin-1")
+    assert folder.error(LINE).endswith("town.geojson: it is no text in UTF-8")
+
+
 def test_a_file_with_nearly_the_name_of_a_missing_one_is_suggested(folder: Any) -> None:
     folder.write("twon.geojson", "")
     assert folder.error(LINE).endswith("No such file or directory; did you mean `twon.geojson`?")

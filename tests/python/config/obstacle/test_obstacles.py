@@ -81,6 +81,11 @@ def test_several_share_what_a_pattern_says(folder: Any) -> None:
         (BOX.replace("maxX = 10m", "maxX = -1m"), 8, "expected more than minX, 0m"),
         (BOX.replace("maxZ = 20m", "maxZ = 1m"), 12, "expected more than minZ, 1m"),
         (BOX + '*.environment.obstacle[0].points = "0 0 1 0 1 1"\n', 13, "only a prism has points"),
+        (
+            PRISM.replace('*.environment.obstacle[0].points = "0 0 10 0 10 5.5"\n', ""),
+            7,
+            "obstacle[0] has no points",
+        ),
         (PRISM.replace("10 5.5", "10"), 8, "x and y in metres for at least 3 corners"),
         (PRISM.replace("10 5.5", "10 north"), 8, "x and y in metres for at least 3 corners"),
         (PRISM.replace("10 5.5", "20 0"), 8, "expected corners that are not on one line"),

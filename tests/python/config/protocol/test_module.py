@@ -95,3 +95,9 @@ def test_loads_a_file_once_and_anew_with_another_loader(tmp_path: Path) -> None:
     thing = loader.load(file).THING
     assert loader.load(file).THING is thing
     assert ModuleLoader().load(file).THING is not thing
+
+
+def test_a_file_that_is_no_python_source_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mobile.txt").write_text("VALUE = 1")
+    with pytest.raises(ImportError, match=r"^mobile\.txt is no Python source file$"):
+        ModuleLoader().load(tmp_path / "mobile.txt")
