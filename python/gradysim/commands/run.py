@@ -25,6 +25,7 @@ from gradysim.commands.scenarios import load
 from gradysim.commands.several_runs import one_after_the_other, several_at_once
 from gradysim.commands.simulators import captures, files_written, simulator
 from gradysim.commands.warnings import (
+    warn_of_bands_beside_frequencies,
     warn_of_doubtful_times,
     warn_of_equal_seeds,
     warn_of_mission_speeds,
@@ -77,6 +78,7 @@ def run(
             if result_dir is not None:
                 check_may_be_written_to(result_dir)
             warn_of_shadowed_lines(scenarios[0])
+            warn_of_bands_beside_frequencies(scenarios)
             warn_of_doubtful_times(scenarios)
             warn_of_mission_speeds(scenarios)
             with waiting(f"checking {config}", shown=bar):

@@ -47,6 +47,13 @@ def warn_of_mission_speeds(scenarios: "Sequence[Scenario]") -> None:
     _tell_of_nodes(scenarios, mission_speeds)
 
 
+def warn_of_bands_beside_frequencies(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which bands say nothing, as frequencies are given."""
+    from gradysim.config.doubts.bands_beside_frequencies import bands_beside_frequencies
+
+    _tell_of_nodes(scenarios, bands_beside_frequencies)
+
+
 def _tell_of_nodes(
     scenarios: "Sequence[Scenario]", texts_of: "Callable[[Sequence[NodeSpec]], Iterable[str]]"
 ) -> None:

@@ -80,3 +80,10 @@ def test_a_speed_that_missions_override_is_told_once_for_all_runs(
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
     told = "--set **.speed=12mps: warning: missions of Tested do not fly at this speed, but at 5 m/s"
     assert capsys.readouterr().err.count(told) == 1
+
+
+def test_a_band_that_says_nothing_is_told_once_for_all_runs(gradysim):
+    lines = ['*.uavs[*].wlan[*].radio.bandName="5 GHz"', "*.uavs[*].wlan[*].radio.centerFrequency=2.412GHz"]
+    settings = [part for line in lines for part in ("--set", line)]
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--quiet", *settings)
+    assert done.stderr.count(f"--set {lines[0]}: warning: ") == 1

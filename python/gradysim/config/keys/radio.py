@@ -38,6 +38,10 @@ OF_802154: dict[Key, Key] = {
 }
 """What stands for these two keys at an 802.15.4 interface, which has one band and reads no name."""
 
+BAND_OF_CHANNEL = replace(BAND_NAME, target="band.of_channel")
+BAND_BESIDE_FREQUENCY = replace(BAND_NAME, target="band.beside_frequency")
+"""What stands for the name of a band at an 802.11 interface with a channel in it, or with a frequency."""
+
 RADIO_KEYS: tuple[Key, ...] = (
     BAND_NAME,
     CHANNEL_NUMBER,

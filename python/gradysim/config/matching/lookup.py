@@ -42,6 +42,11 @@ class Found:
         """Whether the entry says to look no further and to leave the default."""
         return self.entry.text == "default"
 
+    def overrides(self, other: "Found") -> bool:
+        """Whether it comes before the other on purpose, from another section or file."""
+        here, there = ((found.rank, found.entry.source.file) for found in (self, other))
+        return here != there and self.order < other.order
+
     def may_end_in(self, rest: str) -> bool:
         """Whether paths that end in `rest` can match at all, judged by the last part; spares most matches."""
         tail = self.pattern.tail

@@ -16,8 +16,8 @@ class InterfaceSpec:
         antenna: Fields of AntennaConfig.
         mac: Fields of MacConfig.
         csma: Fields of CsmaConfig.
-        band: The name of a band at an 802.15.4 interface. No struct of the engine has it, since nothing reads
-            it; it is kept so that the line can be reported.
+        band: The name of a band, at an 802.15.4 interface or beside a channel or its centre. No struct of
+            the engine has it; it is kept so that the line can be reported where nothing reads it.
         range_sets_power: Whether transmitter.communicationRange comes before transmitter.power: on a medium
             where power decides, the power is to be that for the range.
     """

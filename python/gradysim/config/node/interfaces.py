@@ -17,7 +17,14 @@ from gradysim.config.keys.interface import (
     at_interface,
 )
 from gradysim.config.keys.key import Key
-from gradysim.config.keys.radio import BAND_NAME, CENTER_FREQUENCY, CHANNEL_NUMBER, OF_802154
+from gradysim.config.keys.radio import (
+    BAND_BESIDE_FREQUENCY,
+    BAND_NAME,
+    BAND_OF_CHANNEL,
+    CENTER_FREQUENCY,
+    CHANNEL_NUMBER,
+    OF_802154,
+)
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.lookup import Candidates, Found, Lookup
 from gradysim.config.matching.struct_reader import read_struct
@@ -103,12 +110,18 @@ class InterfaceBuilder:
         The band says nothing of its own if a channel or its centre is given.
         """
         written = {key: entry for key, entry in found.items() if not entry.is_default}
-        if BAND_NAME not in written or not {CHANNEL_NUMBER, CENTER_FREQUENCY} & written.keys():
+        band = written.get(BAND_NAME)
+        channel, centre = written.get(CHANNEL_NUMBER), written.get(CENTER_FREQUENCY)
+        if band is None or (channel is None and centre is None):
             return found
-        name = str(self._settings.scalar(written[BAND_NAME].entry, BAND, path_of(BAND_NAME)))
+        name = str(self._settings.scalar(band.entry, BAND, path_of(BAND_NAME)))
         in_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
-        if CHANNEL_NUMBER in written:
-            in_band[replace(CHANNEL_NUMBER, kind=CHANNELS[name])] = written[CHANNEL_NUMBER]
+        if channel is not None:
+            in_band[replace(CHANNEL_NUMBER, kind=CHANNELS[name])] = channel
+        if centre is None or (channel is not None and channel.order < centre.order):
+            in_band[BAND_OF_CHANNEL] = band
+        elif not centre.overrides(band):
+            in_band[BAND_BESIDE_FREQUENCY] = band
         return in_band
 
 
