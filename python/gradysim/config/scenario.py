@@ -14,7 +14,13 @@ from gradysim.config.keys import NETWORK_KEYS
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.options import LONGEST_RUN_S, OPTIONS
 from gradysim.config.matching.groups import find_groups
-from gradysim.config.matching.key_check import NodeKind, check_names, check_option, check_parameters
+from gradysim.config.matching.key_check import (
+    NoSuchNodeError,
+    ProtocolAndInterfaces,
+    check_names,
+    check_option,
+    check_parameters,
+)
 from gradysim.config.matching.lookup import Lookup, is_ignored, is_option
 from gradysim.config.matching.struct_reader import read_struct
 from gradysim.config.node.interfaces import interface_counts
@@ -187,7 +193,6 @@ def load_scenarios(
         check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
 
     loader, hashes = ProtocolLoader(), FileHashes(file.parent)
-    networks: dict[tuple[str | int, ...], _Network] = {}
     parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
     varying = [entry for entry in parameters if depends_on_run(entry)]
     always_draws = any(drawing_function_in(entry.text) for entry in parameters)
@@ -195,6 +200,8 @@ def load_scenarios(
     in_force = entries_of_the_hash(ranked)
     elsewhere: list[Sequence[Source]] = []
     scenarios = []
+    network: _Network | None = None  # that of the run before, kept while what it is made of stays the same
+    made_of: tuple[str | int, ...] = ()
     for number, repetition, iterations in numbered:
         values = run_variables(config, number, repetition, iterations)
         options = _options(_substituted(only_options, values))
@@ -203,12 +210,12 @@ def load_scenarios(
         texts = [substitute(entry, values).text for entry in varying]
         draws = always_draws or any(map(drawing_function_in, texts))
         alike = (*texts, *([seed_of_run] if draws else ()))
-        if alike not in networks:
+        if network is None or alike != made_of:
             settings = SettingReader(seed_of_run)
             network = _network(_substituted(ranked, values), settings, loader, hashes, instead, source)
-            networks = {alike: network}
+            made_of = alike
             elsewhere.append(network.lines_of_other_runs)
-        scenario = _scenario(file, config, number, seed_of_run, options, networks[alike], sections)
+        scenario = _scenario(file, config, number, seed_of_run, options, network, sections)
         scenarios.append(
             replace(
                 scenario,
@@ -224,10 +231,10 @@ def load_scenarios(
 
 
 def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
-    """Raise ConfigError for the first line that each of the runs leaves to others."""
+    """Raise NoSuchNodeError for the first line that each of the runs leaves to others."""
     for line in elsewhere[0]:
         if all(line in lines for lines in elsewhere):
-            raise ConfigError(
+            raise NoSuchNodeError(
                 f"`{line.key}` matches no node in any run; expected a node that some run has", line
             )
 
@@ -309,10 +316,8 @@ def _network(
     groups = find_groups(lookup, settings)
     try:
         lines_of_other_runs = check_names(lookup, groups)
-    except ConfigError as error:
-        if instead and "matches no node" in error.message:
-            raise ConfigError(error.message + instead, error.source) from None
-        raise
+    except NoSuchNodeError as error:
+        raise NoSuchNodeError(error.message + instead, error.source) from None
     protocols = load_protocols(lookup, groups, settings, loader)
     if not protocols:
         for group in groups:  # each is given by the number of its nodes, and that is 0
@@ -321,7 +326,7 @@ def _network(
                 raise ConfigError.at(group.size_found.entry.source, text)
         raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
     counts = interface_counts(lookup, groups, settings)
-    kinds = {name: NodeKind(protocol.cls, counts[name]) for name, protocol in protocols.items()}
+    kinds = {name: ProtocolAndInterfaces(protocol.cls, counts[name]) for name, protocol in protocols.items()}
     check_parameters(lookup, groups, kinds, obstacle_count(lookup, settings))
 
     found = {

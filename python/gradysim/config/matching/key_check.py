@@ -25,7 +25,11 @@ from gradysim.config.protocol.parameters import parameters_of
 from gradysim.protocol.interface import IProtocol
 
 
-class NodeKind(NamedTuple):
+class NoSuchNodeError(ConfigError):
+    """A key names a node or a group that is not there."""
+
+
+class ProtocolAndInterfaces(NamedTuple):
     """What decides which keys a node has.
 
     Attributes:
@@ -77,13 +81,14 @@ def check_names(lookup: Lookup, groups: list[Group]) -> list[Source]:
         if is_of_network and _is_beyond_drawn_size(found, groups):
             continue
         if not (is_of_network and _is_beyond_varying_size(found, groups)):
-            raise ConfigError(unknown_name_text(found, groups, lookup.network), found.entry.source)
+            error = NoSuchNodeError if is_of_network else ConfigError
+            raise error(unknown_name_text(found, groups, lookup.network), found.entry.source)
         elsewhere.append(found.entry.source)
     return elsewhere
 
 
 def check_parameters(
-    lookup: Lookup, groups: list[Group], kinds: Mapping[str, NodeKind], obstacles: int
+    lookup: Lookup, groups: list[Group], kinds: Mapping[str, ProtocolAndInterfaces], obstacles: int
 ) -> None:
     """Raise ConfigError for the first key that names no parameter.
 
@@ -97,7 +102,7 @@ def check_parameters(
 
 class _ParameterCheck:
     def __init__(
-        self, network: str, groups: list[Group], kinds: Mapping[str, NodeKind], obstacles: int
+        self, network: str, groups: list[Group], kinds: Mapping[str, ProtocolAndInterfaces], obstacles: int
     ) -> None:
         self._network = network
         self._network_paths = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
@@ -107,8 +112,8 @@ class _ParameterCheck:
         self._groups = groups
         self._kinds = kinds
         self._rests = {kind: _rests_of(kind) for kind in dict.fromkeys(kinds.values())}
-        self._kinds_of: dict[str, set[NodeKind]] = {}
-        self._known: dict[tuple[NodeKind, str], bool] = {}
+        self._kinds_of: dict[str, set[ProtocolAndInterfaces]] = {}
+        self._known: dict[tuple[ProtocolAndInterfaces, str], bool] = {}
 
     def matches(self, found: Found) -> bool:
         name, rest = found.name_pattern(), found.rest_pattern()
@@ -139,14 +144,14 @@ class _ParameterCheck:
     def _indexed(self) -> set[str]:
         return {group.name for group in self._groups if group.size is not None}
 
-    def _kinds_named(self, name: Pattern) -> set[NodeKind]:
+    def _kinds_named(self, name: Pattern) -> set[ProtocolAndInterfaces]:
         if name.literal is not None:
             return {self._kinds[name.literal]} if name.literal in self._kinds else set()
         if name.text not in self._kinds_of:
             self._kinds_of[name.text] = {kind for node, kind in self._kinds.items() if name.matches(node)}
         return self._kinds_of[name.text]
 
-    def _is_known(self, kind: NodeKind, rest: Pattern) -> bool:
+    def _is_known(self, kind: ProtocolAndInterfaces, rest: Pattern) -> bool:
         if (kind, rest.text) not in self._known:
             self._known[kind, rest.text] = any(map(rest.matches, self._rests[kind]))
         return self._known[kind, rest.text]
@@ -164,7 +169,7 @@ class _ParameterCheck:
             yield from (f"{self._network}.{node}.{rest}" for rest in rests[kind])
 
 
-def _rests_of(kind: NodeKind) -> list[str]:
+def _rests_of(kind: ProtocolAndInterfaces) -> list[str]:
     """The paths below a node."""
     further = [at_interface(key.path, index) for index in range(1, kind.interface_count) for key in WLAN_KEYS]
     parameters = [f"protocol.{name}" for name in parameters_of(kind.protocol)]

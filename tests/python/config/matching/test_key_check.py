@@ -3,6 +3,7 @@ from typing import Any
 import pytest
 
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.matching.key_check import NoSuchNodeError
 from gradysim.config.scenario import Scenario, load_scenarios
 
 
@@ -133,3 +134,15 @@ def test_a_variable_in_a_key_is_refused_in_an_override_too(folder: Any) -> None:
         "override *.uavs[${n}].mobility.speed=1mps: `*.uavs[${n}].mobility.speed` has a variable;"
         " expected `${...}` in values only"
     )
+
+
+@pytest.mark.parametrize(
+    ("key", "is_told_of_others"), [("*.boats[0].mobility.speed", True), ("boats[0].mobility.speed", False)]
+)
+def test_who_names_no_node_may_have_meant_another_configuration(
+    folder: Any, key: str, is_told_of_others: bool
+) -> None:
+    with pytest.raises(ConfigError) as error:
+        folder.load(f"{key} = 1mps\n[Config Boats]\n*.numBoats = 1\n")
+    assert isinstance(error.value, NoSuchNodeError) == is_told_of_others
+    assert ("; or run another configuration of the file: " in str(error.value)) == is_told_of_others
