@@ -9,7 +9,7 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import nearest
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
-from gradysim.config.file.sections import config_names, search_order, unused_sections
+from gradysim.config.file.sections import Ranked, config_names, search_order, unused_sections
 from gradysim.config.keys import NETWORK_KEYS
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.options import LONGEST_RUN_S, OPTIONS
@@ -178,16 +178,16 @@ def load_scenarios(
     file = Path(file)
     ini = read_ini(file)
     sections = search_order(ini, config)
-    ranked = [(0, entry) for entry in read_overrides(file, overrides, names.overrides)]
+    ranked = [Ranked(0, entry) for entry in read_overrides(file, overrides, names.overrides)]
     for rank, section in enumerate(sections, start=1):
-        ranked += [(rank, entry) for entry in section.entries]
+        ranked += [Ranked(rank, entry) for entry in section.entries]
     for _, entry in ranked:
         if is_option(entry):
             check_option(entry)
 
     source = sections[0].source
     ranked, variables = name_iterations(ranked)
-    only_options = [(rank, entry) for rank, entry in ranked if is_option(entry)]
+    only_options = [each for each in ranked if is_option(each.entry)]
     numbered, run_count = numbered_runs(_options(only_options), variables, config, runs, source, names.runs)
     if seed is not None:
         check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
@@ -286,11 +286,13 @@ def _scenario(
     )
 
 
-def _substituted(ranked: list[tuple[int, Entry]], variables: Mapping[str, str]) -> list[tuple[int, Entry]]:
-    return [(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked]
+def _substituted(ranked: list[Ranked], variables: Mapping[str, str]) -> list[Ranked]:
+    return [
+        Ranked(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked
+    ]
 
 
-def _options(ranked: list[tuple[int, Entry]]) -> dict[str, Entry]:
+def _options(ranked: list[Ranked]) -> dict[str, Entry]:
     """The entry in force for each option that is given and not left at its default."""
     options: dict[str, Entry] = {}
     for _, entry in ranked:
@@ -305,7 +307,7 @@ def _description(entry: Entry) -> str:
 
 
 def _network(
-    ranked: list[tuple[int, Entry]],
+    ranked: list[Ranked],
     settings: SettingReader,
     loader: ProtocolLoader,
     hashes: FileHashes,

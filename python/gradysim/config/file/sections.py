@@ -1,5 +1,7 @@
 """Which sections a configuration consists of, in the order in which they are searched."""
 
+from typing import NamedTuple
+
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import did_you_mean
 from gradysim.config.errors.source import Source
@@ -7,6 +9,18 @@ from gradysim.config.file.reader import GENERAL, Entry, IniFile, Section
 
 _DEEPEST = 100
 """Sections that extend each other in a row; Python's stack has such a limit, too."""
+
+
+class Ranked(NamedTuple):
+    """An entry with the place of its section in the order of the search.
+
+    Attributes:
+        rank: 0 is the command line, the highest is [General].
+        entry: The entry.
+    """
+
+    rank: int
+    entry: Entry
 
 
 def search_order(ini: IniFile, config: str) -> list[Section]:

@@ -11,6 +11,7 @@ from fnmatch import fnmatchcase
 
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
+from gradysim.config.file.sections import Ranked
 from gradysim.config.keys.options import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
 from gradysim.config.matching.pattern import Pattern, compile_pattern
 from gradysim.config.value.drawing_functions import drawing_function_in
@@ -104,7 +105,7 @@ class Lookup:
         found: The entries of parameters in search order, without those that are OMNeT++'s alone.
     """
 
-    def __init__(self, ranked: Sequence[tuple[int, Entry]]) -> None:
+    def __init__(self, ranked: Sequence[Ranked]) -> None:
         """Take entries in search order, each with its section's rank. A bad pattern is a ConfigError."""
         self.options: dict[str, Entry] = {}
         for _, entry in ranked:

@@ -13,6 +13,7 @@ from decimal import Decimal, InvalidOperation, Overflow
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import did_you_mean
 from gradysim.config.file.reader import Entry
+from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
 from gradysim.config.value.drawing_functions import drawing_function_in
 
@@ -48,8 +49,8 @@ class IterationVariable:
 
 
 def name_iterations(
-    ranked: Iterable[tuple[int, Entry]],
-) -> tuple[list[tuple[int, Entry]], list[IterationVariable]]:
+    ranked: Iterable[Ranked],
+) -> tuple[list[Ranked], list[IterationVariable]]:
     """Return the entries with `${NAME}` for each variable, and the variables in the order of the search.
 
     An entry whose key another one before it says, word for word, is never in force: it is left out, and so
@@ -58,15 +59,15 @@ def name_iterations(
     Raises:
         ConfigError: A variable is not understood, or defined twice.
     """
-    named: list[tuple[int, Entry]] = []
+    named: list[Ranked] = []
     left_out: list[Entry] = []
     variables: dict[str, IterationVariable] = {}
     seen: set[str] = set()
     for rank, entry in ranked:
         if "${" not in entry.text or is_ignored(entry):
-            named.append((rank, entry))
+            named.append(Ranked(rank, entry))
         elif entry.key not in seen:
-            named.append((rank, _with_names(entry, variables)))
+            named.append(Ranked(rank, _with_names(entry, variables)))
         else:
             left_out.append(entry)
         seen.add(entry.key)
@@ -222,7 +223,7 @@ def _plain(number: Decimal) -> str:
 
 
 def _check_names(
-    named: Iterable[tuple[int, Entry]],
+    named: Iterable[Ranked],
     variables: Mapping[str, IterationVariable],
     left_out: Sequence[Entry],
 ) -> None:

@@ -3,7 +3,7 @@
 import hashlib
 from collections.abc import Iterable
 
-from gradysim.config.file.reader import Entry
+from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
 
 _OF_NO_RUN = ("repeat", "constraint", "description", "extends", "abstract")
@@ -16,16 +16,16 @@ _LENGTH = 16
 """Hexadecimal digits, as many as a fingerprint has."""
 
 
-def entries_of_the_hash(ranked: Iterable[tuple[int, Entry]]) -> list[tuple[int, Entry]]:
+def entries_of_the_hash(ranked: Iterable[Ranked]) -> list[Ranked]:
     """Return the entries that count: the first one of each key, if it says something of a run."""
-    first: dict[str, tuple[int, Entry]] = {}
+    first: dict[str, Ranked] = {}
     for rank, entry in ranked:
         if entry.key not in _OF_NO_RUN and not is_ignored(entry):
-            first.setdefault(entry.key, (rank, entry))
+            first.setdefault(entry.key, Ranked(rank, entry))
     return list(first.values())
 
 
-def settings_hash(entries: Iterable[tuple[int, Entry]]) -> str:
+def settings_hash(entries: Iterable[Ranked]) -> str:
     """Return the hash of entries whose variables have been replaced: of keys, values and their order."""
     text = "\0".join(f"{entry.key}={entry.text}" for _, entry in entries)
     return hashlib.sha256(text.encode()).hexdigest()[:_LENGTH]

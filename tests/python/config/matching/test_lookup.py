@@ -7,14 +7,15 @@ from hypothesis import strategies as st
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
+from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import Lookup
 from gradysim.config.matching.pattern import compile_pattern
 
 
-def entries(*keys: str) -> list[tuple[int, Entry]]:
+def entries(*keys: str) -> list[Ranked]:
     """Entries in search order; the value is the position."""
     return [
-        (1, Entry(key, str(order), Source(Path("a.ini"), order + 1, key), "General"))
+        Ranked(1, Entry(key, str(order), Source(Path("a.ini"), order + 1, key), "General"))
         for order, key in enumerate(keys)
     ]
 
