@@ -38,15 +38,15 @@ _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
 @dataclass(frozen=True, eq=False)
 class _Shared:
-    """What nodes with the same entries in force have in common; line is start and step for each axis.
+    """What nodes with the same entries in force have in common; row is start and step for each axis.
 
-    `steps` are the entries that say the steps. On an axis without a line they start in a grid, which
+    `steps` are the entries that say the steps. On an axis without a row they start in a grid, which
     `grid_settings` and the size of their group make; `grid_line` is where it is asked for.
     """
 
     protocol_parameters: Mapping[str, object]
     protocol_sources: Mapping[str, Source]
-    line: tuple[tuple[float, float] | None, ...]
+    row: tuple[tuple[float, float] | None, ...]
     steps: tuple[Found | None, ...]
     grid_settings: Mapping[str, Setting]
     grid_line: Source | None
@@ -103,10 +103,10 @@ def build_nodes(
             shared = builder.shared(name, protocols[name], interface_counts[name])
             grid = builder.grid(shared, group)
             x, y, z = (
-                _coordinate(name, index, axis, line, step)
-                if line is not None
+                _coordinate(name, index, axis, row, step)
+                if row is not None
                 else grid.coordinate_m(index, axis)
-                for axis, line, step in zip(_AXES, shared.line, shared.steps, strict=True)
+                for axis, row, step in zip(_AXES, shared.row, shared.steps, strict=True)
             )
             nodes.append(
                 NodeSpec(
@@ -204,14 +204,14 @@ class _NodeBuilder:
         if is_static_grid:
             mobility["typename"] = replace(mobility["typename"], value="StationaryMobility")
             position[STATIC_GRID] = found[_TYPENAME]
-        line = tuple(_axis_line(axis, position, values) for axis in _AXES)
+        row = tuple(_axis_row(axis, position, values) for axis in _AXES)
         steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
         asked_for = [entry for axis in AXES_OF_GRID for entry in _grid_entries(axis, position)]
-        first = min(asked_for, key=lambda entry: entry.order) if None in line else None
+        first = min(asked_for, key=lambda entry: entry.order) if None in row else None
         return _Shared(
             parameters,
             {"": chosen_at, **sources},
-            line,
+            row,
             steps,
             position_settings,
             first.entry.source if first else None,
@@ -239,23 +239,23 @@ def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:
     return [entry for field in fields if (entry := found.get(field)) and not entry.is_default]
 
 
-def _axis_line(
+def _axis_row(
     axis: str, found: Mapping[str, Found], values: Mapping[str, float]
 ) -> tuple[float, float] | None:
     """Start and step along one axis in metres; None in a grid. Of all three the first entry is in force."""
     initial = found.get(f"initial_{axis}")
-    line = [entry.order for field in ("start", "step") if (entry := found.get(f"line_{field}_{axis}"))]
+    row = [entry.order for field in ("start", "step") if (entry := found.get(f"line_{field}_{axis}"))]
     grid = [entry.order for entry in _grid_entries(axis, found)]
-    if grid and all(min(grid) < order for order in (*line, *([initial.order] if initial else ()))):
+    if grid and all(min(grid) < order for order in (*row, *([initial.order] if initial else ()))):
         return None
-    if initial is not None and all(initial.order < order for order in line):
+    if initial is not None and all(initial.order < order for order in row):
         return values.get(f"initial_{axis}", 0.0), 0.0
     return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
 
 
-def _coordinate(node: str, index: int, axis: str, line: tuple[float, float], step: Found | None) -> float:
+def _coordinate(node: str, index: int, axis: str, row: tuple[float, float], step: Found | None) -> float:
     """Where a node starts on one axis in metres. Raises ConfigError if its step leads too far."""
-    coordinate = line[0] + index * line[1]
+    coordinate = row[0] + index * row[1]
     if step is not None and not abs(coordinate) <= LARGEST_COORDINATE_M:
         text = (
             f"{node} starts at {axis} = {coordinate:.12g}m; expected at most {LARGEST_COORDINATE_M}m from 0m"
