@@ -165,6 +165,8 @@ class VisualizationServer:
     async def _serve(self) -> None:
         from websockets.asyncio.server import serve
 
+        from gradysim.simulator.handler.visualization.connection import ViewerConnection
+
         self._loop = asyncio.get_running_loop()
         self._stop = asyncio.Event()
         configuration = self._configuration
@@ -172,6 +174,7 @@ class VisualizationServer:
             self._meet,
             configuration.host,
             configuration.port,
+            create_connection=ViewerConnection,
             logger=_library_logger,
             compression=None,
             close_timeout=_LAST_WORDS_S,
