@@ -84,9 +84,7 @@ def test_refused(name: str, function: object, problem: str, expected: str) -> No
 
 def test_the_place_of_the_function_is_told() -> None:
     line = coroutine.__code__.co_firstlineno
-    assert re.search(
-        rf"test_contract\.py:{line}\) is asynchronous", str(refusal(handle_timer=coroutine))
-    )
+    assert re.search(rf"test_contract\.py:{line}\) is asynchronous", str(refusal(handle_timer=coroutine)))
 
 
 @pytest.mark.parametrize(
