@@ -14,8 +14,6 @@ from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.geo_target import geo_target
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.encapsulator.tracked_history import TrackedHistory
-from gradysim.encapsulator.tracked_variables import TrackedVariables
 from gradysim.encapsulator.wrong_arguments import reword_wrong_arguments
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
@@ -49,7 +47,6 @@ class NetsimProvider(IProvider):
 
     Attributes:
         handlers: Handlers that watch the run, by their labels; for extensions.
-        history: What the tracked variables were, with times.
         mode: Name of the mode, for people.
     """
 
@@ -78,20 +75,10 @@ class NetsimProvider(IProvider):
         self.handlers = {} if handlers is None else handlers
         self._reference_coordinates = reference_coordinates
         self._random = RandomStream(seed, node.id, Purpose.PROTOCOL)
-        self.history = TrackedHistory(node.current_time)
-        self._tracked_variables = TrackedVariables(self.history.note)
+        self.tracked_variables: dict[str, Any] = {}
         # An attribute of the instance hides the method of the class: a call goes straight to the engine.
         for name in _SAME_IN_THE_ENGINE:
             setattr(self, name, getattr(node, name))
-
-    @property
-    def tracked_variables(self) -> dict[str, Any]:
-        """The tracked variables; each change goes into the history."""
-        return self._tracked_variables
-
-    @tracked_variables.setter
-    def tracked_variables(self, variables: dict[str, Any]) -> None:
-        self._tracked_variables.replace(variables)
 
     @property
     def random(self) -> Random:

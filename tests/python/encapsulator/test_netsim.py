@@ -1,5 +1,8 @@
 """The glue to the compiled engine, tested with the engine itself."""
 
+import gc
+from weakref import ref
+
 import pytest
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
@@ -212,25 +215,22 @@ def test_random_numbers_follow_from_the_seed_and_the_id():
     assert drawn == [RandomStream(9, identifier, Purpose.PROTOCOL).random() for identifier in range(2)]
 
 
-def test_tracked_variables_keep_their_times():
-    def initialize(protocol):
-        protocol.provider.tracked_variables["a"] = 1
-        protocol.provider.schedule_timer("tick", 1.5)
-
-    def handle_timer(protocol):
-        protocol.provider.tracked_variables.update(a=2, b="x")
-
-    provider = Pair(initialize=initialize, handle_timer=handle_timer).run().encapsulators[0].provider
-    assert provider.tracked_variables == {"a": 2, "b": "x"}
-    assert provider.history.values == [(0.0, "a", 1), (1.5, "a", 2), (1.5, "b", "x")]
+def test_a_tracked_value_that_is_replaced_is_kept_nowhere():
+    provider = Pair().encapsulators[0].provider
+    provider.tracked_variables["place"] = place = frozenset([1.5])
+    kept = ref(place)
+    del place
+    provider.tracked_variables["place"] = None
+    gc.collect()
+    assert kept() is None
 
 
-def test_a_mapping_that_replaces_the_tracked_variables_is_followed():
+def test_a_dict_that_replaces_the_tracked_variables_is_followed():
     provider = Pair().encapsulators[0].provider
     provider.tracked_variables["a"] = 1
-    provider.tracked_variables = {"b": 2}
-    assert provider.tracked_variables == {"b": 2}
-    assert [(name, value) for _, name, value in provider.history.values] == [("a", 1), ("a", None), ("b", 2)]
+    provider.tracked_variables = replacement = {"b": 2}
+    replacement["c"] = 3
+    assert provider.tracked_variables == {"b": 2, "c": 3}
 
 
 def test_a_plugin_that_re_binds_a_callback_is_honoured():
