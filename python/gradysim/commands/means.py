@@ -17,11 +17,17 @@ def print_means(
         bool, Parameter(name="--csv", negative="", help="As CSV, with all digits, for other programs.")
     ] = False,
 ) -> int:
-    """Print means of tracked variables and deliveries over all runs, with 95 % confidence intervals."""
+    """Print means over runs, of tracked variables and fates of messages, with 95 % confidence intervals."""
     from gradysim.config.errors.config_error import ConfigError
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
-    from gradysim.results.means import means, of_different_files, of_different_settings, read_results
+    from gradysim.results.means import (
+        means,
+        of_different_files,
+        of_different_settings,
+        read_results,
+        repeated,
+    )
 
     try:
         if not directory.is_dir():
@@ -46,6 +52,15 @@ def print_means(
             f"{directory}: warning: {of_files[2]} changed between {of_files[0]} and {of_files[1]}"
             " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
             f" `gradysim run FILE --result-dir {directory} --resume` makes",
+            file=sys.stderr,
+        )
+    if repetitions := repeated(results):
+        one, another = repetitions[0]
+        print(
+            f"{directory}: warning: {len(repetitions)} of {len(results)} runs are another one over again,"
+            f" with its seed and its results, as {another} is {one}: they count as if they were independent,"
+            " which makes the intervals too narrow; expected a seed for each, as `seed-set = ${runnumber}`,"
+            " the default, gives them",
             file=sys.stderr,
         )
     found = means(results)

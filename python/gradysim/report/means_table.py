@@ -22,12 +22,17 @@ def means_table(means: Sequence[Mean]) -> Table:
         table.add_column(heading, overflow="fold")
     for heading in ("runs", "mean", "± (95 %)"):
         table.add_column(heading, justify="right", no_wrap=True)
+    some_left_out = any(mean.left_out for mean in means)
+    if some_left_out:
+        table.add_column("left out", overflow="fold")
     for mean in means:
         cells = [mean.config] if len(config) > 1 else []
         cells += [mean.mode] if len(mode) > 1 else []
         cells += [str(mean.iterations.get(name, "")) for name in variables]
-        half_width = "" if mean.half_width is None else f"{mean.half_width:.3g}"
-        table.add_row(*cells, mean.quantity, str(mean.runs), f"{mean.mean:.6g}", half_width)
+        cells += [mean.quantity, str(mean.runs)]
+        cells += ["" if mean.mean is None else f"{mean.mean:.6g}"]
+        cells += ["" if mean.half_width is None else f"{mean.half_width:.3g}"]
+        table.add_row(*cells, *([mean.left_out] if some_left_out else []))
     return table
 
 
@@ -35,15 +40,15 @@ def write_csv(means: Sequence[Mean], output: TextIO) -> None:
     """Write a heading and a line for each mean, with all digits."""
     writer = csv.writer(output, lineterminator="\n")
     variables = _variables(means)
-    writer.writerow(["config", "mode", *variables, "quantity", "runs", "mean", "half_width"])
+    writer.writerow(["config", "mode", *variables, "quantity", "runs", "mean", "half_width", "left_out"])
     writer.writerows(_rows(means, variables))
 
 
 def _rows(means: Sequence[Mean], variables: Sequence[str]) -> Iterator[list[object]]:
     for mean in means:
         values = [mean.iterations.get(name, "") for name in variables]
-        half_width = "" if mean.half_width is None else mean.half_width
-        yield [mean.config, mean.mode, *values, mean.quantity, mean.runs, mean.mean, half_width]
+        numbers = ["" if number is None else number for number in (mean.mean, mean.half_width)]
+        yield [mean.config, mean.mode, *values, mean.quantity, mean.runs, *numbers, mean.left_out]
 
 
 def _variables(means: Sequence[Mean]) -> list[str]:

@@ -1,15 +1,16 @@
 """Mean values over the runs of a study, from the files that `--result-dir` holds."""
 
 import json
-import re
-import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean
 from typing import Any
 
+from gradysim.results.shares import ALWAYS_TOLD, shares
 from gradysim.results.student import mean_with_half_width
+from gradysim.results.tracked_numbers import Tracked, numbers_and_others, numeric_variables, tracked_by_group
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
 """What tells a result of a run from other files."""
@@ -24,11 +25,17 @@ class Mean:
     iterations: Mapping[str, object]
     """{name: value}, as the results have it."""
     quantity: str
-    """`uavs[*] heard`: a tracked variable, the mean of a group's nodes; `broadcast delivered`: a share."""
+    """`uavs[*] heard`: a tracked variable, the mean of a group's nodes; `unicast messages retry limit`: a
+    share."""
     runs: int
-    mean: float
+    """Those in which there was a number."""
+    mean: float | None
+    """None if there was none in any run."""
     half_width: float | None
     """Of the 95 % confidence interval; None for a single run."""
+    left_out: str = ""
+    """The values of a tracked variable, at all nodes in all runs, that are no finite numbers and left out:
+    `5 inf, 3 missing of 15`."""
 
 
 def read_results(directory: Path) -> list[dict[str, Any]]:
@@ -49,11 +56,29 @@ def read_results(directory: Path) -> list[dict[str, Any]]:
 
 
 def means(results: Iterable[Mapping[str, Any]]) -> list[Mean]:
-    """Return the mean of each quantity over the runs that have equal values of iteration variables."""
-    alike: dict[str, list[Mapping[str, Any]]] = {}
-    for result in results:
-        alike.setdefault(_values_of(result), []).append(result)
-    return [mean for runs in alike.values() for mean in _means_of(runs)]
+    """Return the mean of each quantity over the runs that have equal values of iteration variables.
+
+    Which quantities there are, all runs of a configuration and a mode decide together, so that what was lost
+    in some of them only is 0 in the others.
+    """
+    found: list[Mean] = []
+    for study in _by(results, lambda result: (result["config"], result["mode"])):
+        runs = {id(result): _Quantities.of(result) for result in study}
+        variables = {each: None for run in runs.values() for each in numeric_variables(run.tracked)}
+        told = {
+            quantity: None
+            for run in runs.values()
+            for quantity, share in run.shares.items()
+            if share or quantity.endswith(ALWAYS_TOLD)
+        }
+        for alike in _by(study, _values_of):
+            of_runs = [runs[id(result)] for result in alike]
+            for group, name in variables:
+                found += _mean_of_variable(alike[0], of_runs, group, name)
+            for quantity in told:
+                if values := [run.shares[quantity] for run in of_runs if quantity in run.shares]:
+                    found.append(_mean(alike[0], quantity, values))
+    return found
 
 
 def of_different_settings(results: Iterable[Mapping[str, Any]]) -> tuple[str, str] | None:
@@ -64,6 +89,22 @@ def of_different_settings(results: Iterable[Mapping[str, Any]]) -> tuple[str, st
         if other.get("settings_hash") != result.get("settings_hash"):
             return _name(other), _name(result)
     return None
+
+
+def repeated(results: Iterable[Mapping[str, Any]]) -> list[tuple[str, str]]:
+    """Name the runs that are another one over again, of equal values of variables, each after that one.
+
+    They have its seed, its settings and all that it computed.
+    """
+    same = ("settings_hash", "fingerprint", "fates", "nodes")
+    found = []
+    for alike in _by(results, lambda result: (_values_of(result), result.get("seed"))):
+        for index, result in enumerate(alike):
+            for other in alike[:index]:
+                if all(result.get(field) == other.get(field) for field in same):
+                    found.append((_name(other), _name(result)))
+                    break
+    return found
 
 
 def of_different_files(results: Iterable[Mapping[str, Any]]) -> tuple[str, str, str] | None:
@@ -90,34 +131,54 @@ def _values_of(result: Mapping[str, Any]) -> str:
     return json.dumps([result["config"], result["mode"], result["iterations"]], sort_keys=True)
 
 
-def _means_of(runs: list[Mapping[str, Any]]) -> Iterator[Mean]:
-    values: dict[str, list[float]] = {}
+def _by(
+    results: Iterable[Mapping[str, Any]], key: Callable[[Mapping[str, Any]], object]
+) -> list[list[Mapping[str, Any]]]:
+    """Return the results in groups of equal keys."""
+    groups: dict[object, list[Mapping[str, Any]]] = {}
+    for result in results:
+        groups.setdefault(key(result), []).append(result)
+    return list(groups.values())
+
+
+@dataclass(frozen=True)
+class _Quantities:
+    """What means are made of, of one run."""
+
+    tracked: Mapping[str, Sequence[Tracked]]
+    shares: Mapping[str, float]
+
+    @classmethod
+    def of(cls, result: Mapping[str, Any]) -> "_Quantities":
+        return cls(tracked_by_group(result["nodes"]), dict(shares(result["fates"])))
+
+
+def _mean_of_variable(
+    result: Mapping[str, Any], runs: Iterable[_Quantities], group: str, name: str
+) -> Iterator[Mean]:
+    of_runs: list[float] = []
+    left_out: Counter[str] = Counter()
+    nodes = 0
     for run in runs:
-        for quantity, value in (*_tracked(run["nodes"]), *_delivered(run["fates"])):
-            values.setdefault(quantity, []).append(value)
-    for quantity, of_runs in values.items():
-        mean, half_width = mean_with_half_width(of_runs)
-        first = runs[0]
-        yield Mean(
-            first["config"], first["mode"], first["iterations"], quantity, len(of_runs), mean, half_width
-        )
+        numbers, others = numbers_and_others(run.tracked.get(group, ()), name)
+        nodes += len(numbers) + len(others)
+        left_out.update(others)
+        if numbers:
+            of_runs.append(fmean(numbers))
+    if nodes:
+        text = ", ".join(f"{count} {what}" for what, count in left_out.items())
+        yield _mean(result, f"{group} {name}", of_runs, f"{text} of {nodes}" if text else "")
 
 
-def _tracked(nodes: Iterable[Mapping[str, Any]]) -> Iterator[tuple[str, float]]:
-    """The mean over a group's nodes of each tracked variable that is a number."""
-    values: dict[str, list[float]] = {}
-    for node in nodes:
-        group = re.sub(r"\[\d+\]$", "[*]", node["name"])
-        for name, value in node["tracked_variables"].items():
-            if isinstance(value, int | float) and abs(value) <= sys.float_info.max:
-                values.setdefault(f"{group} {name}", []).append(value)
-    for quantity, of_nodes in values.items():
-        yield quantity, fmean(of_nodes)
-
-
-def _delivered(fates: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
-    """The share that was delivered of the copies for a receiver whose fate was known at the end."""
-    for kind, counts in (fates.get("frames") or fates.get("copies") or {}).items():
-        decided = sum(counts.values()) - counts.get("in_air", 0)
-        if decided > 0 and not kind.endswith(" overheard"):
-            yield f"{kind} delivered", counts.get("delivered", 0) / decided
+def _mean(result: Mapping[str, Any], quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
+    mean, half_width = mean_with_half_width(values) if values else (None, None)
+    return Mean(
+        result["config"],
+        result["mode"],
+        result["iterations"],
+        quantity,
+        len(values),
+        mean,
+        half_width,
+        left_out,
+    )

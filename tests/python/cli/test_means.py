@@ -15,8 +15,8 @@ def test_means_of_runs(gradysim):
         ["5", "uavs[*]", "said", "3", "5", "0"],
     ]
     in_csv = gradysim("means", "out", "--csv").stdout.splitlines()
-    assert in_csv[0] == "config,mode,limit,quantity,runs,mean,half_width"
-    assert "General,prototype,3,uavs[*] said,3,3.0,0.0" in in_csv
+    assert in_csv[0] == "config,mode,limit,quantity,runs,mean,half_width,left_out"
+    assert "General,prototype,3,uavs[*] said,3,3.0,0.0," in in_csv
 
 
 def test_results_of_an_earlier_study_are_warned_of(gradysim):
@@ -42,6 +42,18 @@ def test_results_of_different_protocols_are_warned_of(gradysim, folder):
         "out: warning: protocol.py changed between General-#0.prototype and General-#2.prototype"
         " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
         " `gradysim run FILE --result-dir out --resume` makes\n"
+    )
+
+
+def test_runs_that_are_one_run_are_warned_of(gradysim):
+    arguments = ("--mode", "prototype", "--result-dir", "out", "--quiet", "--set", "seed-set=5")
+    gradysim("run", "test.ini", *arguments)
+    done = gradysim("means", "out")
+    assert done.returncode == 0
+    assert done.stderr == (
+        "out: warning: 2 of 3 runs are another one over again, with its seed and its results, as General-#1"
+        " is General-#0: they count as if they were independent, which makes the intervals too narrow;"
+        " expected a seed for each, as `seed-set = ${runnumber}`, the default, gives them\n"
     )
 
 

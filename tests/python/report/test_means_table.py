@@ -8,6 +8,8 @@ from gradysim.results.means import Mean
 FAST = Mean("Study", "integrated", {"jitter": 10, "0": "a"}, "uavs[*] heard", 10, 1234.5678, 0.12345)
 SLOW = Mean("Study", "prototype", {"jitter": 20}, "uavs[*] heard", 1, 2.0, None)
 
+NONE = Mean("Study", "integrated", {"jitter": 30}, "uavs[*] heard", 0, None, None, "3 inf of 3")
+
 
 def printed(*means: Mean) -> list[list[str]]:
     text = StringIO()
@@ -29,13 +31,21 @@ def test_modes_that_differ_are_a_column() -> None:
     assert rows[1] == ["prototype", "20", "uavs[*]", "heard", "1", "2"]
 
 
+def test_what_is_left_out_is_a_column_where_something_is() -> None:
+    _, heading, _, first, second = printed(FAST, NONE)
+    assert heading[-2:] == ["left", "out"]
+    assert first[-1] == "0.123"
+    assert second == ["30", "uavs[*]", "heard", "0", "3", "inf", "of", "3"]
+
+
 def test_csv_has_all_digits() -> None:
     text = StringIO()
-    write_csv([FAST, SLOW], text)
+    write_csv([FAST, SLOW, NONE], text)
     assert text.getvalue().splitlines() == [
-        "config,mode,jitter,0,quantity,runs,mean,half_width",
-        "Study,integrated,10,a,uavs[*] heard,10,1234.5678,0.12345",
-        "Study,prototype,20,,uavs[*] heard,1,2.0,",
+        "config,mode,jitter,0,quantity,runs,mean,half_width,left_out",
+        "Study,integrated,10,a,uavs[*] heard,10,1234.5678,0.12345,",
+        "Study,prototype,20,,uavs[*] heard,1,2.0,,",
+        "Study,integrated,30,,uavs[*] heard,0,,,3 inf of 3",
     ]
 
 

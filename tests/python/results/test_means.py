@@ -4,7 +4,14 @@ from typing import Any
 
 import pytest
 
-from gradysim.results.means import Mean, means, of_different_files, of_different_settings, read_results
+from gradysim.results.means import (
+    Mean,
+    means,
+    of_different_files,
+    of_different_settings,
+    read_results,
+    repeated,
+)
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -23,7 +30,7 @@ def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> 
     }
 
 
-def quantities(results: list[dict[str, Any]]) -> dict[str, float]:
+def quantities(results: list[dict[str, Any]]) -> dict[str, float | None]:
     return {mean.quantity: mean.mean for mean in means(results)}
 
 
@@ -46,23 +53,67 @@ def test_groups_and_single_nodes_are_apart() -> None:
     }
 
 
-@pytest.mark.parametrize("value", ["7", None, [1, 2], float("nan"), float("inf"), 10**400])
-def test_what_is_no_finite_number_is_left_out(value: object) -> None:
-    assert quantities([result(0, (value, 3))]) == {"uavs[*] heard": 3}
-    assert quantities([result(0, (value,))]) == {}
+def test_what_is_left_out_is_told_with_the_number_of_values() -> None:
+    (mean,) = means([result(0, (None, 3)), result(1, ("inf", 5)), result(2, (None, "inf"))])
+    assert (mean.mean, mean.runs, mean.left_out) == (4, 2, "2 nan or None, 2 inf of 6")
 
 
-@pytest.mark.parametrize("what", ["frames", "copies"])
-def test_the_share_of_copies_that_arrived(what: str) -> None:
-    fates = {
-        what: {
-            "broadcast": {"delivered": 6, "interference": 2, "in_air": 12},
-            "unicast": {"delivered": 0},
-            "unicast overheard": {"delivered": 5},
-        },
-        "messages": {"broadcast": {"sent": 3}},
+def test_nodes_and_runs_without_a_variable_are_told() -> None:
+    nodes = [{"name": "uavs[0]", "tracked_variables": {}}, {"name": "uavs[1]", "tracked_variables": {}}]
+    (mean,) = means([result(0, (1, 2)), result(1, nodes=nodes)])
+    assert (mean.mean, mean.runs, mean.left_out) == (1.5, 1, "2 missing of 4")
+
+
+def test_where_no_node_has_a_number_there_is_no_mean() -> None:
+    found = means([result(0, (1,)), result(1, (None,), iterations={"jitter": "20ms"})])
+    assert [(mean.mean, mean.half_width, mean.runs, mean.left_out) for mean in found] == [
+        (1, None, 1, ""),
+        (None, None, 0, "1 nan or None of 1"),
+    ]
+
+
+def test_a_variable_that_is_a_number_nowhere_is_no_quantity() -> None:
+    assert means([result(0, (None, "text"))]) == []
+
+
+def test_a_group_that_only_some_values_of_variables_have_counts_where_it_is() -> None:
+    found = means([result(0, (1,)), result(1, (), iterations={"jitter": "20ms"})])
+    assert [(mean.iterations, mean.left_out) for mean in found] == [({"jitter": "10ms"}, "")]
+
+
+def unicast(acknowledged: int, queue_overflow: int) -> dict[str, Any]:
+    return {"messages": {"unicast": {"acknowledged": acknowledged, "queue_overflow": queue_overflow}}}
+
+
+def test_what_was_lost_in_other_runs_of_the_study_is_0() -> None:
+    found = means(
+        [
+            result(0, (), fates=unicast(5, 0)),
+            result(1, (), fates=unicast(1, 3), iterations={"jitter": "20ms"}),
+        ]
+    )
+    assert [(mean.quantity, mean.mean) for mean in found] == [
+        ("unicast messages acknowledged", 1),
+        ("unicast messages queue overflow", 0),
+        ("unicast messages acknowledged", 0.25),
+        ("unicast messages queue overflow", 0.75),
+    ]
+
+
+def test_what_was_lost_in_no_run_takes_no_room() -> None:
+    assert quantities([result(0, (), fates=unicast(5, 0))]) == {"unicast messages acknowledged": 1}
+
+
+def test_that_no_message_arrived_is_told() -> None:
+    assert quantities([result(0, (), fates=unicast(0, 2))]) == {
+        "unicast messages acknowledged": 0,
+        "unicast messages queue overflow": 1,
     }
-    assert quantities([result(0, (), fates=fates)]) == {"broadcast delivered": 0.75}
+
+
+def test_runs_without_such_messages_do_not_count() -> None:
+    (mean,) = means([result(0, (), fates=unicast(5, 0)), result(1, (), fates=unicast(0, 0))])
+    assert (mean.mean, mean.runs) == (1, 1)
 
 
 def test_other_values_modes_and_configurations_are_apart() -> None:
@@ -93,6 +144,28 @@ def test_runs_of_equal_values_and_different_settings_are_named() -> None:
 def test_settings_may_differ_with_the_values() -> None:
     results = [result(0, settings_hash="a"), result(1, settings_hash="b", iterations={"jitter": "20ms"})]
     assert of_different_settings(results) is None
+
+
+def test_runs_that_are_another_one_over_again_are_named() -> None:
+    results = [result(run, seed=5, fingerprint="f") for run in range(3)]
+    assert repeated(results) == [("Study-#0", "Study-#1"), ("Study-#0", "Study-#2")]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"seed": 6},
+        {"settings_hash": "b"},
+        {"fingerprint": "g"},
+        {"heard": (1, 4)},
+        {"fates": {"messages": {}}},
+        {"mode": "prototype"},
+        {"iterations": {"jitter": "20ms"}},
+    ],
+)
+def test_a_run_that_differs_is_another_one(change: dict[str, Any]) -> None:
+    equal: dict[str, Any] = {"seed": 5, "settings_hash": "a", "fingerprint": "f"}
+    assert repeated([result(0, **equal), result(1, **{**equal, **change})]) == []
 
 
 def test_runs_made_with_different_files_of_one_name_are_told() -> None:
