@@ -122,6 +122,7 @@ void bind_config(py::module_& module) {
         .def_readwrite("rts_threshold_bytes", &MacConfig::rts_threshold_bytes)
         .def_readwrite("short_retry_limit", &MacConfig::short_retry_limit)
         .def_readwrite("long_retry_limit", &MacConfig::long_retry_limit)
+        .def_readwrite("inet_station_retry_counters", &MacConfig::inet_station_retry_counters)
         .def_readwrite("cw_min", &MacConfig::cw_min)
         .def_readwrite("cw_max", &MacConfig::cw_max)
         .def_readwrite("queue_capacity", &MacConfig::queue_capacity)

@@ -165,6 +165,7 @@ class MacConfig:
     rts_threshold_bytes: int
     short_retry_limit: int
     long_retry_limit: int
+    inet_station_retry_counters: bool
     cw_min: int
     cw_max: int
     queue_capacity: int

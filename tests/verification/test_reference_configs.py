@@ -17,12 +17,15 @@ from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference
 
 BASES = {"Sensitivity", "Noise"}
-COMPLETED = {"link", "narrowband", "narrowband_contention", "saturation"}
+COMPLETED = {
+    *("hidden_inet", "link", "narrowband", "narrowband_contention", "saturation"),
+    "unicast_failures",
+}
 """Files whose General runs only with what the others add."""
 FILES = {
-    *("beacons", "capture", "flood", "hidden", "jittered", "link", "narrowband", "narrowband_contention"),
-    *("narrowband_link", "rate_control", "saturation", "sir"),
-    "synchronised",
+    *("beacons", "capture", "flood", "hidden", "hidden_inet", "jittered", "link", "narrowband"),
+    *("narrowband_contention", "narrowband_link", "rate_control", "saturation", "sir", "synchronised"),
+    "unicast_failures",
 }
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 

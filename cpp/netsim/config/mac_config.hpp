@@ -25,6 +25,8 @@ struct MacConfig {
     int rts_threshold_bytes = 2346;  // unicast frames (MPDU) of this length on begin with RTS; 0 … 1000000
     int short_retry_limit = 7;       // failures at which RTS, or a shorter frame, is given up; 1 … 255
     int long_retry_limit = 4;        // the same for frames from the RTS threshold on; 1 … 255
+    bool inet_station_retry_counters =
+        false;        // the window after frames given up by INET's rule (mac/retry.hpp)
     int cw_min = -1;  // smallest contention window in slots; -1: of the operation mode; otherwise 0 … 32767
     int cw_max = -1;  // largest one; -1: of the operation mode; otherwise cw_min … 32767
 

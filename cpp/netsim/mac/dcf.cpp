@@ -27,7 +27,7 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters
       queue_(parameters->config.queue_capacity),
       parameters_(*parameters),
       fates_(fates),
-      retry_(parameters->retry_limits, parameters->contention_window),
+      retry_(parameters->retry_limits, parameters->contention_window, parameters->retry_rule),
       owned_parameters_(std::move(parameters)),
       rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
       frames_by_mode_(parameters_.has_adaptive_rate ? parameters_.modes.modes().size() : 0),
@@ -142,7 +142,7 @@ void Dcf::transmission_ended() {
     } else {
         NETSIM_ASSERT(exchange_ == Exchange::sending);
         if (in_progress_->receiver == broadcast_id) {
-            retry_.forget_failures();
+            retry_.broadcast_sent();
             finish(MessageFate::sent);
             return;
         }
@@ -196,11 +196,12 @@ void Dcf::frame_received(const Transmission& transmission) {
 void Dcf::answered() {
     simulator_.cancel(answer_timeout_);
     if (exchange_ == Exchange::awaiting_cts) {
+        retry_.rts_answered();
         exchange_ = Exchange::waiting_sifs;
         simulator_.schedule_after(parameters_.timing.sifs, [this] { send_in_progress(); });
     } else {
         rate_control_->succeeded(attempt(), *data_mode_, simulator_.now());
-        retry_.start_afresh();
+        retry_.acknowledged(is_long(*in_progress_));
         finish(MessageFate::acknowledged);
     }
 }
@@ -246,7 +247,7 @@ void Dcf::attempt_failed() {
     }
     const bool may_go_on = was_sent && is_long(*in_progress_) ? retry_.long_failed() : retry_.short_failed();
     if (!may_go_on) {
-        retry_.start_afresh();
+        retry_.given_up();
         finish(MessageFate::retry_limit);
         return;
     }

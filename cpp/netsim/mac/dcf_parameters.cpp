@@ -45,6 +45,8 @@ DcfParameters::DcfParameters(MacConfig mac_config)
       rts_mode(modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps")),
       retry_limits{config.short_retry_limit, config.long_retry_limit},
       contention_window(contention_window_of(config, modes)),
+      retry_rule(config.inet_station_retry_counters ? Retry::Rule::station_counters
+                                                    : Retry::Rule::frame_counters),
       longest_wait(timing.difs + timing.slot * contention_window.min),
       has_adaptive_rate(!config.rate_control.empty()) {}
 

@@ -24,6 +24,7 @@ struct DcfParameters {
     const Mode& rts_mode;
     Retry::Limits retry_limits;
     Retry::Window contention_window;
+    Retry::Rule retry_rule;
     SimTime longest_wait;  // for a channel that is free: what counts of the time before
     bool has_adaptive_rate;
 };

@@ -1,15 +1,20 @@
-// How often the frame in progress may fail, and the contention window that grows with its failures.
+// How often the frame in progress may fail, and the contention window that grows with failures.
 //
 // A frame has two counters. The short one counts failures of RTS frames and of frames below the RTS threshold, the
 // long one those of frames from the threshold on. A frame whose RTS and own transmissions fail in turn has both
 // running: a CTS resets neither. Every failure doubles the window.
 //
+// A frame that is given up resets the window. INET's rule, chosen by Rule::station_counters, counts the failures of
+// the station, too, in two counters that outlive its frames and that only successes and broadcasts set to 0: the failure
+// that makes one of them equal to the limit resets the window, and each one after it doubles the window as before.
+// So the window is small after the first frame given up in a row, and stays large from the second on.
+//
 // Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window); that a frame of exactly the
-// threshold's length counts as long is INET's choice. A frame that is given up resets the window, as the standard has it;
-// in INET the window stays large from the second such frame in a row on (docs/decisions/0025).
+// threshold's length counts as long is INET's choice. Why the rule is no default: docs/decisions/0025.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 namespace netsim {
 
@@ -23,37 +28,64 @@ public:
         int min;
         int max;
     };
+    enum class Rule : std::uint8_t { frame_counters, station_counters };
 
-    Retry(Limits limits, Window window) : limits_(limits), window_(window), cw_(window.min) {}
+    Retry(Limits limits, Window window, Rule rule = Rule::frame_counters)
+        : limits_(limits), window_(window), rule_(rule), cw_(window.min) {}
 
     // The contention window of the next attempt, in slots.
     int contention_window() const { return cw_; }
 
     // An RTS or a frame below the RTS threshold was not answered. False if that was the last attempt.
-    bool short_failed() { return failed(short_failures_, limits_.short_failures); }
+    bool short_failed() { return failed(short_, limits_.short_failures); }
     // The same for a frame from the RTS threshold on.
-    bool long_failed() { return failed(long_failures_, limits_.long_failures); }
-    // The frame was acknowledged, or given up: the next one starts afresh.
-    void start_afresh() {
-        forget_failures();
-        cw_ = window_.min;
+    bool long_failed() { return failed(long_, limits_.long_failures); }
+    // An RTS was answered: counts for the station only.
+    void rts_answered() { short_.of_station = 0; }
+    // The frame was acknowledged: the next one starts afresh.
+    void acknowledged(bool is_long) {
+        (is_long ? long_ : short_).of_station = 0;
+        start_afresh();
     }
-    // A broadcast was sent, which can neither succeed nor fail: the window stays as it is.
-    void forget_failures() { short_failures_ = long_failures_ = 0; }
+    // The frame was given up, after its last attempt.
+    void given_up() {
+        if (rule_ == Rule::frame_counters) {
+            start_afresh();
+        } else {
+            forget_frame();
+        }
+    }
+    // A broadcast, which can neither succeed nor fail: the window stays as it is.
+    void broadcast_sent() { short_ = long_ = {}; }
 
 private:
-    bool failed(int& failures, int limit) {
-        if (++failures >= limit) {
-            return false;
+    // In a row.
+    struct Failures {
+        int of_frame = 0;
+        int of_station = 0;
+    };
+
+    bool failed(Failures& failures, int limit) {
+        const bool may_go_on = ++failures.of_frame < limit;
+        ++failures.of_station;
+        if (rule_ == Rule::station_counters && failures.of_station == limit) {
+            cw_ = window_.min;
+        } else if (rule_ == Rule::station_counters || may_go_on) {
+            cw_ = std::min(2 * cw_ + 1, window_.max);
         }
-        cw_ = std::min(2 * cw_ + 1, window_.max);
-        return true;
+        return may_go_on;
+    }
+    void forget_frame() { short_.of_frame = long_.of_frame = 0; }
+    void start_afresh() {
+        forget_frame();
+        cw_ = window_.min;
     }
 
     Limits limits_;
     Window window_;
-    int short_failures_ = 0;
-    int long_failures_ = 0;
+    Rule rule_;
+    Failures short_;
+    Failures long_;
     int cw_;
 };
 

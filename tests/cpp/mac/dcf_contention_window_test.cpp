@@ -24,24 +24,27 @@ using test::Sniffer;
 using test::Station;
 using test::us;
 
-// The slots before each attempt of a message that is never acknowledged, and before the next message.
+// The slots before each attempt of messages that are never acknowledged.
 class ContentionWindow : public testing::Test {
 protected:
     static constexpr int seeds = 150;
 
-    // slots[attempt] of all seeds; the last one belongs to the next message.
-    static std::vector<std::vector<std::int64_t>> slots_of_attempts(const MacConfig& mac) {
-        std::vector<std::vector<std::int64_t>> slots(8);
+    // slots[attempt] of all seeds, of so many messages with so many attempts each.
+    static std::vector<std::vector<std::int64_t>> slots_of_attempts(const MacConfig& mac,
+                                                                    std::size_t messages = 2,
+                                                                    std::size_t attempts = 7) {
+        std::vector<std::vector<std::int64_t>> slots(messages * attempts);
         for (std::uint64_t seed = 0; seed < seeds; ++seed) {
             Air air(MediumConfig(), Hearing::what_matters, seed);
             Station& sender = air.add_station({0, 0, 0}, mac);
             Station& gone = air.add_station({1e7, 0, 0}, mac);
             Sniffer& sniffer = air.add_sniffer({0, 0, 0});
-            sender.send(gone.id(), 100);
-            sender.send(gone.id(), 100);
+            for (std::size_t message = 0; message < messages; ++message) {
+                sender.send(gone.id(), 100);
+            }
             air.run(SimTime::from_seconds(1));
             const std::vector<Heard> frames = of_kind(sniffer, FrameKind::unicast);
-            EXPECT_EQ(frames.size(), 14U);
+            EXPECT_EQ(frames.size(), slots.size());
             for (std::size_t attempt = 1; attempt < slots.size(); ++attempt) {
                 const SimTime waited =
                     frames[attempt].start - frames[attempt - 1].end - sifs - ack_duration - difs;
@@ -70,6 +73,19 @@ TEST_F(ContentionWindow, DoublesWithEveryFailureUpToItsMaximum) {
 
 TEST_F(ContentionWindow, IsItsMinimumAgainForTheNextMessage) {
     expect_draws_up_to(slots_of_attempts(MacConfig())[7], 31);
+}
+
+TEST_F(ContentionWindow, IsItsMinimumOnlyOnceWithStationCounters) {
+    MacConfig mac;
+    mac.short_retry_limit = 4;
+    mac.inet_station_retry_counters = true;
+    // Of three messages, with a limit of four failures.
+    const std::vector<std::int64_t> windows{63, 127, 255, 31, 63, 127, 255, 511};
+    const auto slots = slots_of_attempts(mac, 3, 4);
+    for (std::size_t attempt = 1; attempt <= windows.size(); ++attempt) {
+        SCOPED_TRACE("attempt " + std::to_string(attempt));
+        expect_draws_up_to(slots[attempt], windows[attempt - 1]);
+    }
 }
 
 TEST_F(ContentionWindow, IsItsMinimumAgainAfterAnAck) {

@@ -49,14 +49,82 @@ TEST(Retry, EveryFailureDoublesTheWindowUpToItsMaximum) {
     EXPECT_EQ(windows, (std::vector{15, 31, 63, 100}));
 }
 
-TEST(Retry, ANewStartHasTheSmallestWindowAndAllAttempts) {
+TEST(Retry, AfterAnAckAFrameHasTheSmallestWindowAndAllAttempts) {
     Retry retry({.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100});
     retry.short_failed();
     retry.long_failed();
-    retry.start_afresh();
+    retry.acknowledged(true);
     EXPECT_EQ(retry.contention_window(), 15);
     EXPECT_TRUE(retry.short_failed());
     EXPECT_TRUE(retry.long_failed());
+}
+
+TEST(Retry, AfterAFrameThatWasGivenUpTheNextHasTheSmallestWindowAndAllAttempts) {
+    Retry retry({.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100});
+    retry.long_failed();
+    retry.short_failed();
+    EXPECT_FALSE(retry.short_failed());
+    retry.given_up();
+    EXPECT_EQ(retry.contention_window(), 15);
+    EXPECT_TRUE(retry.short_failed());
+    EXPECT_TRUE(retry.long_failed());
+}
+
+// Station counters: two failures each, windows of 15, 31, 63 …
+class RetryOfStation : public testing::Test {
+protected:
+    static std::vector<int> windows_after_short_failures(Retry& retry, int count) {
+        std::vector<int> windows;
+        for (int failure = 0; failure < count; ++failure) {
+            if (!retry.short_failed()) {
+                retry.given_up();
+            }
+            windows.push_back(retry.contention_window());
+        }
+        return windows;
+    }
+
+    Retry retry_{
+        {.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100}, Retry::Rule::station_counters};
+};
+
+TEST_F(RetryOfStation, TheWindowIsSmallAfterTheFirstFrameGivenUpAndGrowsFromThereOn) {
+    EXPECT_EQ(windows_after_short_failures(retry_, 6), (std::vector{31, 15, 31, 63, 100, 100}));
+}
+
+TEST_F(RetryOfStation, EachFrameHasAllAttempts) {
+    EXPECT_TRUE(retry_.short_failed());
+    EXPECT_FALSE(retry_.short_failed());
+    retry_.given_up();
+    EXPECT_TRUE(retry_.short_failed());
+    EXPECT_FALSE(retry_.short_failed());
+}
+
+TEST_F(RetryOfStation, AnAckEndsTheRow) {
+    windows_after_short_failures(retry_, 4);
+    retry_.acknowledged(false);
+    EXPECT_EQ(retry_.contention_window(), 15);
+    EXPECT_EQ(windows_after_short_failures(retry_, 3), (std::vector{31, 15, 31}));
+}
+
+TEST_F(RetryOfStation, AnAckOfALongFrameDoesNotEndTheRowOfShortOnes) {
+    windows_after_short_failures(retry_, 1);
+    retry_.acknowledged(true);
+    EXPECT_EQ(windows_after_short_failures(retry_, 2), (std::vector{15, 31}));
+}
+
+TEST_F(RetryOfStation, ACtsEndsTheRowOfShortFailuresAndLeavesTheWindow) {
+    windows_after_short_failures(retry_, 3);
+    retry_.rts_answered();
+    EXPECT_EQ(retry_.contention_window(), 31);
+    EXPECT_EQ(windows_after_short_failures(retry_, 2), (std::vector{63, 15}));
+}
+
+TEST_F(RetryOfStation, ABroadcastEndsTheRowAndLeavesTheWindow) {
+    windows_after_short_failures(retry_, 4);
+    retry_.broadcast_sent();
+    EXPECT_EQ(retry_.contention_window(), 63);
+    EXPECT_EQ(windows_after_short_failures(retry_, 2), (std::vector{100, 15}));
 }
 
 }  // namespace

@@ -178,6 +178,7 @@ private:
         mac.skip_backoff_if_idle = bytes_.flag();
         mac.own_frames_set_nav = bytes_.flag();
         mac.inet_eifs = bytes_.flag();
+        mac.inet_station_retry_counters = bytes_.flag();
         if (bytes_.flag()) {
             rate_control(mac);
         }

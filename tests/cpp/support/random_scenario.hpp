@@ -120,6 +120,7 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
             mac.control_bitrate_bps = rts_draws.uniform() < 0.5 ? -1 : mac.bitrate_bps;
             mac.own_frames_set_nav = rts_draws.uniform() < 0.7;
             mac.inet_eifs = rts_draws.uniform() < 0.3;
+            mac.inet_station_retry_counters = rts_draws.uniform() < 0.3;
         }
         node.mobility.telemetry_interval_s = 0;
         scenario.nodes.push_back(node);

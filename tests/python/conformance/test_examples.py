@@ -21,6 +21,7 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in metres, mo
     "reference/capture": ("General", 100, ()),
     "reference/flood": ("Python", 50, ()),
     "reference/hidden": ("General", 1000, ()),
+    "reference/hidden_inet": ("Hidden24", 300, ("sim-time-limit = 150ms",)),
     "reference/jittered": ("General", 100, ()),
     "reference/link": ("Snr24", 45, ()),
     "reference/narrowband": ("Contention", 100, ()),
@@ -46,6 +47,7 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in metres, mo
     "reference/saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/sir": ("General", 1000, ()),
     "reference/synchronised": ("General", 100, ()),
+    "reference/unicast_failures": ("Bursts", 300, ()),
     "sensor_field": ("Spread", 20, ("sim-time-limit = 20s",)),
     "sensor_field, again": ("Gateway", 150, ("sim-time-limit = 20s",)),
 }

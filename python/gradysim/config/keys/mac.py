@@ -54,6 +54,13 @@ MAC_KEYS: tuple[Key, ...] = (
         "Failures at which a frame from the RTS threshold on is given up",
     ),
     _dcf(
+        "recoveryProcedure.inetStationRetryCounters",
+        "inet_station_retry_counters",
+        boolean(),
+        "Whether failures are counted across frames that are given up, as in INET: from the second in a row "
+        "on the contention window stays large",
+    ),
+    _dcf(
         "channelAccess.cwMin",
         "cw_min",
         integer(-1),

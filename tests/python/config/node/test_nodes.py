@@ -77,6 +77,7 @@ def test_only_what_was_written_is_set(folder: Any) -> None:
         ("**.ownFramesSetNav", "false", "mac", "own_frames_set_nav", False),
         ("**.contention.inetEifs", "true", "mac", "inet_eifs", True),
         ("**.shortRetryLimit", "4", "mac", "short_retry_limit", 4),
+        ("**.inetStationRetryCounters", "true", "mac", "inet_station_retry_counters", True),
         ("**.cwMin", "15", "mac", "cw_min", 15),
         ("**.cwMax", "63", "mac", "cw_max", 63),
         ("**.packetCapacity", "10", "mac", "queue_capacity", 10),
