@@ -18,12 +18,12 @@ from verification.reference_run import FOLDER, load_reference
 
 BASES = {"Sensitivity", "Noise"}
 COMPLETED = {
-    *("hidden_inet", "link", "narrowband", "narrowband_contention", "saturation"),
+    *("flyby", "hidden_inet", "link", "narrowband", "narrowband_contention", "saturation"),
     "unicast_failures",
 }
 """Files whose General runs only with what the others add."""
 FILES = {
-    *("beacons", "capture", "flood", "hidden", "hidden_inet", "jittered", "link", "narrowband"),
+    *("beacons", "capture", "flood", "flyby", "hidden", "hidden_inet", "jittered", "link", "narrowband"),
     *("narrowband_contention", "narrowband_link", "rate_control", "saturation", "sir", "synchronised"),
     "unicast_failures",
 }

@@ -20,6 +20,7 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in metres, mo
     "reference/beacons": ("Python100", 300, ()),
     "reference/capture": ("General", 100, ()),
     "reference/flood": ("Python", 50, ()),
+    "reference/flyby": ("FlybySensitivity", 100, ()),
     "reference/hidden": ("General", 1000, ()),
     "reference/hidden_inet": ("Hidden24", 300, ("sim-time-limit = 150ms",)),
     "reference/jittered": ("General", 100, ()),
