@@ -3,8 +3,8 @@
 Where something says what a parameter of a protocol measures (see parameter_unit), all else is refused. Where
 nothing does, any quantity is taken and converted to its SI unit: a protocol that takes its interval for
 seconds then has 5 of them in the place of 300. Names that end in a word for times leave little doubt, so that
-other quantities are told; they are taken all the same, as an interval may be one of metres. A `jitter` may
-well be, and nobody has one of minutes.
+other quantities are told; they are taken all the same, as an interval may be one of metres. A `jitter` is one
+of times where nothing else is said, and a `position_jitter` is not.
 """
 
 import re
@@ -19,8 +19,11 @@ from gradysim.config.value.parameter_stream import ParameterDraws
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import Dimension, Unit
 
-_TIMES = ("interval", "timeout", "period", "delay", "duration")
+_ENDS = ("interval", "timeout", "period", "delay", "duration")
 """What names of times end in."""
+
+_WHOLE_NAMES = ("jitter", "spread", "offset")
+"""Names of times that with another word before them may be anything."""
 
 _METRES_IN_A_LIST = re.compile(r"[\d.]\s*m\b|[,.][^{}]*\}\s*m\b", re.ASCII)
 """`${5m, 10m}`, `${5, 10}m` and `${5..10}m`, but not `${runnumber}m`."""
@@ -49,7 +52,8 @@ def doubtful_times(nodes: Iterable[NodeSpec]) -> Iterator[str]:
 
 
 def _is_named_like_a_time(name: str) -> bool:
-    return name.casefold().endswith(_TIMES)
+    folded = name.casefold()
+    return folded in _WHOLE_NAMES or folded.endswith(_ENDS)
 
 
 def _unit_of_no_time(text: str) -> str:

@@ -3,6 +3,7 @@
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below
 from gradysim.config.value.kinds import integer, si_number, text
+from gradysim.config.value.units import UNITS_IN_NAMES
 
 _protocol = Below("protocol", "protocol")
 
@@ -30,9 +31,11 @@ PROTOCOL_PARAMETER = _protocol(
     "attribute",
     si_number(),
     "A public class attribute of the protocol, int, float, str or bool; quantities become SI units,"
-    ' or what its annotation says, `Annotated[float, "ms"]`, or its name ends in: `_ms`, `_km`, `_dbm`.'
-    " One whose unit is said so takes no quantity of another kind. Of the others, one whose name ends in"
-    " interval, timeout, period, delay or duration should be a time, or a warning says so; the rest take any",
+    ' or what its annotation says, `Annotated[float, "ms"]`, or its name ends in:'
+    f" {', '.join(f'`_{unit.lower()}`' for unit in UNITS_IN_NAMES)}."
+    " One whose unit is said so takes no quantity of another kind; an angle has to be said so. Of the others,"
+    " one whose name ends in interval, timeout, period, delay or duration, or is jitter, spread or offset,"
+    " should be a time, or a warning says so; the rest take any",
     default="the class's",
 )
 """Stands for all of them in lists of keys; `parameters_of` knows a class's."""

@@ -10,17 +10,10 @@ import inspect
 import re
 
 from gradysim.config.protocol.native import NativeProtocol
-from gradysim.config.value.units import UNITS
+from gradysim.config.value.units import UNITS, UNITS_IN_NAMES
 from gradysim.protocol.interface import IProtocol
 
-_BY_END = {
-    name.lower(): name
-    for name in (
-        "s", "ms", "us", "m", "km", "mps", "kmph", "Hz", "kHz", "MHz", "GHz", "bps", "kbps", "Mbps", "rad",
-        "deg", "W", "mW", "dBm", "dBW", "dB",
-    )
-}  # fmt: skip
-
+_BY_END = {name.lower(): name for name in UNITS_IN_NAMES}
 
 _ANNOTATED = re.compile(r"""\bAnnotated\[[^"']*, *["'](\w+)["']""")
 """In the text of an annotation, which may be all there is of it."""

@@ -4,20 +4,51 @@ import re
 from dataclasses import replace
 from functools import cache, lru_cache
 
+from gradysim.config.errors.config_error import BadValue
 from gradysim.config.protocol.parameter_unit import annotations_of, unit_of
-from gradysim.config.value.kinds import Kind, boolean, integer, number_in, si_number, text
+from gradysim.config.value.expression import Value
+from gradysim.config.value.kinds import Kind, Scalar, boolean, integer, number_in, si_number, text
+from gradysim.config.value.quantity import Quantity
+from gradysim.config.value.units import Dimension
 from gradysim.protocol.interface import IProtocol
 
 
 @cache
-def _float_of(unit: str | None) -> Kind:
-    return si_number() if unit is None else number_in(unit)
+def _float_of(name: str, unit: str | None) -> Kind:
+    return _float_without_unit(name) if unit is None else number_in(unit)
+
+
+def _float_without_unit(name: str) -> Kind:
+    """Takes no angles: of degrees and radians either may be meant, and commands want degrees."""
+    any_number = si_number()
+
+    def convert(value: Value) -> Scalar:
+        unit = value.unit if isinstance(value, Quantity) else None
+        if unit is not None and unit.dimension is Dimension.ANGLE:
+            problem = f"`{unit.name}` at `{name}`, which does not say what unit the protocol gets"
+            raise BadValue(
+                problem, expected=f"a plain number, or an attribute named `{name}_deg` or `{name}_rad`"
+            )
+        return any_number.convert(value)
+
+    return replace(any_number, convert=convert)
 
 
 @cache
-def _integer_of(unit: str | None) -> Kind:
+def _integer_of(name: str, default: int, unit: str | None) -> Kind:
     number = "a whole number" if unit is None else f"a whole number of {unit}, without the unit"
-    return replace(integer(at_most=None), expected=f"{number}, as the parameter is an int")
+    whole = integer(at_most=None)
+
+    def convert(value: Value) -> Scalar:
+        try:
+            return whole.convert(value)
+        except BadValue as error:
+            if isinstance(value, Quantity) and not error.suggestion:
+                hint = f"; for other numbers write `{name}: float = {default}` in the class"
+                raise BadValue(error.problem, hint) from None
+            raise
+
+    return replace(whole, convert=convert, expected=f"{number}, as the parameter is an int")
 
 
 _BOOLEAN = boolean()
@@ -31,7 +62,7 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     """Names of the parameters that can be set, each with what its value has to be: the type of its default.
 
     A default such as `delay: float = 0` is a float. Quantities are converted to the unit of the parameter, if
-    something says it, otherwise to SI units.
+    something says it, otherwise to SI units; an angle is refused there.
     """
     parameters: dict[str, Kind] = {}
     for base in reversed(cls.__mro__):
@@ -41,7 +72,7 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
         for name, default in vars(base).items():
             if name.startswith("_") or name in _CONTRACT:
                 continue
-            kind = _kind_of(default, annotations.get(name), unit_of(cls, name))
+            kind = _kind_of(name, default, annotations.get(name), unit_of(cls, name))
             if kind is not None:
                 parameters[name] = kind
             else:
@@ -49,13 +80,13 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     return parameters
 
 
-def _kind_of(default: object, annotation: object, unit: str | None) -> Kind | None:
+def _kind_of(name: str, default: object, annotation: object, unit: str | None) -> Kind | None:
     if type(default) is bool:
         return _BOOLEAN
     if type(default) is float or (type(default) is int and _mentions_float(annotation)):
-        return _float_of(unit)
+        return _float_of(name, unit)
     if type(default) is int:
-        return _integer_of(unit)
+        return _integer_of(name, default, unit)
     return _TEXT if type(default) is str else None
 
 

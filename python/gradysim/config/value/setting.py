@@ -75,7 +75,7 @@ def read_scalar(entry: Entry, kind: Kind, path: str = "", draws: ParameterDraws 
             this += f"that is {written} for {path}: "
         elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
             this += f"for {path}: "
-        text = f"{this}{error.problem}; expected {kind.expected}{error.suggestion}"
+        text = f"{this}{error.problem}; expected {error.expected or kind.expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error
 
 

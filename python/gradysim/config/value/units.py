@@ -86,6 +86,12 @@ UNITS: dict[str, Unit] = {
     for name, factor in {"dBW": "1", "dBm": "1e-3", "dBmW": "1e-3"}.items()
 }
 
+UNITS_IN_NAMES = (
+    "s", "ms", "us", "m", "km", "mps", "kmph", "Hz", "kHz", "MHz", "GHz", "bps", "kbps", "Mbps", "rad", "deg",
+    "W", "mW", "dBm", "dBW", "dB",
+)  # fmt: skip
+"""Those that the end of the name of a protocol's parameter may say, in small letters."""
+
 
 def unit_named(name: str) -> Unit:
     """The unit of that name.

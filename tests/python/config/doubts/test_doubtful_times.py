@@ -13,6 +13,8 @@ class Timed(Sensor):
     interval = 1.0
     heartbeatTimeout = 1.0
     jitter = 0.0
+    Spread = 0.0
+    offset = 0.0
     position_jitter = 0.0
     spacing = 1.0
     lawn_interval: Annotated[float, "m"] = 1.0
@@ -47,6 +49,12 @@ def test_a_time_in_another_unit_is_told_too(folder: Any, value: str, unit: str) 
     )
 
 
+@pytest.mark.parametrize("name", ["jitter", "Spread", "offset"])
+def test_a_word_that_alone_is_a_time_is_told_too(folder: Any, name: str) -> None:
+    (text,) = told(folder, f"*.uavs[*].protocol.{name} = 1m")
+    assert f"warning: `{name}` is given in `m`, and by its name it is a time; a minute is `min`" in text
+
+
 @pytest.mark.parametrize("values", ["${5m, 10m}", "${interval=10s, 5m}", "${5, 10}m", "${5..10 step 5}m"])
 def test_a_list_of_values_is_told_too(folder: Any, values: str) -> None:
     assert len(told(folder, f"*.uavs[*].protocol.interval = {values}")) == 1
@@ -61,7 +69,7 @@ def test_different_lines_are_told_each(folder: Any) -> None:
     "line",
     [
         "interval = 5min",
-        "jitter = 5m",
+        "jitter = 5min",
         "position_jitter = 5m",
         "interval = 5",
         "interval = ${runnumber}m",

@@ -292,7 +292,14 @@ def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None
         ),
         (
             "**.retries = 1.5\n",
-            "**.retries = 1.5: `1.5` is no whole number; expected a whole number, as the parameter is an int",
+            "**.retries = 1.5: `1.5` is no whole number; expected a whole number, as the parameter is an int"
+            "; for other numbers write `retries: float = 3` in the class",
+        ),
+        (
+            "**.launch_interval = -15deg\n",
+            "**.launch_interval = -15deg: `deg` at `launch_interval`, which does not say what unit the"
+            " protocol gets; expected a plain number, or an attribute named `launch_interval_deg` or"
+            " `launch_interval_rad`",
         ),
         (
             "*.boat.protocol.class = 3\n",

@@ -1,3 +1,4 @@
+import math
 from typing import Annotated, ClassVar, Final
 
 import pytest
@@ -30,6 +31,8 @@ class Mobile(Base):
     lost_db = 3.0
     whole: int = 3
     period_ms: int = 100
+    heading_deg = 0.0
+    heading_rad = 0.0
     text: Final = "x"
     flag = False
     register = 1  # the name of a method of all abstract classes, but of no protocol
@@ -68,6 +71,8 @@ def test_are_public_plain_class_attributes() -> None:
         "lost_db",
         "whole",
         "period_ms",
+        "heading_deg",
+        "heading_rad",
         "text",
         "flag",
         "register",
@@ -102,6 +107,27 @@ def test_powers_are_in_the_unit_of_the_name(name: str, value: float, written: st
 def test_a_number_is_in_the_unit_of_the_name(number: float, end: tuple[str, str]) -> None:
     assert converted(f"power_{end[0]}", f"{number!r}") == number
     assert converted(f"power_{end[0]}", f"{number!r}{end[1]}") == number
+
+
+@pytest.mark.parametrize("name", ["real", "real_by_annotation"])
+@pytest.mark.parametrize("written", ["90deg", "1rad", "-2 * 1deg"])
+def test_an_angle_is_refused_where_nothing_says_its_unit(name: str, written: str) -> None:
+    with pytest.raises(BadValue) as caught:
+        converted(name, written)
+    assert caught.value.expected == f"a plain number, or an attribute named `{name}_deg` or `{name}_rad`"
+
+
+@pytest.mark.parametrize(("name", "value"), [("heading_deg", 90.0), ("heading_rad", math.pi / 2)])
+def test_an_angle_is_in_the_unit_of_the_name(name: str, value: float) -> None:
+    assert converted(name, "90deg") == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize(("name", "written"), [("whole", "5s"), ("whole", "1.5"), ("period_ms", "5s")])
+def test_where_a_parameter_is_an_int_what_to_write_for_other_numbers_is_said(name: str, written: str) -> None:
+    with pytest.raises(BadValue) as caught:
+        converted(name, written)
+    default = getattr(Mobile, name)
+    assert caught.value.suggestion == f"; for other numbers write `{name}: float = {default}` in the class"
 
 
 def test_decibels_stay_decibels() -> None:
