@@ -101,6 +101,8 @@ def test_its_random_places_are_others_in_each_run(code_blocks: CodeBlocks, folde
     places = [node.initial_position for scenario in scenarios for node in scenario.nodes]
     assert len(set(places)) == len(places) == 10 * 4
     assert all(0 <= x < 500 and 0 <= y < 500 and z >= 5 for x, y, z in places)
+    heard = [node.tracked_variables["heard"] for node in gradysim.integrated.run.run(scenarios[0]).nodes]
+    assert any(heard)
 
 
 def test_its_table_of_functions_has_all_of_them(root: Path) -> None:

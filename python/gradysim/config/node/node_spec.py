@@ -2,9 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from gradysim.config.errors.source import Source
 from gradysim.config.node.interface_spec import InterfaceSpec
+from gradysim.config.protocol.origin import Origin
+from gradysim.config.protocol.portable import class_from, portable
 from gradysim.config.value.setting import Setting
 from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.interface import IProtocol
@@ -47,3 +50,12 @@ class NodeSpec:
             raise TypeError(f"the protocol of {self.name} must be a class, got {self.protocol!r}")
         place = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
         object.__setattr__(self, "initial_position", place)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """For pickle: other processes load the protocol from its file."""
+        return _from_fields, ({**vars(self), "protocol": portable(self.protocol)},)
+
+
+def _from_fields(fields: dict[str, Any]) -> NodeSpec:
+    protocol: type[IProtocol] | Origin = fields["protocol"]
+    return NodeSpec(**{**fields, "protocol": class_from(protocol)})

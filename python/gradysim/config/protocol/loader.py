@@ -5,6 +5,7 @@ import inspect
 import os
 import sys
 import traceback
+import uuid
 from pathlib import Path
 from types import ModuleType
 
@@ -13,14 +14,17 @@ from gradysim.config.errors.nearest import did_you_mean, misspelt
 from gradysim.config.errors.sibling_files import file_meant
 from gradysim.config.protocol.contract import check_contract
 from gradysim.config.protocol.imported_files import files_of_python, root_of_module
-from gradysim.config.protocol.module import ModuleLoader
+from gradysim.config.protocol.module import BeingLoadedError, ModuleLoader
+from gradysim.config.protocol.origin import Origin, remember_origin
 from gradysim.protocol.interface import IProtocol
 
 
 class ProtocolLoader:
     """Loads each file and module once for a configuration."""
 
-    def __init__(self) -> None:
+    def __init__(self, name: str = "") -> None:
+        """`name` tells it from other loaders in Origin; it makes one of its own if there is none."""
+        self._name = name or uuid.uuid4().hex
         self._modules = ModuleLoader()
         self._files: dict[tuple[Path, Path], tuple[Path, ...]] = {}
 
@@ -33,8 +37,11 @@ class ProtocolLoader:
         place, colon, class_name = reference.rpartition(":")
         if not (colon and place and class_name.isidentifier()):
             raise BadValue(f"`{reference}` names no class", _class_meant(reference, folder))
-        module = self._from_file(place, folder) if _is_file(place) else _from_name(place, folder, class_name)
-        return _protocol_in(module, class_name, place)
+        if not _is_file(place):
+            return _protocol_in(_from_name(place, folder, class_name), class_name, place)
+        protocol = _protocol_in(self._from_file(place, folder), class_name, place)
+        remember_origin(protocol, Origin((folder / place).resolve(), class_name, self._name))
+        return protocol
 
     def files(self, reference: str, folder: Path) -> tuple[Path, ...]:
         """The files that the protocol of a reference consists of, once it is loaded."""
@@ -63,6 +70,8 @@ class ProtocolLoader:
         try:
             return self._modules.load(file)
         except (Exception, SystemExit) as error:
+            if _is_loaded_by_itself(file, error):
+                raise _loaded_by_itself(file, error) from error
             raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
 
 
@@ -131,6 +140,24 @@ def _is_protocol(value: object) -> bool:
     return isinstance(value, type) and issubclass(value, IProtocol) and value is not IProtocol
 
 
+def _is_loaded_by_itself(file: Path, error: BaseException | None) -> bool:
+    """Whether the error is that this file was loaded again, before it had been to its end."""
+    while error is not None and not isinstance(error, BeingLoadedError):
+        error = error.__cause__
+    return error is not None and error.file == file.resolve()
+
+
+def _loaded_by_itself(file: Path, error: BaseException) -> BadValue:
+    place = "" if isinstance(error, BeingLoadedError) else _place(error, file.parent)
+    script = getattr(sys.modules["__main__"], "__file__", None)
+    is_script = script is not None and Path(script).resolve() == file.resolve()
+    return BadValue(
+        f"{file} is being loaded already: it reads this configuration when it is imported{place}",
+        expected='that below `if __name__ == "__main__":`'
+        + (", or the class as `__main__:Class`" if is_script else ""),
+    )
+
+
 def _list(protocols: list[str]) -> str:
     return f"; there are {', '.join(protocols)}" if protocols else ""
 
@@ -140,6 +167,11 @@ def _error_text(error: BaseException, folder: Path | None = None) -> str:
     text = "".join(traceback.format_exception_only(error)[-1:]).strip()
     if isinstance(error, SyntaxError) and error.filename and error.lineno:
         return f"{text} ({error.filename}:{error.lineno})" if "line " not in text else text
+    return f"{text}{_place(error, folder)}"
+
+
+def _place(error: BaseException, folder: Path | None) -> str:
+    """That innermost line, in parentheses."""
     frames = [
         frame for frame in traceback.extract_tb(error.__traceback__) if "importlib" not in frame.filename
     ]
@@ -149,4 +181,4 @@ def _error_text(error: BaseException, folder: Path | None = None) -> str:
         if folder is not None and Path(frame.filename).resolve().is_relative_to(folder.resolve())
     ]
     place = (own or frames)[-1:]
-    return f"{text} ({place[0].filename}:{place[0].lineno})" if place else text
+    return f" ({place[0].filename}:{place[0].lineno})" if place else ""

@@ -20,6 +20,21 @@ from types import ModuleType
 _lock = threading.RLock()
 """`sys.path` and `sys.modules` belong to the whole process."""
 
+_being_loaded: set[Path] = set()
+"""Files whose code is running as that of a module now. It belongs to who holds the lock."""
+
+
+class BeingLoadedError(ImportError):
+    """The code of a file leads to loading that file, which would never end.
+
+    Attributes:
+        file: The file.
+    """
+
+    def __init__(self, file: Path) -> None:
+        super().__init__(f"{file} is being loaded already")
+        self.file = file
+
 
 class ModuleLoader:
     """Loads each file once. Another loader loads it anew, as it is then."""
@@ -30,11 +45,15 @@ class ModuleLoader:
         importlib.invalidate_caches()
 
     def load(self, file: Path) -> ModuleType:
-        """The module of a file. Whatever its code raises passes through."""
+        """The module of a file. Whatever its code raises passes through.
+
+        Raises:
+            BeingLoadedError: This is called by the code of the file itself, while it is loaded.
+        """
         file = file.resolve()
         module = self._modules.get(file)
         if module is None:
-            with _lock, self._siblings_importable(file.parent):
+            with _lock, _loaded_once(file), self._siblings_importable(file.parent):
                 module = self._modules[file] = _execute(file)
         return module
 
@@ -66,6 +85,17 @@ class ModuleLoader:
                 del sys.modules[name]
             siblings.update(loaded)
             sys.modules.update(hidden)
+
+
+@contextmanager
+def _loaded_once(file: Path) -> Iterator[None]:
+    if file in _being_loaded:
+        raise BeingLoadedError(file)
+    _being_loaded.add(file)
+    try:
+        yield
+    finally:
+        _being_loaded.remove(file)
 
 
 def _execute(file: Path) -> ModuleType:

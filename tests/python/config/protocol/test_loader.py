@@ -6,8 +6,9 @@ from typing import Any
 
 import pytest
 
-from gradysim.config.errors.config_error import BadValue
+from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.protocol.loader import ProtocolLoader
+from gradysim.config.scenario import load_scenarios
 
 
 @pytest.fixture
@@ -163,3 +164,46 @@ def test_the_files_of_a_protocol_are_looked_for_once(folder: Any) -> None:
     folder.write("helper.py", "")
     folder.write("protocols.py", "import helper")
     assert loader.files("protocols.py:Sensor", folder.path) == first
+
+
+OWN = """
+from pathlib import Path
+
+from gradysim.config import load_scenarios
+from protocols import Mobile
+
+class Mine(Mobile): pass
+
+{}load_scenarios(Path(__file__).parent / "own.ini")
+"""
+OWN_INI = '[General]\nsim-time-limit = 1s\n*.uav.protocol.class = "own.py:Mine"\n'
+
+
+def test_a_file_that_reads_its_own_configuration_when_it_is_imported(folder: Any) -> None:
+    folder.write("own.ini", OWN_INI)
+    folder.write("own.py", OWN.format(""))
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.path / "own.ini")
+    assert str(caught.value).replace(f"{folder.path}/", "") == (
+        'own.ini:3: *.uav.protocol.class = "own.py:Mine": own.py is being loaded already: it reads this'
+        ' configuration when it is imported (own.py:9); expected that below `if __name__ == "__main__":`'
+    )
+
+
+def test_a_script_that_runs_its_own_class_is_told_both_ways(
+    folder: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder.write("own.ini", OWN_INI)
+    script = folder.write("own.py", OWN.format(""))
+    monkeypatch.setattr(sys.modules["__main__"], "__file__", str(script), raising=False)
+    with pytest.raises(ConfigError, match=r"or the class as `__main__:Class`$"):
+        load_scenarios(folder.path / "own.ini")
+
+
+def test_a_file_that_was_loaded_by_itself_loads_once_it_is_mended(folder: Any) -> None:
+    folder.write("own.ini", OWN_INI)
+    folder.write("own.py", OWN.format(""))
+    with pytest.raises(ConfigError):
+        load_scenarios(folder.path / "own.ini")
+    folder.write("own.py", OWN.format('if __name__ == "__main__": '))
+    assert load_scenarios(folder.path / "own.ini")[0].nodes[0].protocol.__name__ == "Mine"
