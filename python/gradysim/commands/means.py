@@ -1,5 +1,6 @@
 """`gradysim means`: what many runs have in common."""
 
+import shlex
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -37,7 +38,7 @@ def print_means(
         if not results:
             raise ConfigError(
                 f"{directory}: it has no results of runs that came to their end; expected those of"
-                f" `gradysim run FILE --result-dir {directory}`"
+                f" `gradysim run FILE --result-dir {shlex.quote(str(directory))}`"
             )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
@@ -51,7 +52,7 @@ def print_means(
         print(
             f"{directory}: warning: {of_files[2]} changed between {of_files[0]} and {of_files[1]}"
             " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
-            f" `gradysim run FILE --result-dir {directory} --resume` makes",
+            f" `gradysim run FILE --result-dir {shlex.quote(str(directory))} --resume` makes",
             file=sys.stderr,
         )
     if repetitions := repeated(results):

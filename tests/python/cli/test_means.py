@@ -66,6 +66,11 @@ def test_a_folder_without_results(gradysim, folder):
     )
 
 
+def test_a_folder_whose_name_has_blanks_is_quoted_where_it_stands_in_a_command(gradysim, folder):
+    (folder / "a b").mkdir()
+    assert gradysim("means", "a b").stderr.endswith("those of `gradysim run FILE --result-dir 'a b'`\n")
+
+
 @pytest.mark.parametrize(
     ("name", "reason"), [("nowhere", "there is no such folder"), ("test.ini", "it is no folder")]
 )

@@ -44,8 +44,11 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
     if bracket and not hint:
         size = f"`*.num{base[:1].upper()}{base[1:]} = ...`"
         return f"`{key}` matches no node: nothing says how many `{base}` there are; expected {size}"
+    if not groups:
+        line = f'`*.{base if base.isidentifier() else "uav"}.{PROTOCOL_CLASS.path} = "file.py:Class"`'
+        return f"`{key}` matches no node; expected a line that makes one, such as {line}{hint}"
     names = ", ".join(f"`{group.written}`" for group in groups)
-    return f"`{key}` matches no node; expected one of {names or 'the nodes, and there are none'}{hint}"
+    return f"`{key}` matches no node; expected one of {names}{hint}"
 
 
 def is_misspelt_class(rest: Pattern | None) -> bool:
@@ -127,8 +130,9 @@ def _unknown_protocol_parameter_text(key: str, rest: Pattern, classes: Sequence[
     expected = f"expected one of {', '.join(parameters)}"
     attribute = next((value for cls in classes if (value := getattr(cls, name, None)) is not None), None)
     if attribute is None and any(_has_no_value(cls, name) for cls in classes):
-        example = f"such as `{name} = 0`"
-        return f"`{name}` is no parameter of {whose}, it has no value in the class, {example}; {expected}"
+        is_none = any(hasattr(cls, name) for cls in classes)
+        problem = "its value in the class is None, and none" if is_none else "it has no value in the class,"
+        return f"`{name}` is no parameter of {whose}, {problem} such as `{name} = 0`; {expected}"
     match = nearest(name, parameters)
     hint = f"; did you mean `{key.removesuffix(name)}{match}`?" if match else ""
     why = (

@@ -148,6 +148,8 @@ class _Parser:
     def _hint_at(self, word: str) -> str:
         if word.lower() in _WORDS:
             return f"; did you mean `{word.lower()}`?"
+        if word == "index":
+            return "; no value knows the index of a node: `lineStepX = 3m` sets nodes in a line"
         unit = "".join(token for _, token in self._tokens[max(0, self._position - 3) : self._position])
         return f"; did you mean `{_SPEEDS[unit]}`?" if unit in _SPEEDS else ""
 

@@ -2,6 +2,9 @@ from typing import Any
 
 import pytest
 
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.scenario import load_scenarios
+
 NODES = "expected one of `groundStation`, `uavs[*]`"
 
 
@@ -133,9 +136,7 @@ def test_says_what_was_expected_and_the_nearest_key(folder: Any, key: str, messa
     assert folder.error(f"{key} = 1\n") == f"test.ini:6: {message}"
 
 
-@pytest.mark.parametrize(
-    "body", ["gateway: int", "gateway: int | None = None", "def __init__(self): self.gateway = 3"]
-)
+@pytest.mark.parametrize("body", ["gateway: int", "def __init__(self): self.gateway = 3"])
 def test_an_attribute_without_a_value_in_the_class_is_told_apart(folder: Any, body: str) -> None:
     text = f"from protocols import Sensor as S\nclass Sensor(S):\n    {body}\n    gate = 1\n"
     folder.write("others.py", text)
@@ -143,6 +144,27 @@ def test_an_attribute_without_a_value_in_the_class_is_told_apart(folder: Any, bo
     assert folder.error(added) == (
         "test.ini:7: `gateway` is no parameter of Sensor, it has no value in the class, such as"
         " `gateway = 0`; expected one of class, gate, typename"
+    )
+
+
+def test_an_attribute_that_is_none_in_the_class_is_told_apart(folder: Any) -> None:
+    text = "from protocols import Sensor as S\nclass Sensor(S):\n    gateway: int | None = None\n"
+    folder.write("others.py", text)
+    added = '*.buoy.protocol.class = "others.py:Sensor"\n*.buoy.protocol.gateway = 1\n'
+    assert folder.error(added) == (
+        "test.ini:7: `gateway` is no parameter of Sensor, its value in the class is None, and none such as"
+        " `gateway = 0`; expected one of class, typename"
+    )
+
+
+@pytest.mark.parametrize(("name", "made"), [("boat", "boat"), ("boat*", "uav")])
+def test_without_any_node_what_makes_one_is_told(folder: Any, name: str, made: str) -> None:
+    folder.write("test.ini", f"[General]\nsim-time-limit = 1s\n*.{name}.mobility.initialX = 3m\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini)
+    assert str(caught.value) == (
+        f"{folder.ini}:3: `*.{name}.mobility.initialX` matches no node; expected a line that makes one,"
+        f' such as `*.{made}.protocol.class = "file.py:Class"`'
     )
 
 

@@ -105,6 +105,11 @@ def test_truth_values() -> None:
         ("fast", "`fast` is no value (a text stands in quotes)"),
         ("True", "`True` is no value (a text stands in quotes); did you mean `true`?"),
         ("10m/s", "`s` is no value (a text stands in quotes); did you mean `mps`?"),
+        (
+            "index * 3m",
+            "`index` is no value (a text stands in quotes); no value knows the index of a node:"
+            " `lineStepX = 3m` sets nodes in a line",
+        ),
         ("36 km/h", "`h` is no value (a text stands in quotes); did you mean `kmph`?"),
         ("3 4", "`4` follows `3`; only quantities with units may be strung together"),
         ("5s 3", "`3` follows `5s`; only quantities with units may be strung together"),
