@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,10 +21,11 @@ inline constexpr std::string_view unit_disk_medium = "UnitDiskRadioMedium";
 
 inline constexpr std::array medium_type_names{ieee80211_scalar_medium, ieee802154_scalar_medium,
                                               unit_disk_medium};
-// What each of them is: medium/path_loss.hpp, two_ray.hpp, fading.hpp.
+// What each of them is: medium/path_loss.hpp, two_ray.hpp, fading.hpp. The last four are free space, and chance (Fading).
 inline constexpr std::array<std::string_view, 8> path_loss_names{
     "FreeSpacePathLoss",  "BreakpointPathLoss", "TwoRayGroundReflection", "TwoRayInterference",
     "LogNormalShadowing", "RayleighFading",     "RicianFading",           "NakagamiFading"};
+inline constexpr std::span<const std::string_view> fading_names = std::span(path_loss_names).last(4);
 inline constexpr std::array<std::string_view, 2> polarization_names{"horizontal", "vertical"};
 inline constexpr std::array<std::string_view, 3> obstacle_loss_names{"", "IdealObstacleLoss",
                                                                      "DielectricObstacleLoss"};

@@ -57,9 +57,9 @@ std::uint32_t EventQueue::take_slot() {
     return slot;
 }
 
-EventHandle EventQueue::insert(SimTime time, Priority priority, Place place, std::uint32_t slot) {
+EventHandle EventQueue::insert(SimTime time, Priority priority, Turn turn, std::uint32_t slot) {
     const std::uint32_t generation = slots_[slot].generation;
-    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | place;
+    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | turn;
     const EventKey key{time.ps(), order, slot, generation};
     if (heap_.size() >= large_heap && !far_.is_in_use()) {
         close_gap();

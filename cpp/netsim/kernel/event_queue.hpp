@@ -1,7 +1,7 @@
 // The pending events of one simulation, in the order in which they will run.
 //
 // The order is a contract: by time, then by priority, then by the order of scheduling. An event that is scheduled late
-// can keep a place in that order that was reserved before. Small keys live in a binary heap, what an event does lives
+// can keep a turn in that order that was reserved before. Small keys live in a binary heap, what an event does lives
 // in a pool beside it. An event that has been taken out leaves a gap at the top, into which goes what it schedules, as
 // most events schedule their successor. Once there are many events, only those due soon are in the heap (far_events.hpp
 // has the others). Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
@@ -29,33 +29,33 @@ struct EventHandle {
     std::uint32_t generation = 0;  // 0: no event
 };
 
-// Of events of one time and priority, those with the lower place run first.
-using Place = std::uint64_t;
+// Of events of one time and priority, those with the lower turn run first.
+using Turn = std::uint64_t;
 
 class EventQueue {
 public:
     // What is pushed is an Action, or what becomes one.
     template <typename Callable>
     EventHandle push(SimTime time, Priority priority, const Callable& action) {
-        return push_at_place(time, priority, next_place_++, action);
+        return push_at_turn(time, priority, next_turn_++, action);
     }
-    // Keeps `count` places in the order of equal times, as if so many events were scheduled now; returns the first.
-    Place reserve_places(std::uint64_t count) { return std::exchange(next_place_, next_place_ + count); }
-    // At a reserved place; each serves once.
+    // Keeps `count` turns in the order of equal times, as if so many events were scheduled now; returns the first.
+    Turn reserve_turns(std::uint64_t count) { return std::exchange(next_turn_, next_turn_ + count); }
+    // For a reserved turn; each serves once.
     template <typename Callable>
-    EventHandle push_at_place(SimTime time, Priority priority, Place place, const Callable& action) {
+    EventHandle push_at_turn(SimTime time, Priority priority, Turn turn, const Callable& action) {
         const std::uint32_t slot = take_slot();
         slots_[slot].action = action;
-        return insert(time, priority, place, slot);
+        return insert(time, priority, turn, slot);
     }
 
     // True if the event was pending. O(1) amortised.
     bool cancel(EventHandle handle);
     bool is_pending(EventHandle handle) const;
 
-    // Whether a normal event of that time and place would be the next one; sometimes false though it would.
-    bool would_be_next(SimTime time, Place place) const {
-        const EventKey key{time.ps(), place, 0, 0};
+    // Whether a normal event of that time and turn would be the next one; sometimes false though it would.
+    bool would_be_next(SimTime time, Turn turn) const {
+        const EventKey key{time.ps(), turn, 0, 0};
         const std::size_t first =
             gap_at_top_ ? 1 : 0;  // no other is before the top, or before the two below it
         const std::size_t end = std::min(2 * first + 1, heap_.size());
@@ -80,7 +80,7 @@ private:
 
     bool is_dead(const EventKey& key) const { return slots_[key.slot].generation != key.generation; }
     std::uint32_t take_slot();
-    EventHandle insert(SimTime time, Priority priority, Place place, std::uint32_t slot);
+    EventHandle insert(SimTime time, Priority priority, Turn turn, std::uint32_t slot);
     void release(std::uint32_t slot);
     void close_gap() {
         if (gap_at_top_) {
@@ -103,7 +103,7 @@ private:
     FarEvents far_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> free_slots_;
-    Place next_place_ = 0;
+    Turn next_turn_ = 0;
     std::size_t live_ = 0;
     bool gap_at_top_ = false;  // heap_[0] is of an event that was taken out
 };

@@ -10,7 +10,7 @@
 
 namespace netsim {
 
-// Deeds of one kind of one node: more than can be meant. Prototype mode has the same bound.
+// Actions of one kind that one node may take within one instant; more cannot be meant. Prototype mode has the same bound.
 inline constexpr std::int32_t most_at_one_instant = 1'000'000;
 
 class InstantCount {

@@ -29,18 +29,18 @@ public:
     EventHandle schedule_after(SimTime delay, const Callable& action, Priority priority = Priority::normal) {
         return schedule_at(now_ + delay, action, priority);
     }
-    // For events that are scheduled late, or perhaps not at all, but keep the place in the order of equal times that
+    // For events that are scheduled late, or perhaps not at all, but keep the turn in the order of equal times that
     // they would have had if they had been scheduled when it was reserved.
-    Place reserve_places(std::uint64_t count) { return queue_.reserve_places(count); }
+    Turn reserve_turns(std::uint64_t count) { return queue_.reserve_turns(count); }
     template <typename Callable>
-    EventHandle schedule_at_place(SimTime time, Place place, const Callable& action) {
+    EventHandle schedule_at_turn(SimTime time, Turn turn, const Callable& action) {
         NETSIM_ASSERT(time >= now_);
-        return queue_.push_at_place(time, Priority::normal, place, action);
+        return queue_.push_at_turn(time, Priority::normal, turn, action);
     }
-    // For an event with a successor, whose place is reserved. True if that is what runs next: then it is its time, and the
+    // For an event with a successor, whose turn is reserved. True if that is what runs next: then it is its time, and the
     // caller does what it has to do. Otherwise it has to be scheduled. So most of them need not pass through the queue.
-    bool goes_on_at(SimTime time, Place place) {
-        if (time > limit_ || budget_ == 0 || !queue_.would_be_next(time, place)) {
+    bool goes_on_at(SimTime time, Turn turn) {
+        if (time > limit_ || budget_ == 0 || !queue_.would_be_next(time, turn)) {
             return false;
         }
         --budget_;

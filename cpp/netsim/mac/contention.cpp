@@ -58,7 +58,7 @@ void Contention::channel_busy_changed(bool busy) {
     }
 }
 
-// When the interframe space is.
+// When the interframe space of a channel that is free since `idle_since` is over.
 SimTime Contention::space_over(SimTime idle_since) const {
     const SimTime difs_over = idle_since + parameters_.timing.difs;
     if (!parameters_.config.inet_eifs) {

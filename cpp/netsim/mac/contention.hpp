@@ -67,9 +67,9 @@ public:
         }
     }
     bool finds_channel_busy() const { return busy_; }
-    // Between the two below.
+    // From frame_corrupted until radio_finds_it_free.
     bool awaits_end_of_broken_frame() const { return broken_frame_; }
-    // A frame was received broken (reported while the radio still finds the channel busy with it) …
+    // A frame was received broken; the radio still finds the channel busy with it.
     void frame_corrupted() {
         if (!parameters_.config.inet_eifs) {
             broken_frame_ = true;
@@ -77,15 +77,15 @@ public:
             eifs_until_ = simulator_.now() + parameters_.timing.eifs;
         }
     }
-    // … and now it finds it free, told before the above: EIFS from here on, whatever the NAV says, takes the place of
-    // DIFS …
+    // The radio finds the channel free again. After a broken frame EIFS begins here, whatever the NAV says, and takes the
+    // place of DIFS. Called before channel_busy_changed.
     void radio_finds_it_free() {
         if (broken_frame_) {
             broken_frame_ = false;
             eifs_until_ = simulator_.now() + parameters_.timing.eifs;
         }
     }
-    // … unless a frame was received well in between.
+    // A frame was received well: that ends EIFS.
     void frame_received() {
         if (!parameters_.config.inet_eifs) {
             broken_frame_ = false;

@@ -65,7 +65,7 @@ void CsmaCa802154::send(NodeId destination, Payload payload) {
 }
 
 void CsmaCa802154::go_on() {
-    const bool resumes = std::exchange(interrupted_, false);
+    const bool resumes = std::exchange(interrupted_by_ack_, false);
     if (!in_progress_ && queue_.empty()) {
         state_ = State::idle;
         return;
@@ -79,7 +79,7 @@ void CsmaCa802154::go_on() {
 // The ends of the wait and of the assessment are the last events of their instants, so that they know all of these.
 void CsmaCa802154::back_off() {
     state_ = State::backing_off;
-    const SimTime begin = std::max(simulator_.now(), rested_);
+    const SimTime begin = std::max(simulator_.now(), earliest_wait_);
     timer_ = simulator_.schedule_at(
         begin + unit_backoff_ * backoff_periods(), [this] { assess(); }, Priority::last);
 }
@@ -98,17 +98,17 @@ int CsmaCa802154::backoff_periods() {
 void CsmaCa802154::assess() {
     state_ = State::assessing;
     radio_.watch_channel(simulator_.now());
-    heard_ = radio_.is_channel_busy();
+    was_busy_ = radio_.is_channel_busy();
     timer_ = simulator_.schedule_after(cca_, [this] { assessed(); }, Priority::last);
 }
 
 void CsmaCa802154::channel_busy_changed(bool busy) {
-    heard_ |= busy;
+    was_busy_ |= busy;
 }
 
 void CsmaCa802154::assessed() {
     radio_.stop_watching_channel();
-    if (radio_.is_channel_busy() || (config_.cca_whole_window && heard_)) {
+    if (radio_.is_channel_busy() || (config_.cca_whole_window && was_busy_)) {
         channel_is_busy();
         return;
     }
@@ -131,7 +131,7 @@ void CsmaCa802154::channel_is_busy() {
     if (!in_progress_) {
         in_progress_ = queue_.pop();
     }
-    finish(MessageFate::access_failure);
+    finish(MessageFate::channel_access_failure);
 }
 
 void CsmaCa802154::transmit(std::shared_ptr<const Frame> frame) {
@@ -147,7 +147,7 @@ void CsmaCa802154::transmission_ended() {
     }
     NETSIM_ASSERT(state_ == State::sending);
     if (in_progress_->receiver == broadcast_id || !config_.use_acks) {
-        rested_ = simulator_.now() + lifs_;
+        earliest_wait_ = simulator_.now() + lifs_;
         finish(MessageFate::sent);
         return;
     }
@@ -186,7 +186,7 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
     } else if (frame.kind == FrameKind::ack && state_ == State::awaiting_ack &&
                frame.transmitter == in_progress_->receiver && frame.sequence == in_progress_->sequence) {
         simulator_.cancel(timer_);
-        rested_ = simulator_.now() + lifs_;
+        earliest_wait_ = simulator_.now() + lifs_;
         finish(MessageFate::acknowledged);
     }
 }
@@ -205,7 +205,7 @@ void CsmaCa802154::acknowledge(const Frame& frame) {
         NETSIM_ASSERT(state_ == State::backing_off || state_ == State::assessing);
         simulator_.cancel(timer_);
         radio_.stop_watching_channel();
-        interrupted_ = true;
+        interrupted_by_ack_ = true;
     }
     state_ = State::waiting_sifs;
     ack_ = std::make_shared<const Frame>(make_narrowband_ack(frame));

@@ -106,11 +106,11 @@ private:
     EventHandle timer_;                         // of the state
     std::shared_ptr<const Frame> in_progress_;  // was on the air, or is about to be
     std::shared_ptr<const Frame> ack_;          // that is about to be sent
-    SimTime rested_;                            // no wait begins before
+    SimTime earliest_wait_;                     // no wait begins before
     int failed_assessments_ = 0;                // of the present attempt
     int retries_ = 0;                           // of the frame in progress
-    bool interrupted_ = false;                  // the present attempt, to send an ACK
-    bool heard_ = false;                        // something, during the assessment
+    bool interrupted_by_ack_ = false;           // the present attempt
+    bool was_busy_ = false;                     // the channel, during the assessment
     std::uint32_t next_sequence_ = 0;
 };
 

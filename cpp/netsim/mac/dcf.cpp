@@ -291,7 +291,7 @@ void Dcf::set_nav(SimTime duration) {
         return;
     }
     nav_end_ = end;
-    nav_place_ = simulator_.reserve_places(1);
+    nav_turn_ = simulator_.reserve_turns(1);
     simulator_.cancel(nav_event_);
     if (watches_channel_) {
         await_end_of_nav();
@@ -300,7 +300,7 @@ void Dcf::set_nav(SimTime duration) {
 }
 
 void Dcf::await_end_of_nav() {
-    nav_event_ = simulator_.schedule_at_place(nav_end_, nav_place_, [this] { update_contention(); });
+    nav_event_ = simulator_.schedule_at_turn(nav_end_, nav_turn_, [this] { update_contention(); });
 }
 
 void Dcf::channel_busy_changed(bool busy) {

@@ -113,7 +113,7 @@ private:
     LinkListener& listener_;
     SimTime nav_end_ = SimTime::long_ago();
     bool watches_channel_ = false;  // and contention is told of it
-    // If not, contention, which lies farther away, need not learn of one that is received well.
+    // Only then is contention told of a frame that is received well: it lies in another cache line.
     bool last_frame_was_broken_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
@@ -126,7 +126,7 @@ private:
     MessageFates& fates_;
     Retry retry_;  // of the frame in progress
     std::uint32_t next_sequence_ = 0;
-    Place nav_place_ = 0;    // of the event at the end of the NAV, since that was set
+    Turn nav_turn_ = 0;      // of the event at the end of the NAV, since that was set
     EventHandle nav_event_;  // pending while the channel is watched
 
     std::shared_ptr<const DcfParameters> owned_parameters_;  // parameters_ again: keeps them alive

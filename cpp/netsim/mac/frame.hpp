@@ -10,7 +10,8 @@
 #include <string>
 
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/trace/frame_fates.hpp"
+#include "netsim/node_id.hpp"
+#include "netsim/trace/frame_label.hpp"
 
 namespace netsim {
 

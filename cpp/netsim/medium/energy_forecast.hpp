@@ -35,15 +35,15 @@ public:
     void begin_at(SimTime now);
     // The receiver was not told of it yet.
     void add_untold(const Coming& coming);
-    // The receiver is told of it in any case, but may leave it out until `sensed_from`. One that is loud (alone enough) is of
-    // no interest until then: the channel is busy, or without it.
+    // The receiver is told of it in any case, but need not count it before `sensed_from`. One that is loud (alone enough) is in
+    // neither sum until then: up to there the others decide whether the channel is busy.
     void add_told(const Coming& coming, SimTime sensed_from, bool is_loud);
 
     // Whether all that was added has ended before `now`.
     bool is_over(SimTime now) const { return steps_.back().time < now; }
 
-    // Tells as many as it takes: calls `tell(coming)` for each. Returns how much more there must be before there is
-    // somewhat to tell again, in W, not positive if that is not known.
+    // Tells as many as it takes: calls `tell(coming)` for each. Returns by how many W the sum may still rise before more
+    // has to be told; not positive if that is not known.
     template <typename Tell>
     double settle(double level_w, const Tell& tell);
 

@@ -1,5 +1,5 @@
-// Who may find the channel busy because of one transmission and others together, it being the strongest of them there,
-// though none does it alone.
+// For one transmission: the receivers where it is the strongest of those on the air, and where they may make the channel
+// busy together, though none does so alone.
 //
 // The receivers around the transmission are told apart in zones by the power that it brings them: at least four fifths
 // of the level that is noticed, at least three fifths, and so on. In a zone it brings less than the zone before begins
@@ -36,7 +36,8 @@ public:
 
     // Who gets so much that it is in the first zone or further in.
     static double first_zone_w(double level_w) { return level_w * (1 - 1.0 / fifths); }
-    // Who gets less is nobody's concern beside few others: one of those is stronger there, or all together are too weak.
+    // With at most `few` others on the air, a receiver that gets less than this need not be watched for this transmission: one of
+    // the others is stronger there, or all together are too weak.
     static double outer_w(double level_w) { return level_w / (few + 1); }
 
     // A new transmission without others. `level_w` is the least energy that is noticed, more than 0. `first_reach_m`: who gets

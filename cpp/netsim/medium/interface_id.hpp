@@ -4,7 +4,7 @@
 #include <compare>
 #include <cstdint>
 
-#include "netsim/trace/frame_fates.hpp"
+#include "netsim/node_id.hpp"
 
 namespace netsim {
 

@@ -108,7 +108,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.others_w = 0;
     entry.close.clear();
     entry.far_w = 0;
-    entry.first_place = simulator_.reserve_places(2 * attached_.size());
+    entry.first_turn = simulator_.reserve_turns(2 * attached_.size());
     entry.odometer_m = odometer_.reading_m(now);
     entry.heard.clear();
     entry.places.clear();
@@ -152,63 +152,18 @@ void Medium::tell_everybody(OnAir& entry) {
 
 void Medium::tell_those_it_matters_to(OnAir& entry) {
     const Transmission& sent = entry.transmission;
-    const SimTime now = sent.start;
     find_those_beside(entry);
-    std::uint64_t copies = 0;
-    std::uint64_t noticed_copies = 0;
-    const RadioId addressee = addressee_of(sent);
-    bool addressee_notices = false;
+    CopyCount copies;
     double farthest_m = 0;
-    for (std::size_t index = 0; index < audiences_.size(); ++index) {
-        Audience& audience = audiences_[index];
-        const double share = entry.shares[index];
-        if (share == 0) {
-            continue;
-        }
-        EnergyRing& ring = entry.rings[index];
-        begin_ring(ring, audience, sent);
-        const bool is_decodable = can_decode(audience, sent);
-        copies += is_decodable ? audience.members.size() : 0;
-        const double within_m = reach_m(audience, sent);
-        audience.members.prepare(now, odometer_, within_m);
-        entry.reach_m = std::max(entry.reach_m, within_m);
-        farthest_m = std::max(farthest_m, audience.members.farthest_m(sent.origin));
-        const double search_m = std::max(within_m, ring.radius_m());
-        const double least_w = std::min(noticed_w(audience, sent), ring.least_power_w());
-        const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
-        for (const auto& [radio, place] : near) {
-            netsim::fetch(attached_[radio]);
-            netsim::fetch(touched_[radio]);
-        }
-        for (const auto& [radio, place] : near) {
-            const double squared_m2 = squared_distance(sent.origin, place);
-            const double heard_m = attached_[radio].watches_energy ? search_m : within_m;
-            if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
-                continue;
-            }
-            const ReceiverKind& there = kind(radio);
-            const double distance_m = std::sqrt(squared_m2);
-            const double received_w = power_w(sent, share, radio, place, distance_m, least_w);
-            const bool can_lock = is_decodable && received_w >= there.sensitivity_w;
-            if (can_lock) {
-                ++noticed_copies;
-                addressee_notices |= radio == addressee;
-            }
-            if (can_lock || is_loud(there, received_w)) {
-                fetch(radio, sent.label.kind);
-                const auto place_index = static_cast<std::uint32_t>(entry.places.size());
-                entry.heard.push_back(
-                    {now + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
-                entry.places.push_back(place);
-            }
-            if (attached_[radio].watches_energy && received_w >= ring.least_power_w() &&
-                !is_surely_loud(there, received_w)) {
-                ring.watched().push_back({radio, place, missing_beside_w(there, received_w)});
-            }
+    for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
+        if (entry.shares[audience] > 0) {
+            const CopyCount there = find_those_it_matters_to(entry, audience);
+            copies.made += there.made;
+            copies.too_weak += there.too_weak;
+            farthest_m = std::max(farthest_m, audiences_[audience].members.farthest_m(sent.origin));
         }
     }
-    --copies;  // the sender hears its band, but not itself
-    entry.last_end = now + sent.duration + most_propagation_delay(farthest_m);
+    entry.last_end = sent.start + sent.duration + most_propagation_delay(farthest_m);
     if (!beside_.empty()) {
         for (OnAir* other : beside_) {
             bound_interference(entry, *other);
@@ -220,17 +175,74 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             }
         }
     }
+    book_copies(entry, copies);
     schedule_arrivals(entry);
-    CopyCount all{copies, copies - noticed_copies};
-    CopyCount addressed;
-    if (sent.label.destination == broadcast_id) {
-        std::swap(all, addressed);
-    } else if (addressee >= 0) {
-        addressed = CopyCount{1, addressee_notices ? 0U : 1U};
-        all.made -= addressed.made;
-        all.too_weak -= addressed.too_weak;
+}
+
+CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
+    const Transmission& sent = entry.transmission;
+    Audience& audience = audiences_[index];
+    const double share = entry.shares[index];
+    EnergyRing& ring = entry.rings[index];
+    begin_ring(ring, audience, sent);
+    const bool is_decodable = can_decode(audience, sent);
+    const double within_m = reach_m(audience, sent);
+    audience.members.prepare(sent.start, odometer_, within_m);
+    entry.reach_m = std::max(entry.reach_m, within_m);
+    const double search_m = std::max(within_m, ring.radius_m());
+    const double least_w = std::min(noticed_w(audience, sent), ring.least_power_w());
+    const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
+    for (const auto& [radio, place] : near) {
+        netsim::fetch(attached_[radio]);
+        netsim::fetch(touched_[radio]);
     }
-    fates_.book_transmission(sent.label, addressed, all);
+    std::uint64_t noticed = 0;
+    for (const auto& [radio, place] : near) {
+        const double squared_m2 = squared_distance(sent.origin, place);
+        const double heard_m = attached_[radio].watches_energy ? search_m : within_m;
+        if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
+            continue;
+        }
+        const ReceiverKind& there = kind(radio);
+        const double distance_m = std::sqrt(squared_m2);
+        const double received_w = power_w(sent, share, radio, place, distance_m, least_w);
+        const bool can_lock = is_decodable && received_w >= there.sensitivity_w;
+        noticed += can_lock ? 1 : 0;
+        if (can_lock || is_loud(there, received_w)) {
+            fetch(radio, sent.label.kind);
+            const auto place_index = static_cast<std::uint32_t>(entry.places.size());
+            entry.heard.push_back(
+                {sent.start + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
+            entry.places.push_back(place);
+        }
+        if (attached_[radio].watches_energy && received_w >= ring.least_power_w() &&
+            !is_surely_loud(there, received_w)) {
+            ring.watched().push_back({radio, place, missing_beside_w(there, received_w)});
+        }
+    }
+    if (!is_decodable) {
+        return {};
+    }
+    const std::uint64_t copies =
+        audience.members.size() - (audience_of(sent.radio) == index ? 1 : 0);  // none for the sender
+    return {copies, copies - noticed};
+}
+
+void Medium::book_copies(const OnAir& entry, CopyCount copies) {
+    const FrameLabel label = entry.transmission.label;
+    if (label.destination == broadcast_id) {
+        fates_.book_transmission(label, copies, {});
+        return;
+    }
+    CopyCount addressed;
+    if (const RadioId addressee = addressee_of(entry.transmission); addressee >= 0) {
+        const bool is_noticed = std::ranges::any_of(entry.heard, [addressee](const Heard& heard) {
+            return heard.radio == addressee && heard.lockable;
+        });
+        addressed = {1, is_noticed ? 0U : 1U};
+    }
+    fates_.book_transmission(label, addressed,
+                             {copies.made - addressed.made, copies.too_weak - addressed.too_weak});
 }
 
 RadioId Medium::addressee_of(const Transmission& transmission) const {
@@ -288,7 +300,7 @@ double Medium::reach_of_power_m(const Transmission& transmission, const Audience
                        : std::numeric_limits<double>::infinity();
 }
 
-// The events of an arrival have their places in the order of equal times since its transmission began: the
+// The events of an arrival have their turns in the order of equal times since its transmission began: the
 // course of a run does not depend on when, or whether, a radio is told. So of all arrivals of a transmission only the
 // next one to start and the next one to end need to be in the queue.
 void Medium::schedule_arrivals(OnAir& entry) {
@@ -304,12 +316,12 @@ void Medium::schedule_arrivals(OnAir& entry) {
 Medium::Due Medium::next_due(const OnAir& entry, Edge edge) {
     const Heard& next = entry.heard[entry.told[edge]];
     return {edge == Edge::begins ? next.start : next.start + entry.transmission.duration,
-            entry.first_place + 2 * static_cast<Place>(next.radio) + edge};
+            entry.first_turn + 2 * static_cast<Turn>(next.radio) + edge};
 }
 
 void Medium::schedule_next(OnAir& entry, Edge edge) {
     const Due due = next_due(entry, edge);
-    simulator_.schedule_at_place(due.time, due.place, [this, &entry, edge] { tell_next(entry, edge); });
+    simulator_.schedule_at_turn(due.time, due.turn, [this, &entry, edge] { tell_next(entry, edge); });
 }
 
 // And of those after it, as long as nothing else is due in between: mostly they come in one go, and need not pass through
@@ -322,7 +334,7 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
                               heard.start,
                               heard.start + entry.transmission.duration,
                               heard.power_w,
-                              entry.places[heard.place],
+                              entry.places[heard.place_index],
                               heard.lockable};
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
@@ -338,7 +350,7 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
             return;
         }
         due = next_due(entry, edge);
-    } while (simulator_.goes_on_at(due.time, due.place));
+    } while (simulator_.goes_on_at(due.time, due.turn));
     schedule_next(entry, edge);
 }
 
@@ -357,18 +369,18 @@ void Medium::tell(RadioId radio, OnAir& on_air, const Arrival& arrival) {
         begin(radio, on_air, apart);
         return;
     }
-    simulator_.schedule_at_place(arrival.start, on_air.first_place + 2 * static_cast<Place>(radio),
-                                 [this, radio, &on_air, apart] { begin(radio, on_air, apart); });
+    simulator_.schedule_at_turn(arrival.start, on_air.first_turn + 2 * static_cast<Turn>(radio),
+                                [this, radio, &on_air, apart] { begin(radio, on_air, apart); });
 }
 
 void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
     const Arrival arrival = on_air.told_apart[apart];  // a copy: others may be told meanwhile
     touched_[radio].listener->arrival_started(arrival);
-    simulator_.schedule_at_place(arrival.end, on_air.first_place + 2 * static_cast<Place>(radio) + 1,
-                                 [this, radio, &on_air, apart] {
-                                     const Arrival ended = on_air.told_apart[apart];
-                                     touched_[radio].listener->arrival_ended(ended);
-                                 });
+    simulator_.schedule_at_turn(arrival.end, on_air.first_turn + 2 * static_cast<Turn>(radio) + 1,
+                                [this, radio, &on_air, apart] {
+                                    const Arrival ended = on_air.told_apart[apart];
+                                    touched_[radio].listener->arrival_ended(ended);
+                                });
 }
 
 void Medium::forget_the_past() {

@@ -54,12 +54,13 @@ public:
         touched.protocol = protocol;
     }
 
-    // A radio watches its energy from the start: it has to find its channel busy where frames only add up to that. It may
-    // stop and begin again; then it learns until when frames made its channel busy together for the last time, if that is
-    // over and was after `since`: long ago, if not. `since` may lie as far back as was asked to `remember`.
+    // A radio that watches its energy is also told of frames of which none is loud enough alone, but that make its channel busy
+    // together. All watch from the start; one may stop and begin again. Returns when such frames last ceased to keep its
+    // channel busy, if that was after `since`; otherwise, also if they still do, long ago. `since` lies no farther back than
+    // was asked to `remember`.
     SimTime watch_energy(RadioId radio, SimTime since);
     void stop_watching_energy(RadioId radio) { attached_[radio].watches_energy = false; }
-    // Transmissions after their end, for so long.
+    // Keeps transmissions for at least that long after their end; of several durations asked for, the longest counts.
     void remember(SimTime duration) { remembered_ = std::max(remembered_, duration); }
 
     // The radio will probably send soon: has what the medium knows of it brought into the cache (kernel/fetch.hpp).
@@ -131,7 +132,7 @@ private:
     enum Edge : std::uint8_t { begins = 0, ends = 1 };
     struct Due {
         SimTime time;
-        Place place = 0;
+        Turn turn = 0;
     };
     // An arrival that matters to the radio by itself, as is known when the transmission begins. The radio is told twice: of its
     // beginning and of its end, in their order among those of all who hear it (OnAir::told counts them). A radio to which it
@@ -141,13 +142,13 @@ private:
         SimTime start;
         double power_w = 0;
         RadioId radio = 0;
-        std::uint32_t place = 0;  // an index of the entry's places
+        std::uint32_t place_index = 0;  // of the entry's places
         bool lockable = false;
     };
     struct OnAir {
         Transmission transmission;
         SimTime last_end;                   // at its most distant receiver, or later
-        Place first_place = 0;              // of its arrivals' events, two for each receiver
+        Turn first_turn = 0;                // of its arrivals' events, two for each receiver
         double odometer_m = 0;              // at its start
         double reach_m = 0;                 // nobody locks on to it farther away
         double others_w = 0;                // within that, at most, of all that are on the air beside it
@@ -215,6 +216,9 @@ private:
     RadioId addressee_of(const Transmission& transmission) const;
     void tell_everybody(OnAir& entry);
     void tell_those_it_matters_to(OnAir& entry);
+    // Of one audience: who can notice it, in `heard`, and whom its ring watches. Returns the copies that it makes there.
+    CopyCount find_those_it_matters_to(OnAir& entry, std::size_t audience);
+    void book_copies(const OnAir& entry, CopyCount copies);
     // At `radio`, at `place` when the transmission starts. `share` is that of the transmission in the radio's band. Where
     // it is less than `least_w`, perhaps 0 instead: that may cost a fraction.
     double power_w(const Transmission& sent, double share, RadioId radio, const Position& place,
@@ -285,10 +289,12 @@ private:
         return on_air.transmission.radio == radio ? 0 : arrival_at(on_air, radio, place).power_w;
     }
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
-    // Tells the radio of as many as it takes to find its channel busy when it is. Returns what more there must be until
-    // there is somewhat to tell. What is worked out once for a radio is kept in its outlook, as the rings of several
+    // Tells the radio of as many as it takes to find its channel busy when it is. Returns by how many W the sum may still
+    // rise before more has to be told. What is worked out once for a radio is kept in its outlook, as the rings of several
     // transmissions ask for it, and again for each new one.
     double missing_at(RadioId radio, const Position& place);
+    // The same for one that gets `received_w` of one transmission, and of the others at most what is in `bounds_`.
+    double missing_by_bounds(RadioId radio, const Position& place, double received_w);
     void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air);
     Outlook& outlook_of(RadioId radio);
     void take_back_outlooks(SimTime now);

@@ -124,22 +124,6 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
     double rest_w = 0;
     std::for_each(bounds_.rbegin(), bounds_.rend(),
                   [&](Bound& bound) { rest_w = bound.rest_w = rest_w + bound.most_w; });
-    const auto watch = [&](RadioId radio, const Position& place, double received_w) {
-        if (outlook_of_[radio] != no_outlook) {
-            ring.watched().push_back({radio, place, missing_at(radio, place)});
-            return;
-        }
-        // Bounds give way to powers, one after the other, until it is known that something is missing.
-        const ReceiverKind& receiver = kind(radio);
-        double known_w = receiver.noise_w + received_w;
-        const double level_w = receiver.energy_detection_w * (1 - margin);
-        auto bound = bounds_.begin();
-        for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
-            known_w += brought_w(*bound->from, radio, place);
-        }
-        const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
-        ring.watched().push_back({radio, place, missing_w > 0 ? missing_w : missing_at(radio, place)});
-    };
     const double share = here.shares[index];
     const double moved_m = odometer_.reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(loud_to_all_m_of(sent, audience) - moved_m, 0.0);
@@ -155,9 +139,27 @@ void Medium::widen_ring(OnAir& here, const OnAir& newest, std::size_t index) {
                 : power_w(sent, share, radio, place, distance(sent.origin, place), ring.least_power_w());
         if (received_w >= ring.least_power_w() && received_w < watched_before_w &&
             !is_surely_loud(kind(radio), received_w)) {
-            watch(radio, place, received_w);
+            ring.watched().push_back({radio, place, missing_by_bounds(radio, place, received_w)});
         }
     }
+}
+
+// Bounds give way to powers, one after the other, until it is known that something is missing.
+double Medium::missing_by_bounds(RadioId radio, const Position& place, double received_w) {
+    if (outlook_of_[radio] == no_outlook) {
+        const ReceiverKind& receiver = kind(radio);
+        const double level_w = receiver.energy_detection_w * (1 - margin);
+        double known_w = receiver.noise_w + received_w;
+        auto bound = bounds_.begin();
+        for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
+            known_w += brought_w(*bound->from, radio, place);
+        }
+        const double missing_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
+        if (missing_w > 0) {
+            return missing_w;
+        }
+    }
+    return missing_at(radio, place);
 }
 
 // Who is nearer is told of the transmission even if it is alone. 0 where that depends on more than the distance.
@@ -247,18 +249,18 @@ SimTime Medium::energy_over_at(RadioId radio) {
     SimTime over = SimTime::long_ago();
     struct Change {
         SimTime time;
-        Place place = 0;
+        Turn turn = 0;
         const Passing* passing = nullptr;
         Edge edge = Edge::begins;
     };
     std::vector<Change> changes;
     for (const Passing& passing : passing_) {
-        const Place place = passing.on_air->first_place + 2 * static_cast<Place>(radio);
-        changes.push_back({passing.arrival.start, place, &passing, Edge::begins});
-        changes.push_back({passing.arrival.end, place + 1, &passing, Edge::ends});
+        const Turn turn = passing.on_air->first_turn + 2 * static_cast<Turn>(radio);
+        changes.push_back({passing.arrival.start, turn, &passing, Edge::begins});
+        changes.push_back({passing.arrival.end, turn + 1, &passing, Edge::ends});
     }
     std::ranges::sort(changes, [](const Change& a, const Change& b) {
-        return a.time != b.time ? a.time < b.time : a.place < b.place;
+        return a.time != b.time ? a.time < b.time : a.turn < b.turn;
     });
     std::vector<const Passing*> present;
     bool was_loud = false;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "netsim/config/check.hpp"
+#include "netsim/error.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -28,30 +30,35 @@ double PathLoss::reach_m(double gain, double carrier_hz) const {
 }
 
 PathLoss make_path_loss(const MediumConfig& config) {
-    check_name("medium.path_loss", config.path_loss, path_loss_names);
+    const std::string& name = config.path_loss;
+    check_name("medium.path_loss", name, path_loss_names);
     PathLoss path_loss;
-    if (config.path_loss != "BreakpointPathLoss") {
-        constexpr double pi = std::numbers::pi;
-        path_loss.near_ = {.coefficient = 1 / (16 * pi * pi), .exponent = config.alpha};
-        path_loss.far_ = path_loss.near_;
-        path_loss.depends_on_carrier_ = true;
-        if (config.path_loss == "TwoRayGroundReflection") {
-            // From its crossover on it is below free space of exponent 2.
-            path_loss.near_.exponent = std::max(config.alpha, 2.0);
-            path_loss.far_.exponent = std::min(config.alpha, 2.0);
-            path_loss.squared_breakpoint_m2_ = 1;
-        } else if (config.path_loss == "TwoRayInterference") {
-            // Two rays of equal strength in phase: twice the amplitude.
-            path_loss.near_ = {.coefficient = 4 / (16 * pi * pi), .exponent = 2};
-            path_loss.far_ = path_loss.near_;
-        }
+    if (name == "BreakpointPathLoss") {
+        path_loss.near_ = {.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1};
+        path_loss.far_ = {.coefficient = ratio_from_db(-config.l02_db) *
+                                         std::pow(config.breakpoint_distance_m, config.alpha2),
+                          .exponent = config.alpha2};
+        path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
         return path_loss;
     }
-    path_loss.near_ = {.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1};
-    path_loss.far_ = {
-        .coefficient = ratio_from_db(-config.l02_db) * std::pow(config.breakpoint_distance_m, config.alpha2),
-        .exponent = config.alpha2};
-    path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
+    constexpr double pi = std::numbers::pi;
+    path_loss.depends_on_carrier_ = true;
+    if (name == "TwoRayInterference") {
+        // Two rays of equal strength in phase: twice the amplitude.
+        path_loss.near_ = {.coefficient = 4 / (16 * pi * pi), .exponent = 2};
+        path_loss.far_ = path_loss.near_;
+        return path_loss;
+    }
+    path_loss.near_ = {.coefficient = 1 / (16 * pi * pi), .exponent = config.alpha};
+    path_loss.far_ = path_loss.near_;
+    if (name == "TwoRayGroundReflection") {
+        // From its crossover on it is below free space of exponent 2.
+        path_loss.near_.exponent = std::max(config.alpha, 2.0);
+        path_loss.far_.exponent = std::min(config.alpha, 2.0);
+        path_loss.squared_breakpoint_m2_ = 1;
+        return path_loss;
+    }
+    NETSIM_ASSERT(name == "FreeSpacePathLoss" || std::ranges::find(fading_names, name) != fading_names.end());
     return path_loss;
 }
 

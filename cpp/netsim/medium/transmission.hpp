@@ -12,7 +12,7 @@
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/medium/interface_id.hpp"
 #include "netsim/medium/ppdu_format.hpp"
-#include "netsim/trace/frame_fates.hpp"
+#include "netsim/trace/frame_label.hpp"
 
 namespace netsim {
 

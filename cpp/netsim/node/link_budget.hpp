@@ -38,8 +38,9 @@ public:
 
     double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
     int psdu_bytes() const { return psdu_bytes_; }
-    // The mean power that arrives of 1 W, and the noise that it meets.
+    // The mean power that arrives over the power that is sent.
     double mean_gain(double distance_m) const;
+    // At the receiver, in W.
     double noise_w() const { return noise_w_; }
 
 private:

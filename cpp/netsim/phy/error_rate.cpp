@@ -213,6 +213,7 @@ const ErrorModel& error_model(std::string_view name) {
     if (name == "Ieee802154ErrorModel") {
         return oqpsk;
     }
+    NETSIM_ASSERT(name == "Ieee80211NistErrorModel");
     return nist;
 }
 

@@ -92,11 +92,12 @@ public:
             medium_.stop_watching_energy(id_);
         }
     }
-    // Again, without watching: of frames that it notices one by one.
+    // Tells of its channel again, but only what it hears of anyway: what frames do to it one by one.
     void tell_of_channel() { tells_of_channel_ = true; }
     // How far back watch_channel may ask.
     void remember_channel(SimTime duration) { medium_.remember(duration); }
-    // When a frame that was received broken ends: that no others can make the channel busy together.
+    // At the end of a frame that was received broken: whether the others on the air are too weak to make the channel busy
+    // together.
     bool are_others_weak() const { return others_are_weak_; }
 
     // It will probably send soon (Link::fetch).

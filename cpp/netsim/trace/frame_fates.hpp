@@ -13,16 +13,10 @@
 #include <vector>
 
 #include "netsim/kernel/fetch.hpp"
+#include "netsim/node_id.hpp"
+#include "netsim/trace/frame_label.hpp"
 
 namespace netsim {
-
-using NodeId = std::int32_t;
-constexpr NodeId broadcast_id = -1;
-
-enum class FrameKind : std::uint8_t { broadcast, unicast, ack, rts, cts };
-constexpr std::size_t frame_kind_count = 5;
-constexpr std::array<const char*, frame_kind_count> frame_kind_names{"broadcast", "unicast", "ack", "rts",
-                                                                     "cts"};
 
 enum class FrameFate : std::uint8_t {
     delivered,              // decoded by that radio, whoever it was for
@@ -40,14 +34,6 @@ constexpr std::size_t frame_fate_count = 10;
 constexpr std::array<const char*, frame_fate_count> frame_fate_names{
     "delivered",       "below_sensitivity",   "noise",        "interference", "receiver_transmitting",
     "receiver_locked", "preamble_undetected", "header_error", "captured",     "in_air"};
-
-// What the ledger wants to know of a frame. Travels with its transmission.
-struct FrameLabel {
-    FrameKind kind = FrameKind::broadcast;
-    NodeId destination = broadcast_id;
-
-    bool is_for(NodeId node) const { return destination == node || destination == broadcast_id; }
-};
 
 // How many copies a transmission made, and how many of them are below sensitivity.
 struct CopyCount {

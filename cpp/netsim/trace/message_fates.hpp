@@ -14,13 +14,13 @@ constexpr std::size_t message_kind_count = 2;
 constexpr std::array<const char*, message_kind_count> message_kind_names{"broadcast", "unicast"};
 
 enum class MessageFate : std::uint8_t {
-    sent,            // broadcast, or unicast for which no ACK is asked: was on the air once
-    acknowledged,    // unicast: its receiver's ACK came back
-    retry_limit,     // unicast: given up after the last retry
-    queue_overflow,  // dropped, the queue was full
-    out_of_range,    // unicast on a perfect channel: its receiver was too far away
-    access_failure,  // 802.15.4: given up, the channel was found busy too often
-    queued,          // still waiting or in progress when the run ended
+    sent,                    // broadcast, or unicast for which no ACK is asked: was on the air once
+    acknowledged,            // unicast: its receiver's ACK came back
+    retry_limit,             // unicast: given up after the last retry
+    queue_overflow,          // dropped, the queue was full
+    out_of_range,            // unicast on a perfect channel: its receiver was too far away
+    channel_access_failure,  // 802.15.4: given up, the channel was found busy too often
+    queued,                  // still waiting or in progress when the run ended
 };
 constexpr std::size_t message_fate_count = 7;
 constexpr std::array<const char*, message_fate_count> message_fate_names{

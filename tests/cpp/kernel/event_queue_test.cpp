@@ -72,20 +72,20 @@ TEST(EventQueue, EqualTimesGoInTheOrderOfScheduling) {
 TEST(EventQueue, AReservedPlaceIsThatOfItsReservation) {
     LoggingQueue events;
     events.push(at(10), Priority::normal, 1);
-    const Place first = events.queue.reserve_places(2);
+    const Turn first = events.queue.reserve_turns(2);
     events.push(at(10), Priority::normal, 4);
     for (const int name : {3, 2}) {
-        events.queue.push_at_place(at(10), Priority::normal, first + static_cast<Place>(name) - 2,
-                                   [&events, name] { events.log.push_back(name); });
+        events.queue.push_at_turn(at(10), Priority::normal, first + static_cast<Turn>(name) - 2,
+                                  [&events, name] { events.log.push_back(name); });
     }
     EXPECT_EQ(events.drain(), (std::vector{1, 2, 3, 4}));
 }
 
 TEST(EventQueue, TimeGoesBeforePlace) {
     LoggingQueue events;
-    const Place first = events.queue.reserve_places(1);
+    const Turn first = events.queue.reserve_turns(1);
     events.push(at(9), Priority::normal, 1);
-    events.queue.push_at_place(at(10), Priority::normal, first, [&events] { events.log.push_back(2); });
+    events.queue.push_at_turn(at(10), Priority::normal, first, [&events] { events.log.push_back(2); });
     EXPECT_EQ(events.drain(), (std::vector{1, 2}));
 }
 
@@ -185,9 +185,9 @@ TEST(EventQueue, WhatIsEarlierThanAllWouldBeNext) {
 
 TEST(EventQueue, AtOneTimeThePlaceTellsWhatWouldBeNext) {
     LoggingQueue events;
-    const Place before = events.queue.reserve_places(1);
+    const Turn before = events.queue.reserve_turns(1);
     events.push(at(5), Priority::normal, 1);
-    const Place after = events.queue.reserve_places(1);
+    const Turn after = events.queue.reserve_turns(1);
     EXPECT_TRUE(events.queue.would_be_next(at(5), before));
     EXPECT_FALSE(events.queue.would_be_next(at(5), after));
 }
@@ -197,11 +197,11 @@ TEST(EventQueue, WhatIsBeforeAllThatWaitBehindTheOneTakenOutWouldBeNext) {
     for (int name = 1; name <= 3; ++name) {
         events.push(at(std::int64_t{10} * name), Priority::normal, name);
     }
-    const Place place = events.queue.reserve_places(1);
+    const Turn turn = events.queue.reserve_turns(1);
     events.queue.pop();
-    EXPECT_TRUE(events.queue.would_be_next(at(15), place));
-    EXPECT_FALSE(events.queue.would_be_next(at(25), place));
-    EXPECT_FALSE(events.queue.would_be_next(at(35), place));
+    EXPECT_TRUE(events.queue.would_be_next(at(15), turn));
+    EXPECT_FALSE(events.queue.would_be_next(at(25), turn));
+    EXPECT_FALSE(events.queue.would_be_next(at(35), turn));
 }
 
 // Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
@@ -298,7 +298,7 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
         }
         ASSERT_EQ(events.queue.size(), oracle.size());
         const SimTime time = at(now + draw_ahead());
-        if (events.queue.would_be_next(time, events.queue.reserve_places(1)) && !oracle.empty()) {
+        if (events.queue.would_be_next(time, events.queue.reserve_turns(1)) && !oracle.empty()) {
             const Key first = oracle.begin()->first;
             ASSERT_LT(std::tuple(time, Priority::normal, name + 1), first);
         }

@@ -112,7 +112,7 @@ TEST(Simulator, AnEventIsNotPendingWhileItRuns) {
 // An event at 1 µs and its successors, one a microsecond up to 5 µs, which go on without the queue where they may.
 class Chain {
 public:
-    explicit Chain(Simulator& simulator) : simulator_(simulator), first_place_(simulator.reserve_places(6)) {
+    explicit Chain(Simulator& simulator) : simulator_(simulator), first_turn_(simulator.reserve_turns(6)) {
         schedule(1);
     }
 
@@ -121,7 +121,7 @@ public:
 
 private:
     void schedule(int number) {
-        simulator_.schedule_at_place(us(number), place(number), [this, number] { run(number); });
+        simulator_.schedule_at_turn(us(number), turn(number), [this, number] { run(number); });
     }
     void run(int number) {
         for (;; ++number) {
@@ -129,17 +129,17 @@ private:
             if (number == 5) {
                 return;
             }
-            if (!simulator_.goes_on_at(us(number + 1), place(number + 1))) {
+            if (!simulator_.goes_on_at(us(number + 1), turn(number + 1))) {
                 schedule(number + 1);
                 return;
             }
             ++passed_by_the_queue;
         }
     }
-    Place place(int number) const { return first_place_ + static_cast<Place>(number); }
+    Turn turn(int number) const { return first_turn_ + static_cast<Turn>(number); }
 
     Simulator& simulator_;
-    Place first_place_;
+    Turn first_turn_;
 };
 
 TEST(Simulator, GoesOnWithWhatWouldRunNext) {
@@ -158,7 +158,7 @@ TEST(Simulator, DoesNotGoOnPastAnotherEvent) {
     std::size_t ran_before = 0;
     simulator.schedule_at(us(3), [&] { ran_before = chain.ran_at_us.size(); });
     simulator.run_until(us(10));
-    EXPECT_EQ(ran_before, 3U);  // of equal times, in the order of places
+    EXPECT_EQ(ran_before, 3U);  // of equal times, in the order of turns
     EXPECT_EQ(chain.passed_by_the_queue, 3);
 }
 

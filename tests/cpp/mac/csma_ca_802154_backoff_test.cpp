@@ -56,9 +56,9 @@ TEST_F(CsmaCa802154BackoffTest, AfterTheLastBusyAssessmentAFrameIsGivenUp) {
     jam(jammer, fifth + us(1));
     sender.send(broadcast_id, 50);
     air.run(fifth + us(-1));
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::access_failure), 0U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 0U);
     air.run(fifth);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::access_failure), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
     EXPECT_EQ(sender.csma.queued_messages(), 0U);
 }
 
@@ -71,7 +71,7 @@ TEST_F(CsmaCa802154BackoffTest, TheFrameAfterOneGivenUpStartsAfresh) {
     sender.send(broadcast_id, 50);
     sender.send(broadcast_id, 50);
     air.run();
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::access_failure), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
     EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
     EXPECT_EQ(sniffer.heard.at(1).start, cca * 10 + turnaround);
 }
@@ -128,7 +128,7 @@ TEST_F(CsmaCa802154BackoffTest, WhoDrawsTheLargerNumberHearsTheOther) {
     second.send(broadcast_id, 1);
     // 320 µs + 2976 µs on the air; the second assesses the channel every 448 µs, five times.
     air.run();
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::access_failure), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
     EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
 }
 

@@ -207,7 +207,7 @@ TEST(RandomScenario, MeetsEveryFateOften) {
     for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
         // Of perfect channels and of 802.15.4 only.
         if (static_cast<MessageFate>(fate) != MessageFate::out_of_range &&
-            static_cast<MessageFate>(fate) != MessageFate::access_failure) {
+            static_cast<MessageFate>(fate) != MessageFate::channel_access_failure) {
             EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];
         }
     }

@@ -1,6 +1,6 @@
 #include <array>
 #include <cmath>
-#include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ void send_all_over(Air& air, std::uint64_t seed) {
     air.run();
 }
 
-class BoundsOfInterference : public testing::TestWithParam<std::string> {};
+class BoundsOfInterference : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
     MediumConfig config;
@@ -76,9 +76,7 @@ TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
     EXPECT_GT(disturbed, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(PathLosses, BoundsOfInterference,
-                         testing::Values("FreeSpacePathLoss", "BreakpointPathLoss", "TwoRayGroundReflection",
-                                         "RayleighFading", "LogNormalShadowing"));
+INSTANTIATE_TEST_SUITE_P(PathLosses, BoundsOfInterference, testing::ValuesIn(path_loss_names));
 
 TEST(BoundOfInterference, AtAReceiverIsNearTheSumOfThoseThatDisturbIt) {
     Air air;

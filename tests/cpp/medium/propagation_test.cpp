@@ -10,6 +10,7 @@
 
 #include "netsim/error.hpp"
 #include "netsim/kernel/random.hpp"
+#include "support/drawn_path_loss.hpp"
 
 namespace netsim {
 namespace {
@@ -37,15 +38,6 @@ protected:
         return Position{between(-1, 1), between(-1, 1), 0} * far_m +
                Position{0, 0, between(0, 1) * log_between(1e-2, 1e3)};
     }
-    void draw_parameters() {
-        config.alpha = between(1.5, 4);
-        config.epsilon_r = between(1, 20);
-        config.polarization = polarization_names[draws.uniform_int(2)];
-        config.sigma_db = between(0, 10);
-        config.k_db = between(-20, 30);
-        config.shape_factor = log_between(0.5, 50);
-    }
-
     MediumConfig config;
     RandomStream draws{1, 0, Purpose{1005}};
 };
@@ -53,7 +45,7 @@ protected:
 TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
     for (int i = 0; i < 20'000; ++i) {
         if (i % 100 == 0) {
-            draw_parameters();
+            test::draw_path_loss_parameters(config, draws);
         }
         const Propagation propagation(config, 1);
         const Position a = place();

@@ -265,7 +265,6 @@ TEST(NistErrorModel, HeaderAloneCanFailAFrame) {
     EXPECT_NEAR(success(11, 1, 0), header, 1e-12);
 }
 
-// What nobody tells apart would be the NIST model, without a word.
 TEST(ErrorModel, EveryNameIsAModelOfItsOwn) {
     std::map<const ErrorModel*, std::string_view> names;
     for (const std::string_view name : error_model_names) {

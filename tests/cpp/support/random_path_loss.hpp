@@ -4,11 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "support/drawn_path_loss.hpp"
 #include "support/random_scenario.hpp"
 
 namespace netsim::test {
 
-// Any of them with the same chance, with parameters on both sides of what is usual, and heights that matter to it.
+// Any of them with the same chance, and heights that matter to it.
 inline RandomScenario with_random_path_loss(RandomScenario scenario) {
     RandomStream draws(scenario.seed, 0, Purpose{1004});
     const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
@@ -19,12 +20,7 @@ inline RandomScenario with_random_path_loss(RandomScenario scenario) {
 
     MediumConfig& medium = scenario.medium;
     medium.path_loss = std::string(path_loss_names[draws.uniform_int(path_loss_names.size())]);
-    medium.alpha = chance(0.5) ? 2 : between(1.8, 3.5);
-    medium.epsilon_r = chance(0.1) ? 1 : between(1, 6);
-    medium.polarization = std::string(polarization_names[draws.uniform_int(2)]);
-    medium.sigma_db = chance(0.1) ? 0 : between(0.5, 8);
-    medium.k_db = between(-10, 15);
-    medium.shape_factor = chance(0.2) ? 1 : log_between(0.5, 10);
+    draw_path_loss_parameters(medium, draws);
     // Of the order of a frame, a run, or anything else.
     const double until_s = scenario.talk.until.seconds();
     const double coherence_time_s = chance(0.5) ? log_between(1e-4, 1e-1) : until_s * between(0.1, 3);
