@@ -9,14 +9,6 @@
 
 namespace netsim {
 
-namespace {
-
-MessageKind message_kind(const Frame& frame) {
-    return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
-}
-
-}  // namespace
-
 CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
                            MessageFates& fates, LinkListener& listener)
     : simulator_(simulator),
@@ -28,10 +20,9 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       sifs_(SimTime::from_seconds(config.sifs_s)),
       lifs_(SimTime::from_seconds(config.lifs_s)),
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
-      fates_(fates),
       listener_(listener),
       draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
-      queue_(config.queue_capacity) {
+      outbox_(radio.node(), config.queue_capacity, fates) {
     radio_.set_listener(*this);
     radio_.stop_watching_channel();
 }
@@ -43,30 +34,19 @@ void CsmaCa802154::send(NodeId destination, Payload payload) {
             std::to_string(longest_message_bytes()) + " bytes (an 802.15.4 frame of " +
             std::to_string(narrowband_longest_psdu_bytes) + " bytes less MAC, IPv4 and UDP headers)");
     }
-    Frame frame;
-    frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
-    frame.transmitter = radio_.node();
-    frame.receiver = destination;
-    frame.sequence = next_sequence_++;
-    frame.psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
-    frame.payload = std::move(payload);
+    const int psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
+    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes);
     if (destination != broadcast_id && config_.use_acks) {
         frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
     }
-    const MessageKind kind = message_kind(frame);
-    fates_.accept(kind);
-    if (!queue_.push(std::make_shared<const Frame>(std::move(frame)))) {
-        fates_.book(kind, MessageFate::queue_overflow);
-        return;
-    }
-    if (state_ == State::idle) {
+    if (outbox_.add(std::move(frame)) && state_ == State::idle) {
         go_on();
     }
 }
 
 void CsmaCa802154::go_on() {
     const bool resumes = std::exchange(interrupted_by_ack_, false);
-    if (!in_progress_ && queue_.empty()) {
+    if (outbox_.empty()) {
         state_ = State::idle;
         return;
     }
@@ -112,14 +92,12 @@ void CsmaCa802154::assessed() {
         channel_is_busy();
         return;
     }
-    if (!in_progress_) {
-        in_progress_ = queue_.pop();
-    }
+    outbox_.begin_next();
     state_ = State::turning;
     radio_.turn_to_transmit();
     timer_ = simulator_.schedule_after(turnaround_, [this] {
         state_ = State::sending;
-        transmit(in_progress_);
+        transmit(outbox_.in_progress());
     });
 }
 
@@ -128,9 +106,7 @@ void CsmaCa802154::channel_is_busy() {
         back_off();
         return;
     }
-    if (!in_progress_) {
-        in_progress_ = queue_.pop();
-    }
+    outbox_.begin_next();
     finish(MessageFate::channel_access_failure);
 }
 
@@ -146,7 +122,7 @@ void CsmaCa802154::transmission_ended() {
         return;
     }
     NETSIM_ASSERT(state_ == State::sending);
-    if (in_progress_->receiver == broadcast_id || !config_.use_acks) {
+    if (outbox_.in_progress()->receiver == broadcast_id || !config_.use_acks) {
         earliest_wait_ = simulator_.now() + lifs_;
         finish(MessageFate::sent);
         return;
@@ -160,17 +136,13 @@ void CsmaCa802154::ack_timed_out() {
         finish(MessageFate::retry_limit);
         return;
     }
-    if (++retries_ == 1) {
-        Frame again = *in_progress_;
-        again.retry = true;
-        in_progress_ = std::make_shared<const Frame>(std::move(again));
-    }
+    ++retries_;
+    outbox_.set_retry();
     go_on();
 }
 
 void CsmaCa802154::finish(MessageFate fate) {
-    fates_.book(message_kind(*in_progress_), fate);
-    in_progress_.reset();
+    outbox_.finish(fate);
     retries_ = 0;
     go_on();
 }
@@ -184,7 +156,8 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
     } else if (frame.kind == FrameKind::unicast) {
         unicast_received(frame);
     } else if (frame.kind == FrameKind::ack && state_ == State::awaiting_ack &&
-               frame.transmitter == in_progress_->receiver && frame.sequence == in_progress_->sequence) {
+               frame.transmitter == outbox_.in_progress()->receiver &&
+               frame.sequence == outbox_.in_progress()->sequence) {
         simulator_.cancel(timer_);
         earliest_wait_ = simulator_.now() + lifs_;
         finish(MessageFate::acknowledged);

@@ -37,9 +37,8 @@
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/frame_802154.hpp"
 #include "netsim/mac/link.hpp"
-#include "netsim/mac/tx_queue.hpp"
+#include "netsim/mac/outbox.hpp"
 #include "netsim/phy/radio.hpp"
-#include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
 
@@ -56,7 +55,7 @@ public:
         radio_.fetch();
     }
     std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
-    std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
+    std::size_t queued_messages() const override { return outbox_.size(); }
 
 private:
     enum class State {
@@ -96,22 +95,19 @@ private:
     SimTime sifs_;
     SimTime lifs_;
     SimTime ack_wait_;
-    MessageFates& fates_;
     LinkListener& listener_;
     RandomStream draws_;
 
-    TxQueue queue_;
+    Outbox outbox_;  // its frame in progress was on the air, or is about to be
     DuplicateFilter duplicates_;
     State state_ = State::idle;
-    EventHandle timer_;                         // of the state
-    std::shared_ptr<const Frame> in_progress_;  // was on the air, or is about to be
-    std::shared_ptr<const Frame> ack_;          // that is about to be sent
-    SimTime earliest_wait_;                     // no wait begins before
-    int failed_assessments_ = 0;                // of the present attempt
-    int retries_ = 0;                           // of the frame in progress
-    bool interrupted_by_ack_ = false;           // the present attempt
-    bool was_busy_ = false;                     // the channel, during the assessment
-    std::uint32_t next_sequence_ = 0;
+    EventHandle timer_;                 // of the state
+    std::shared_ptr<const Frame> ack_;  // that is about to be sent
+    SimTime earliest_wait_;             // no wait begins before
+    int failed_assessments_ = 0;        // of the present attempt
+    int retries_ = 0;                   // of the frame in progress
+    bool interrupted_by_ack_ = false;   // the present attempt
+    bool was_busy_ = false;             // the channel, during the assessment
 };
 
 }  // namespace netsim

@@ -9,14 +9,6 @@
 
 namespace netsim {
 
-namespace {
-
-MessageKind message_kind(const Frame& frame) {
-    return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
-}
-
-}  // namespace
-
 Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
          std::uint64_t seed, MessageFates& fates, LinkListener& listener)
     : simulator_(simulator),
@@ -24,9 +16,8 @@ Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters
       listener_(listener),
       contention_(simulator, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff),
                   *this),
-      queue_(parameters->config.queue_capacity),
+      outbox_(radio.node(), parameters->config.queue_capacity, fates),
       parameters_(*parameters),
-      fates_(fates),
       retry_(parameters->retry_limits, parameters->contention_window, parameters->retry_rule),
       owned_parameters_(std::move(parameters)),
       rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
@@ -44,20 +35,12 @@ void Dcf::send(NodeId destination, Payload payload) {
             std::to_string(longest_message_bytes()) + " bytes (an MTU of " +
             std::to_string(parameters_.config.mtu_bytes) + " bytes less IPv4 and UDP headers)");
     }
-    Frame frame;
-    frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
-    frame.transmitter = radio_.node();
-    frame.receiver = destination;
-    frame.sequence = next_sequence_++;
-    frame.psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
-    frame.payload = std::move(payload);
+    const int psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
+    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes);
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }
-    const MessageKind kind = message_kind(frame);
-    fates_.accept(kind);
-    if (!queue_.push(std::make_shared<const Frame>(std::move(frame)))) {
-        fates_.book(kind, MessageFate::queue_overflow);
+    if (!outbox_.add(std::move(frame))) {
         return;
     }
     watch_channel(simulator_.now() - parameters_.longest_wait);
@@ -71,20 +54,18 @@ void Dcf::send(NodeId destination, Payload payload) {
 }
 
 void Dcf::contend_for_next() {
-    if ((in_progress_ || !queue_.empty()) && !contention_.in_progress()) {
+    if (!outbox_.empty() && !contention_.in_progress()) {
         contention_.start(retry_.contention_window());
     }
 }
 
 void Dcf::channel_granted() {
     NETSIM_ASSERT(exchange_ == Exchange::none && response_ == Response::none);
-    if (!in_progress_) {
-        in_progress_ = queue_.pop();
-    }
-    if (in_progress_->receiver != broadcast_id) {
+    outbox_.begin_next();
+    if (in_progress().receiver != broadcast_id) {
         choose_data_mode();
     }
-    if (needs_rts(*in_progress_)) {
+    if (needs_rts(in_progress())) {
         send_rts();
     } else {
         send_in_progress();
@@ -92,37 +73,33 @@ void Dcf::channel_granted() {
 }
 
 RateAttempt Dcf::attempt() const {
-    return {in_progress_->receiver, in_progress_->psdu_bytes, attempts_,
-            is_long(*in_progress_) ? parameters_.retry_limits.long_failures
+    return {in_progress().receiver, in_progress().psdu_bytes, attempts_,
+            is_long(in_progress()) ? parameters_.retry_limits.long_failures
                                    : parameters_.retry_limits.short_failures};
 }
 
 void Dcf::choose_data_mode() {
     data_mode_ = &rate_control_->mode_for(attempt(), simulator_.now());
     const SimTime duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
-    if (duration_field != in_progress_->duration_field) {
-        Frame frame = *in_progress_;
-        frame.duration_field = duration_field;
-        in_progress_ = std::make_shared<const Frame>(std::move(frame));
-    }
+    outbox_.set_duration_field(duration_field);
 }
 
 void Dcf::send_rts() {
     exchange_ = Exchange::sending_rts;
     rts_ = std::make_shared<const Frame>(
-        make_rts(*in_progress_, parameters_.timing, parameters_.modes, parameters_.rts_mode, *data_mode_));
+        make_rts(in_progress(), parameters_.timing, parameters_.modes, parameters_.rts_mode, *data_mode_));
     transmit(rts_, parameters_.rts_mode);
 }
 
 void Dcf::send_in_progress() {
     exchange_ = Exchange::sending;
-    if (in_progress_->receiver == broadcast_id) {
-        transmit(in_progress_, parameters_.broadcast_mode);
+    if (in_progress().receiver == broadcast_id) {
+        transmit(outbox_.in_progress(), parameters_.broadcast_mode);
     } else {
         if (parameters_.has_adaptive_rate) {
             ++frames_by_mode_[parameters_.modes.index_of(*data_mode_)];
         }
-        transmit(in_progress_, *data_mode_);
+        transmit(outbox_.in_progress(), *data_mode_);
     }
 }
 
@@ -141,12 +118,12 @@ void Dcf::transmission_ended() {
         await_answer(Exchange::awaiting_cts, parameters_.modes.response_mode(parameters_.rts_mode));
     } else {
         NETSIM_ASSERT(exchange_ == Exchange::sending);
-        if (in_progress_->receiver == broadcast_id) {
+        if (in_progress().receiver == broadcast_id) {
             retry_.broadcast_sent();
             finish(MessageFate::sent);
             return;
         }
-        own_frame_ended(*in_progress_);
+        own_frame_ended(in_progress());
         await_answer(Exchange::awaiting_ack, parameters_.modes.response_mode(*data_mode_));
     }
 }
@@ -201,7 +178,7 @@ void Dcf::answered() {
         simulator_.schedule_after(parameters_.timing.sifs, [this] { send_in_progress(); });
     } else {
         rate_control_->succeeded(attempt(), *data_mode_, simulator_.now());
-        retry_.acknowledged(is_long(*in_progress_));
+        retry_.acknowledged(is_long(in_progress()));
         finish(MessageFate::acknowledged);
     }
 }
@@ -245,24 +222,21 @@ void Dcf::attempt_failed() {
         rate_control_->failed(attempt(), *data_mode_, simulator_.now());
         ++attempts_;
     }
-    const bool may_go_on = was_sent && is_long(*in_progress_) ? retry_.long_failed() : retry_.short_failed();
+    const bool may_go_on = was_sent && is_long(in_progress()) ? retry_.long_failed() : retry_.short_failed();
     if (!may_go_on) {
         retry_.given_up();
         finish(MessageFate::retry_limit);
         return;
     }
-    if (was_sent && !in_progress_->retry) {
-        Frame again = *in_progress_;
-        again.retry = true;
-        in_progress_ = std::make_shared<const Frame>(std::move(again));
+    if (was_sent) {
+        outbox_.set_retry();
     }
     exchange_ = Exchange::none;
     contend_for_next();
 }
 
 void Dcf::finish(MessageFate fate) {
-    fates_.book(message_kind(*in_progress_), fate);
-    in_progress_.reset();
+    outbox_.finish(fate);
     attempts_ = 0;
     exchange_ = Exchange::none;
     contend_for_next();
@@ -332,7 +306,7 @@ void Dcf::watch_channel(SimTime since) {
 }
 
 void Dcf::stop_watching_channel() {
-    if (!in_progress_ && queue_.empty()) {
+    if (outbox_.empty()) {
         watches_channel_ = false;
         radio_.stop_watching_channel();
         simulator_.cancel(nav_event_);

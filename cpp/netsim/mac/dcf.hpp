@@ -35,11 +35,10 @@
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/link.hpp"
+#include "netsim/mac/outbox.hpp"
 #include "netsim/mac/rate_control.hpp"
 #include "netsim/mac/retry.hpp"
-#include "netsim/mac/tx_queue.hpp"
 #include "netsim/phy/radio.hpp"
-#include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
 
@@ -58,7 +57,7 @@ public:
     std::size_t longest_message_bytes() const override {
         return parameters_.config.mtu_bytes - datagram_bytes(0);
     }
-    std::size_t queued_messages() const override { return queue_.size() + (in_progress_ ? 1 : 0); }
+    std::size_t queued_messages() const override { return outbox_.size(); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
 private:
@@ -81,6 +80,7 @@ private:
     bool is_long(const Frame& frame) const {
         return frame.psdu_bytes >= parameters_.config.rts_threshold_bytes;
     }
+    const Frame& in_progress() const { return *outbox_.in_progress(); }
     bool needs_rts(const Frame& frame) const { return frame.receiver != broadcast_id && is_long(frame); }
     RateAttempt attempt() const;
     void choose_data_mode();
@@ -120,12 +120,9 @@ private:
 
     // Then what a broadcast frame touches, when it is sent.
     Contention contention_;
-    TxQueue queue_;
-    std::shared_ptr<const Frame> in_progress_;  // granted once, not finished yet
+    Outbox outbox_;  // its frame in progress was granted once, and is not finished yet
     const DcfParameters& parameters_;
-    MessageFates& fates_;
-    Retry retry_;  // of the frame in progress
-    std::uint32_t next_sequence_ = 0;
+    Retry retry_;            // of the frame in progress
     Turn nav_turn_ = 0;      // of the event at the end of the NAV, since that was set
     EventHandle nav_event_;  // pending while the channel is watched
 

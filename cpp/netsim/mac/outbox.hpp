@@ -1,0 +1,93 @@
+// What one interface has to send: the frames that wait, the one in progress, and the ledger of their messages.
+//
+//   add() -> WAITING --begin_next()--> IN PROGRESS --finish(fate)--> gone
+//     |
+//     +--the queue is full--> gone: queue_overflow
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "netsim/mac/frame.hpp"
+#include "netsim/mac/tx_queue.hpp"
+#include "netsim/trace/message_fates.hpp"
+
+namespace netsim {
+
+class Outbox {
+public:
+    // Of the interface of `node`. So many frames can wait; the one in progress does not.
+    Outbox(NodeId node, int capacity, MessageFates& fates) : queue_(capacity), fates_(fates), node_(node) {}
+
+    // A frame of a message from this node, with the next number; without a duration field.
+    Frame frame_of(NodeId destination, Payload payload, int psdu_bytes) {
+        Frame frame;
+        frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
+        frame.transmitter = node_;
+        frame.receiver = destination;
+        frame.sequence = next_sequence_++;
+        frame.psdu_bytes = psdu_bytes;
+        frame.payload = std::move(payload);
+        return frame;
+    }
+    // Accepts the message of a data frame. False if the queue is full and the frame is dropped.
+    bool add(Frame frame) {
+        const MessageKind kind = message_kind(frame);
+        fates_.accept(kind);
+        const bool is_kept = queue_.push(std::make_shared<const Frame>(std::move(frame)));
+        if (!is_kept) {
+            fates_.book(kind, MessageFate::queue_overflow);
+        }
+        return is_kept;
+    }
+
+    // Of those that wait and the one in progress.
+    std::size_t size() const { return queue_.size() + (in_progress_ ? 1 : 0); }
+    bool empty() const { return !in_progress_ && queue_.empty(); }
+
+    // Takes the first of those that wait, of which there must be one, unless a frame is in progress.
+    void begin_next() {
+        if (!in_progress_) {
+            in_progress_ = queue_.pop();
+        }
+    }
+    // Null if there is none.
+    const std::shared_ptr<const Frame>& in_progress() const { return in_progress_; }
+    // Frames never change: in progress from now on is one that differs in that.
+    void set_retry() {
+        if (!in_progress_->retry) {
+            change([](Frame& frame) { frame.retry = true; });
+        }
+    }
+    void set_duration_field(SimTime duration) {
+        if (in_progress_->duration_field != duration) {
+            change([duration](Frame& frame) { frame.duration_field = duration; });
+        }
+    }
+    // The frame in progress is done with.
+    void finish(MessageFate fate) {
+        fates_.book(message_kind(*in_progress_), fate);
+        in_progress_.reset();
+    }
+
+private:
+    static MessageKind message_kind(const Frame& frame) {
+        return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
+    }
+    template <typename Change>
+    void change(const Change& change) {
+        Frame changed = *in_progress_;
+        change(changed);
+        in_progress_ = std::make_shared<const Frame>(std::move(changed));
+    }
+
+    TxQueue queue_;
+    std::shared_ptr<const Frame> in_progress_;
+    MessageFates& fates_;
+    NodeId node_;
+    std::uint32_t next_sequence_ = 0;
+};
+
+}  // namespace netsim

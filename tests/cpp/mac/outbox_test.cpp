@@ -1,0 +1,104 @@
+#include "netsim/mac/outbox.hpp"
+
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace netsim {
+namespace {
+
+constexpr int capacity = 2;
+
+class OutboxTest : public testing::Test {
+protected:
+    bool add(NodeId destination) { return outbox.add(outbox.frame_of(destination, text, 164)); }
+    std::uint64_t booked(MessageKind kind, MessageFate fate) const {
+        return fates.counts(kind)[static_cast<std::size_t>(fate)];
+    }
+
+    Payload text = std::make_shared<const std::string>("text");
+    MessageFates fates;
+    Outbox outbox{7, capacity, fates};
+};
+
+TEST_F(OutboxTest, FramesAreNumberedAndSayWhomTheyAreFor) {
+    const Frame all = outbox.frame_of(broadcast_id, text, 164);
+    EXPECT_EQ(all.kind, FrameKind::broadcast);
+    EXPECT_EQ(all.transmitter, 7);
+    EXPECT_EQ(all.sequence, 0U);
+    const Frame one = outbox.frame_of(3, text, 200);
+    EXPECT_EQ(one.kind, FrameKind::unicast);
+    EXPECT_EQ(one.receiver, 3);
+    EXPECT_EQ(one.sequence, 1U);
+    EXPECT_EQ(one.psdu_bytes, 200);
+    EXPECT_EQ(one.payload, text);
+    EXPECT_FALSE(one.retry);
+}
+
+TEST_F(OutboxTest, TheOneInProgressDoesNotWait) {
+    EXPECT_TRUE(outbox.empty());
+    EXPECT_TRUE(add(3));
+    EXPECT_TRUE(add(4));
+    outbox.begin_next();
+    EXPECT_TRUE(add(5));
+    EXPECT_EQ(outbox.size(), 3U);
+    EXPECT_EQ(outbox.in_progress()->receiver, 3);
+}
+
+TEST_F(OutboxTest, AFrameInProgressStaysSoUntilItIsFinished) {
+    add(3);
+    add(4);
+    outbox.begin_next();
+    outbox.begin_next();
+    EXPECT_EQ(outbox.in_progress()->receiver, 3);
+    outbox.finish(MessageFate::acknowledged);
+    EXPECT_EQ(outbox.in_progress(), nullptr);
+    EXPECT_FALSE(outbox.empty());
+    outbox.begin_next();
+    EXPECT_EQ(outbox.in_progress()->receiver, 4);
+}
+
+TEST_F(OutboxTest, WhatIsFinishedIsBooked) {
+    add(3);
+    outbox.begin_next();
+    EXPECT_EQ(booked(MessageKind::unicast, MessageFate::queued), 1U);
+    outbox.finish(MessageFate::retry_limit);
+    EXPECT_EQ(booked(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(booked(MessageKind::unicast, MessageFate::queued), 0U);
+}
+
+TEST_F(OutboxTest, WhatDoesNotFitIsBooked) {
+    add(broadcast_id);
+    add(broadcast_id);
+    EXPECT_FALSE(add(broadcast_id));
+    EXPECT_EQ(outbox.size(), 2U);
+    EXPECT_EQ(fates.accepted(MessageKind::broadcast), 3U);
+    EXPECT_EQ(booked(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
+}
+
+TEST_F(OutboxTest, AFrameOnTheAirIsNotTouchedByWhatChanges) {
+    add(3);
+    outbox.begin_next();
+    const std::shared_ptr<const Frame> sent = outbox.in_progress();
+    outbox.set_retry();
+    outbox.set_duration_field(SimTime::from_us(44));
+    EXPECT_FALSE(sent->retry);
+    EXPECT_EQ(sent->duration_field, SimTime());
+    EXPECT_TRUE(outbox.in_progress()->retry);
+    EXPECT_EQ(outbox.in_progress()->duration_field, SimTime::from_us(44));
+    EXPECT_EQ(outbox.in_progress()->sequence, sent->sequence);
+}
+
+TEST_F(OutboxTest, WhatIsAlreadySoIsTheSameFrame) {
+    add(3);
+    outbox.begin_next();
+    outbox.set_retry();
+    const std::shared_ptr<const Frame> retried = outbox.in_progress();
+    outbox.set_retry();
+    outbox.set_duration_field(SimTime());
+    EXPECT_EQ(outbox.in_progress(), retried);
+}
+
+}  // namespace
+}  // namespace netsim
