@@ -61,8 +61,8 @@ py::dict interferers_at(const Network& network, NodeId receiver) {
 
 py::dict frames_by_bitrate(const Network& network, NodeId node) {
     std::map<std::int64_t, std::uint64_t> sums;
-    for (const auto& link : network.node(node).links()) {
-        for (const auto& [bitrate_bps, frames] : link->frames_by_bitrate()) {
+    for (const auto& interface : network.node(node).interfaces()) {
+        for (const auto& [bitrate_bps, frames] : interface->frames_by_bitrate()) {
             sums[bitrate_bps] += frames;
         }
     }

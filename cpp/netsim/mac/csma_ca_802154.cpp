@@ -10,7 +10,7 @@
 namespace netsim {
 
 CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
-                           MessageFates& fates, LinkListener& listener)
+                           MessageFates& fates, NetworkInterfaceListener& listener)
     : simulator_(simulator),
       radio_(radio),
       config_(config),

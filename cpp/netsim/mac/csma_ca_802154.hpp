@@ -36,16 +36,16 @@
 #include "netsim/kernel/random.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/frame_802154.hpp"
-#include "netsim/mac/link.hpp"
+#include "netsim/mac/network_interface.hpp"
 #include "netsim/mac/outbox.hpp"
 #include "netsim/phy/radio.hpp"
 
 namespace netsim {
 
-class CsmaCa802154 final : public Link, private RadioListener {
+class CsmaCa802154 final : public NetworkInterface, private RadioListener {
 public:
     CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
-                 MessageFates& fates, LinkListener& listener);
+                 MessageFates& fates, NetworkInterfaceListener& listener);
     CsmaCa802154(const CsmaCa802154&) = delete;
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
@@ -95,7 +95,7 @@ private:
     SimTime sifs_;
     SimTime lifs_;
     SimTime ack_wait_;
-    LinkListener& listener_;
+    NetworkInterfaceListener& listener_;
     RandomStream draws_;
 
     Outbox outbox_;  // its frame in progress was on the air, or is about to be

@@ -10,7 +10,7 @@
 namespace netsim {
 
 Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-         std::uint64_t seed, MessageFates& fates, LinkListener& listener)
+         std::uint64_t seed, MessageFates& fates, NetworkInterfaceListener& listener)
     : simulator_(simulator),
       radio_(radio),
       listener_(listener),

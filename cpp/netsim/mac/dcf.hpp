@@ -34,7 +34,7 @@
 #include "netsim/mac/contention.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
-#include "netsim/mac/link.hpp"
+#include "netsim/mac/network_interface.hpp"
 #include "netsim/mac/outbox.hpp"
 #include "netsim/mac/rate_control.hpp"
 #include "netsim/mac/retry.hpp"
@@ -42,10 +42,10 @@
 
 namespace netsim {
 
-class alignas(64) Dcf final : public Link, private RadioListener, private ContentionListener {
+class alignas(64) Dcf final : public NetworkInterface, private RadioListener, private ContentionListener {
 public:
     Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-        std::uint64_t seed, MessageFates& fates, LinkListener& listener);
+        std::uint64_t seed, MessageFates& fates, NetworkInterfaceListener& listener);
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
@@ -110,7 +110,7 @@ private:
     // First what every frame that is heard touches: one cache line, which the medium fetches ahead.
     Simulator& simulator_;
     Radio& radio_;
-    LinkListener& listener_;
+    NetworkInterfaceListener& listener_;
     SimTime nav_end_ = SimTime::long_ago();
     bool watches_channel_ = false;  // and contention is told of it
     // Only then is contention told of a frame that is received well: it lies in another cache line.

@@ -265,7 +265,7 @@ void Medium::fetch(RadioId radio, FrameKind kind) const {
     constexpr std::size_t cache_line = 64;
     const Touched& there = touched_[radio];
     fetch_bytes(there.listener, 2 * cache_line);
-    fetch_bytes(there.link, cache_line);
+    fetch_bytes(there.interface, cache_line);
     fetch_bytes(there.upper_layer, cache_line);
     fetch_bytes(there.protocol, cache_line);
     fates_.fetch(attached_[radio].interface.node, kind);

@@ -47,9 +47,9 @@ public:
     RadioId attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna = {});
     // What each arrival at the radio touches in the layers above it: in a large network most of it is in no cache
     // by then, so the medium has it fetched ahead. Null: nothing.
-    void set_touched(RadioId radio, const void* link, const void* upper_layer, const void* protocol) {
+    void set_touched(RadioId radio, const void* interface, const void* upper_layer, const void* protocol) {
         Touched& touched = touched_[radio];
-        touched.link = link;
+        touched.interface = interface;
         touched.upper_layer = upper_layer;
         touched.protocol = protocol;
     }
@@ -103,7 +103,7 @@ private:
     // By an arrival at a radio.
     struct alignas(32) Touched {
         MediumListener* listener = nullptr;
-        const void* link = nullptr;
+        const void* interface = nullptr;
         const void* upper_layer = nullptr;
         const void* protocol = nullptr;
     };

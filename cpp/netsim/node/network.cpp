@@ -35,7 +35,7 @@ Node& Network::add_node(const NodeConfig& config) {
     frame_fates_.add_node();
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
         const InterfaceId id{node.id(), static_cast<std::int32_t>(index)};
-        node.add_link(make_link(config.wlan[index], id, node));
+        node.add_interface(make_interface(config.wlan[index], id, node));
     }
     const SimTime telemetry_interval = SimTime::from_seconds(config.mobility.telemetry_interval_s);
     if (telemetry_interval > SimTime{}) {
@@ -44,11 +44,12 @@ Node& Network::add_node(const NodeConfig& config) {
     return node;
 }
 
-std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, InterfaceId id, Node& node) {
+std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig& config, InterfaceId id,
+                                                          Node& node) {
     if (perfect_channel_) {
-        return std::make_unique<UnitDiskLink>(simulator_, unit_disk_, id, config.radio.communication_range_m,
-                                              node.trajectory(), frame_fates_, message_fates_, fingerprint_,
-                                              node.link_listener());
+        return std::make_unique<UnitDiskInterface>(
+            simulator_, unit_disk_, id, config.radio.communication_range_m, node.trajectory(), frame_fates_,
+            message_fates_, fingerprint_, node.interface_listener());
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
     Radio& radio =
@@ -57,11 +58,11 @@ std::unique_ptr<Link> Network::make_link(const InterfaceConfig& config, Interfac
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,
-                                              node.link_listener());
+                                              node.interface_listener());
     }
     link_types_.push_back(LinkType::radiotap);
     return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_, message_fates_,
-                                 node.link_listener());
+                                 node.interface_listener());
 }
 
 std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
@@ -159,7 +160,7 @@ void Network::capture(NodeId node, const std::string& path, std::int32_t interfa
                           ": medium.typename = \"UnitDiskRadioMedium\" has no radios; expected " +
                           "Ieee80211ScalarRadioMedium or another radio medium");
     }
-    const std::size_t count = this->node(node).links().size();
+    const std::size_t count = this->node(node).interfaces().size();
     if (interface < 0 || static_cast<std::size_t>(interface) >= count) {
         throw ConfigError("cannot capture the frames of wlan[" + std::to_string(interface) + "] of " + name +
                           ", which has " + std::to_string(count) + " interfaces, from wlan[0] on");
@@ -195,7 +196,8 @@ void Network::initialize() {
     }
     for (const Radio& radio : radios_) {
         Node& node = nodes_[radio.node()];
-        medium_.set_touched(radio.id(), node.links()[radio.interface().index].get(), &node, node.protocol());
+        medium_.set_touched(radio.id(), node.interfaces()[radio.interface().index].get(), &node,
+                            node.protocol());
     }
     for (Node& node : nodes_) {
         node.initialize();

@@ -17,7 +17,7 @@
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
-#include "netsim/mac/unit_disk_link.hpp"
+#include "netsim/mac/unit_disk_interface.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/node/node.hpp"
 #include "netsim/node/radio_capture.hpp"
@@ -82,7 +82,8 @@ private:
     void check_with_medium(const NodeConfig& config);
     void check_with_medium(const std::string& node, const InterfaceConfig& config);
     void check_with_others(const NodeConfig& config, std::size_t index) const;
-    std::unique_ptr<Link> make_link(const InterfaceConfig& config, InterfaceId id, Node& node);
+    std::unique_ptr<NetworkInterface> make_interface(const InterfaceConfig& config, InterfaceId id,
+                                                     Node& node);
     Radio& radio(InterfaceId id);
     void add_to_telemetry_clock(Node& node, SimTime interval);
 

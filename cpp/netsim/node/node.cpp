@@ -51,17 +51,17 @@ void Node::finish() {
     call_protocol("finish", [](Protocol& protocol) { protocol.finish(); });
 }
 
-Link& Node::link(std::int32_t interface) {
-    if (interface < 0 || static_cast<std::size_t>(interface) >= links_.size()) {
+NetworkInterface& Node::interface_at(std::int32_t index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= interfaces_.size()) {
         throw SimulationError("node " + std::to_string(id_) + " has no interface wlan[" +
-                              std::to_string(interface) + "]: it has " + std::to_string(links_.size()) +
-                              (links_.size() == 1 ? ", wlan[0]" : ", from wlan[0] on"));
+                              std::to_string(index) + "]: it has " + std::to_string(interfaces_.size()) +
+                              (interfaces_.size() == 1 ? ", wlan[0]" : ", from wlan[0] on"));
     }
-    return *links_[interface];
+    return *interfaces_[index];
 }
 
 void Node::broadcast(Payload payload, std::int32_t interface) {
-    link(interface).send(broadcast_id, std::move(payload));
+    interface_at(interface).send(broadcast_id, std::move(payload));
 }
 
 void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
@@ -72,7 +72,7 @@ void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
     if (destination == id_) {
         throw SimulationError("node " + std::to_string(id_) + " cannot send a message to itself");
     }
-    link(interface).send(destination, std::move(payload));
+    interface_at(interface).send(destination, std::move(payload));
 }
 
 void Node::schedule_timer(std::string timer, SimTime time) {
@@ -112,8 +112,8 @@ void Node::fetch_for_timer() const {
         fetch(*protocol_);
     }
     fetch(*mobility_);
-    if (!links_.empty()) {
-        links_.front()->fetch();
+    if (!interfaces_.empty()) {
+        interfaces_.front()->fetch();
     }
 }
 

@@ -13,7 +13,7 @@
 #include "netsim/kernel/instant_count.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/kernel/simulator.hpp"
-#include "netsim/mac/link.hpp"
+#include "netsim/mac/network_interface.hpp"
 #include "netsim/mobility/attitude.hpp"
 #include "netsim/mobility/mobility.hpp"
 #include "netsim/node/payload_hash.hpp"
@@ -23,7 +23,7 @@
 
 namespace netsim {
 
-class alignas(64) Node final : private LinkListener {
+class alignas(64) Node final : private NetworkInterfaceListener {
 public:
     Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
          Fingerprint& fingerprint, PayloadHash& payload_hash);
@@ -36,13 +36,15 @@ public:
     const Trajectory& trajectory() const { return mobility_->trajectory(); }
     const Attitude& attitude() const { return attitude_; }
 
-    // Wiring, before the run. The interfaces, wlan[0] first, report to `link_listener()`.
-    LinkListener& link_listener() { return *this; }
-    void add_link(std::unique_ptr<Link> link) { links_.push_back(std::move(link)); }
+    // Wiring, before the run. The interfaces, wlan[0] first, report to `interface_listener()`.
+    NetworkInterfaceListener& interface_listener() { return *this; }
+    void add_interface(std::unique_ptr<NetworkInterface> interface) {
+        interfaces_.push_back(std::move(interface));
+    }
     void set_node_count(const std::int32_t* count) { node_count_ = count; }
     void set_protocol(std::unique_ptr<Protocol> protocol) { protocol_ = std::move(protocol); }
     Protocol* protocol() { return protocol_.get(); }
-    const std::vector<std::unique_ptr<Link>>& links() const { return links_; }
+    const std::vector<std::unique_ptr<NetworkInterface>>& interfaces() const { return interfaces_; }
 
     // Life cycle, driven by the Network. A SimulationError of the protocol comes out as a ProtocolError.
     void check_protocol() const;
@@ -66,7 +68,7 @@ public:
     // All pending timers of that name; none is fine.
     void cancel_timer(const std::string& timer);
     // Through wlan[0].
-    std::size_t longest_message_bytes() { return link(0).longest_message_bytes(); }
+    std::size_t longest_message_bytes() { return interface_at(0).longest_message_bytes(); }
     // The protocol's own random numbers: IProvider.random in Python.
     RandomStream& random() { return random_; }
     // Values for the results of the run; they outlive the protocol.
@@ -74,7 +76,7 @@ public:
     const TrackedVariables& tracked_variables() const { return tracked_variables_; }
 
 private:
-    Link& link(std::int32_t interface);
+    NetworkInterface& interface_at(std::int32_t index);
     template <typename Call>
     void call_protocol(const char* callback, Call call);
     void message_received(NodeId source, const Payload& payload) override;
@@ -98,7 +100,7 @@ private:
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Protocol> protocol_;
     std::unique_ptr<Mobility> mobility_;
-    std::vector<std::unique_ptr<Link>> links_;
+    std::vector<std::unique_ptr<NetworkInterface>> interfaces_;
     Timers timers_;
     InstantCount timers_for_now_;
     std::string name_;

@@ -100,7 +100,7 @@ public:
     // together.
     bool are_others_weak() const { return others_are_weak_; }
 
-    // It will probably send soon (Link::fetch).
+    // It will probably send soon (NetworkInterface::fetch).
     void fetch() const {
         fetch_before(*this, observer_);
         medium_.fetch_sender(id_);

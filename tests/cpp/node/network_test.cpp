@@ -223,8 +223,8 @@ protected:
         }
         std::uint64_t census = 0;
         for (NodeId id = 0; id < network.node_count(); ++id) {
-            for (const auto& link : network.node(id).links()) {
-                census += link->queued_messages();
+            for (const auto& interface : network.node(id).interfaces()) {
+                census += interface->queued_messages();
             }
         }
         EXPECT_EQ(queued, census);

@@ -111,7 +111,7 @@ struct Received {
 };
 
 // A radio with a MAC.
-struct Station final : LinkListener {
+struct Station final : NetworkInterfaceListener {
     Station(Simulator& simulator_, Medium& medium, InterfaceId interface, const RadioConfig& radio_config,
             const MacConfig& mac_config, Position place, std::uint64_t seed, MessageFates& message_fates)
         : simulator(simulator_),

@@ -39,7 +39,7 @@ inline CsmaConfig without_backoff() {
     return config;
 }
 
-struct Device final : LinkListener {
+struct Device final : NetworkInterfaceListener {
     Device(Air& air_, Position place, const CsmaConfig& config, const RadioConfig& radio_config,
            std::uint64_t seed)
         : air(air_),

@@ -105,8 +105,8 @@ private:
     static std::uint64_t waiting_messages(Network& network) {
         std::uint64_t count = 0;
         for (NodeId id = 0; id < network.node_count(); ++id) {
-            for (const auto& link : network.node(id).links()) {
-                count += link->queued_messages();
+            for (const auto& interface : network.node(id).interfaces()) {
+                count += interface->queued_messages();
             }
         }
         return count;

@@ -83,7 +83,7 @@ public:
 private:
     // Who has only one draws nothing, so that scenarios without further ones stay as they are.
     std::int32_t interface() {
-        const auto count = static_cast<std::uint32_t>(node_.links().size());
+        const auto count = static_cast<std::uint32_t>(node_.interfaces().size());
         return count == 1 ? 0 : static_cast<std::int32_t>(draws_.uniform_int(count));
     }
 

@@ -1,4 +1,4 @@
-#include "netsim/mac/unit_disk_link.hpp"
+#include "netsim/mac/unit_disk_interface.hpp"
 
 #include <string>
 #include <utility>
@@ -7,9 +7,10 @@
 
 namespace netsim {
 
-UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface,
-                           double range_m, const Trajectory& trajectory, FrameFates& frame_fates,
-                           MessageFates& message_fates, Fingerprint& fingerprint, LinkListener& listener)
+UnitDiskInterface::UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface,
+                                     double range_m, const Trajectory& trajectory, FrameFates& frame_fates,
+                                     MessageFates& message_fates, Fingerprint& fingerprint,
+                                     NetworkInterfaceListener& listener)
     : simulator_(simulator),
       channel_(channel),
       range_m_(range_m),
@@ -20,12 +21,12 @@ UnitDiskLink::UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, Inter
       listener_(listener),
       id_(interface.node) {
     if (interface.index == 0) {
-        NETSIM_ASSERT(interface.node == static_cast<NodeId>(channel.links.size()));
-        channel.links.push_back(this);
+        NETSIM_ASSERT(interface.node == static_cast<NodeId>(channel.interfaces.size()));
+        channel.interfaces.push_back(this);
     }
 }
 
-void UnitDiskLink::send(NodeId destination, Payload payload) {
+void UnitDiskInterface::send(NodeId destination, Payload payload) {
     if (sent_.exceeds(simulator_.now())) {
         throw SimulationError("node " + std::to_string(id_) + " has sent " +
                               std::to_string(most_at_one_instant) + " messages at " +
@@ -39,11 +40,11 @@ void UnitDiskLink::send(NodeId destination, Payload payload) {
     fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
     fingerprint_.add(static_cast<std::uint64_t>(id_));
     CopyCount addressed;
-    for (NodeId node = 0; node < static_cast<NodeId>(channel_.links.size()); ++node) {
+    for (NodeId node = 0; node < static_cast<NodeId>(channel_.interfaces.size()); ++node) {
         if (node == id_ || !label.is_for(node)) {
             continue;
         }
-        UnitDiskLink* receiver = channel_.links[node];
+        UnitDiskInterface* receiver = channel_.interfaces[node];
         ++addressed.made;
         if (!reaches(*receiver)) {
             ++addressed.too_weak;
@@ -68,14 +69,14 @@ void UnitDiskLink::send(NodeId destination, Payload payload) {
     }
 }
 
-bool UnitDiskLink::reaches(const UnitDiskLink& other) const {
+bool UnitDiskInterface::reaches(const UnitDiskInterface& other) const {
     const SimTime now = simulator_.now();
     // Squares, because prototype mode compares squares: roots are rounded, so that those on the rim would differ.
     return squared_distance(other.trajectory_.position_at(now), trajectory_.position_at(now)) <=
            range_m_ * range_m_;
 }
 
-void UnitDiskLink::deliver(std::size_t flight) {
+void UnitDiskInterface::deliver(std::size_t flight) {
     const Flight landed = std::move(flights_[flight]);
     free_flights_.push_back(flight);
     frame_fates_.book(landed.receiver->id_, landed.label, FrameFate::delivered);

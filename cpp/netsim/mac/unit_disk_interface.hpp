@@ -14,27 +14,27 @@
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/instant_count.hpp"
 #include "netsim/kernel/simulator.hpp"
-#include "netsim/mac/link.hpp"
+#include "netsim/mac/network_interface.hpp"
 #include "netsim/mobility/trajectory.hpp"
 #include "netsim/trace/frame_fates.hpp"
 #include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
 
-class UnitDiskLink;
+class UnitDiskInterface;
 
-// The first link of each node of one network, by node id.
+// The first interface of each node of one network, by node id.
 struct UnitDiskChannel {
-    std::vector<UnitDiskLink*> links;
+    std::vector<UnitDiskInterface*> interfaces;
 };
 
-class UnitDiskLink final : public Link {
+class UnitDiskInterface final : public NetworkInterface {
 public:
-    UnitDiskLink(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface, double range_m,
-                 const Trajectory& trajectory, FrameFates& frame_fates, MessageFates& message_fates,
-                 Fingerprint& fingerprint, LinkListener& listener);
-    UnitDiskLink(const UnitDiskLink&) = delete;
-    UnitDiskLink& operator=(const UnitDiskLink&) = delete;
+    UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface, double range_m,
+                      const Trajectory& trajectory, FrameFates& frame_fates, MessageFates& message_fates,
+                      Fingerprint& fingerprint, NetworkInterfaceListener& listener);
+    UnitDiskInterface(const UnitDiskInterface&) = delete;
+    UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 
     // Throws SimulationError, too, if messages that answer each other at one instant never end.
     void send(NodeId destination, Payload payload) override;
@@ -43,7 +43,7 @@ public:
     std::size_t queued_messages() const override { return 0; }
 
 private:
-    bool reaches(const UnitDiskLink& other) const;
+    bool reaches(const UnitDiskInterface& other) const;
     void deliver(std::size_t flight);
 
     Simulator& simulator_;
@@ -53,13 +53,13 @@ private:
     FrameFates& frame_fates_;
     MessageFates& message_fates_;
     Fingerprint& fingerprint_;
-    LinkListener& listener_;
+    NetworkInterfaceListener& listener_;
     NodeId id_;
     InstantCount sent_;
 
     struct Flight {  // a message between its sending and its delivery within the same instant
         Payload payload;
-        UnitDiskLink* receiver = nullptr;
+        UnitDiskInterface* receiver = nullptr;
         FrameLabel label;
     };
     std::vector<Flight> flights_;

@@ -1,6 +1,6 @@
 // What a node asks of its network interface, and what it hears from it.
 //
-// Three interfaces exist: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskLink (a perfect
+// Three interfaces exist: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskInterface (a perfect
 // channel).
 #pragma once
 
@@ -13,17 +13,17 @@
 
 namespace netsim {
 
-class LinkListener {
+class NetworkInterfaceListener {
 public:
     virtual void message_received(NodeId source, const Payload& payload) = 0;
 
 protected:
-    ~LinkListener() = default;
+    ~NetworkInterfaceListener() = default;
 };
 
-class Link {
+class NetworkInterface {
 public:
-    virtual ~Link() = default;
+    virtual ~NetworkInterface() = default;
     // Takes a message for `destination` (broadcast_id: for all in reach). Throws SimulationError if it is longer than
     // longest_message_bytes().
     virtual void send(NodeId destination, Payload payload) = 0;

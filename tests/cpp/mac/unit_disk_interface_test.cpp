@@ -1,4 +1,4 @@
-#include "netsim/mac/unit_disk_link.hpp"
+#include "netsim/mac/unit_disk_interface.hpp"
 
 #include <string>
 #include <vector>
