@@ -48,8 +48,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double speed_mps,
-                                                     double bitrate_bps) {
+std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double speed_mps, double bitrate_bps,
+                                                     double spread_s) {
     auto network = std::make_unique<netsim::Network>(netsim::MediumConfig(), 1);
     netsim::RandomStream draws(1, 0, scenario_draws);
     const double side_m = 100 * std::sqrt(static_cast<double>(nodes));
@@ -62,8 +62,8 @@ std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double 
         config.mobility.speed_mps = speed_mps;
         config.mobility.telemetry_interval_s = 0;
         Node& node = network->add_node(config);
-        node.set_protocol(std::make_unique<Beacon>(node, SimTime::from_seconds(draws.uniform()), text,
-                                                   speed_mps > 0 ? side_m : 0));
+        node.set_protocol(std::make_unique<Beacon>(node, SimTime::from_seconds(draws.uniform() * spread_s),
+                                                   text, speed_mps > 0 ? side_m : 0));
     }
     network->initialize();
     return network;

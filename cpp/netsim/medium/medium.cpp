@@ -105,6 +105,7 @@ Medium::OnAir& Medium::put_on_air(Transmission transmission) {
     entry.transmission.origin = trajectories_[entry.transmission.radio]->position_at(now);
     entry.last_end = now;
     entry.reach_m = 0;
+    entry.arrives_at_once = false;
     entry.others_w = 0;
     entry.close.clear();
     entry.far_w = 0;
@@ -169,11 +170,7 @@ void Medium::tell_those_it_matters_to(OnAir& entry) {
             bound_interference(entry, *other);
             bound_interference(*other, entry);
         }
-        for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
-            if (entry.shares[audience] > 0) {
-                tell_where_energy_adds_up(entry, audience);
-            }
-        }
+        add_up_energy_in_time(entry);
     }
     book_copies(entry, copies);
     schedule_arrivals(entry);
@@ -203,6 +200,8 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
         if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
             continue;
         }
+        constexpr double at_once_m = 1e-3;  // or less: the delay may be rounded to 0
+        entry.arrives_at_once |= squared_m2 <= at_once_m * at_once_m;
         const ReceiverKind& there = kind(radio);
         const double distance_m = std::sqrt(squared_m2);
         const double received_w = power_w(sent, share, radio, place, distance_m, least_w);

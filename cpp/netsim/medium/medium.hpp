@@ -151,6 +151,7 @@ private:
         Turn first_turn = 0;                // of its arrivals' events, two for each receiver
         double odometer_m = 0;              // at its start
         double reach_m = 0;                 // nobody locks on to it farther away
+        bool arrives_at_once = false;       // at one whom it matters to
         double others_w = 0;                // within that, at most, of all that are on the air beside it
         std::vector<const OnAir*> close;    // of those, where that bound says little of any one place,
         double far_w = 0;                   // and at most what all the others bring
@@ -272,10 +273,15 @@ private:
     void tell(RadioId radio, OnAir& on_air, const Arrival& arrival);
     void begin(RadioId radio, const OnAir& on_air, std::size_t apart);
     // Sums of energy: medium_energy.cpp.
-    // Collects in `beside_` the others that are not over everywhere.
+    // Collects in `beside_` those that began before it and are not over everywhere.
     void find_those_beside(const OnAir& newest);
     // Adds what `there` can bring to the receivers of `here`.
     void bound_interference(OnAir& here, const OnAir& there) const;
+    // Tells where it and those beside it, none of which matters alone, make the channel busy: now, or at the end of this
+    // instant.
+    void add_up_energy_in_time(OnAir& newest);
+    void add_up_energy_of_those_begun_now();
+    void add_up_energy(OnAir& newest);
     void tell_where_energy_adds_up(OnAir& newest, std::size_t audience);
     // Those whom the ring of `here` watches miss less by what `there` brings. One of the two is the newest.
     void add_to_ring(OnAir& here, const OnAir& there, std::size_t audience);
@@ -341,6 +347,8 @@ private:
     SimTime remembered_;            // after their end
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
+    std::vector<OnAir*> begun_now_;       // whose energy was not added up yet
+    bool awaits_end_of_instant_ = false;  // to do that
     std::vector<Bound> bounds_;
     std::vector<Passing> passing_;
     static constexpr std::uint32_t no_outlook = std::numeric_limits<std::uint32_t>::max();

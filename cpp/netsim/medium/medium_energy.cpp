@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "netsim/medium/medium.hpp"
 
@@ -28,7 +29,7 @@ auto Medium::most_brought_w(const OnAir& there, const OnAir& here, double most_s
 void Medium::find_those_beside(const OnAir& newest) {
     beside_.clear();
     for (const std::unique_ptr<OnAir>& other : on_air_) {
-        if (other.get() != &newest && other->last_end > newest.transmission.start) {
+        if (other->transmission.id < newest.transmission.id && other->last_end > newest.transmission.start) {
             beside_.push_back(other.get());
         }
     }
@@ -48,6 +49,45 @@ void Medium::bound_interference(OnAir& here, const OnAir& there) const {
     } else {
         here.far_w += most_w;
     }
+}
+
+void Medium::add_up_energy(OnAir& newest) {
+    for (std::size_t audience = 0; audience < audiences_.size(); ++audience) {
+        if (newest.shares[audience] > 0) {
+            tell_where_energy_adds_up(newest, audience);
+        }
+    }
+}
+
+// Many may begin in one instant, as those of stations whose slots end together. Most of the radios that watch will transmit
+// by the end of it, too, and need not be looked at. So all but the first few wait until then: they arrive after it, but for
+// a radio in the same place.
+void Medium::add_up_energy_in_time(OnAir& newest) {
+    constexpr std::size_t few = 4;
+    if (beside_.size() < few ||
+        beside_[beside_.size() - few]->transmission.start < newest.transmission.start) {
+        add_up_energy(newest);
+        return;
+    }
+    begun_now_.push_back(&newest);
+    if (!std::exchange(awaits_end_of_instant_, true)) {
+        const auto at_its_end = [this] {
+            awaits_end_of_instant_ = false;
+            add_up_energy_of_those_begun_now();
+        };
+        simulator_.schedule_at(simulator_.now(), at_its_end, Priority::last);
+    }
+    if (newest.arrives_at_once) {
+        add_up_energy_of_those_begun_now();
+    }
+}
+
+void Medium::add_up_energy_of_those_begun_now() {
+    for (OnAir* each : begun_now_) {
+        find_those_beside(*each);
+        add_up_energy(*each);
+    }
+    begun_now_.clear();
 }
 
 void Medium::tell_where_energy_adds_up(OnAir& newest, std::size_t audience) {

@@ -31,6 +31,9 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     give_up_reception();
     transmitting_ = true;
     turned_ = false;
+    if (watches_energy_ && may_ignore_energy()) {  // its channel is busy in any case
+        medium_.stop_watching_energy(id_);
+    }
     Transmission transmission;
     transmission.sender = interface_;
     transmission.radio = id_;
@@ -66,8 +69,11 @@ void Radio::give_up_reception() {
 }
 
 void Radio::transmission_over() {
-    transmitting_ = false;
     listener_->transmission_ended();
+    if (watches_energy_ && may_ignore_energy()) {  // before its channel could be found free
+        medium_.watch_energy(id_, simulator_.now());
+    }
+    transmitting_ = false;
     update_busy();
 }
 

@@ -82,13 +82,14 @@ public:
     // before `since`; long ago if it never was.
     SimTime watch_channel(SimTime since) {
         tells_of_channel_ = true;
-        const SimTime energy_over =
-            detects_preambles() ? SimTime::long_ago() : medium_.watch_energy(id_, since);
-        return std::max(free_since_, energy_over);
+        watches_energy_ = true;
+        return std::max(free_since_, may_ignore_energy() && !transmitting_ ? medium_.watch_energy(id_, since)
+                                                                           : SimTime::long_ago());
     }
     void stop_watching_channel() {
         tells_of_channel_ = false;
-        if (!detects_preambles()) {  // such a radio leaves out what the medium cannot know: it always watches
+        watches_energy_ = false;
+        if (may_ignore_energy()) {
             medium_.stop_watching_energy(id_);
         }
     }
@@ -121,6 +122,8 @@ private:
     };
 
     bool detects_preambles() const { return kind_.preamble_detection.is_on(); }
+    // One that detects preambles leaves out of its sums what the medium cannot know: it is told of energy all the time.
+    bool may_ignore_energy() const { return !detects_preambles(); }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
     bool is_candidate(const Transmission* transmission) {
@@ -153,6 +156,7 @@ private:
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
     bool tells_of_channel_ : 1 = true;
+    bool watches_energy_ : 1 = true;  // but while it transmits
     const Transmission* locked_ = nullptr;
     const RadioKind& kind_;
     RadioListener* listener_ = nullptr;

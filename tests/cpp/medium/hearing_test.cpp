@@ -62,6 +62,14 @@ Ledger ledger_of(const Network& network) {
     return ledger;
 }
 
+std::uint64_t frame_count(const Network& network) {
+    std::uint64_t count = 0;
+    for (std::size_t kind = 0; kind < frame_kind_count; ++kind) {
+        count += network.frame_fates().frames(static_cast<FrameKind>(kind));
+    }
+    return count;
+}
+
 // Runs both models step by step; where they part is found to within a step.
 void expect_same_course(const RandomScenario& scenario) {
     ScenarioRun shortcut(scenario, Hearing::what_matters);
@@ -78,7 +86,9 @@ void expect_same_course(const RandomScenario& scenario) {
     }
     EXPECT_TRUE(shortcut.deliveries == plain.deliveries) << "scenario " << scenario.seed;
     EXPECT_EQ(ledger_of(shortcut.network), ledger_of(plain.network)) << "scenario " << scenario.seed;
-    EXPECT_LE(shortcut.network.event_count(), plain.network.event_count()) << "scenario " << scenario.seed;
+    // One event more for an instant in which many frames begin: five or more of them.
+    EXPECT_LE(shortcut.network.event_count(), plain.network.event_count() + frame_count(plain.network) / 5)
+        << "scenario " << scenario.seed;
 }
 
 // Of so many times as many scenarios: for who has changed the medium, as `make test` has to be over some time.

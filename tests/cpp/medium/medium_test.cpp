@@ -255,6 +255,34 @@ TEST_P(EnergyThatAddsUp, IsNotNoticedWhereFramesOnlyTouch) {
     EXPECT_TRUE(receiver->log.events.empty());
 }
 
+TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterOnesOwnFrame) {
+    sends_at(*receiver, us(10), us(50));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(20), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(30), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(10)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(121)});
+}
+
+TEST_P(EnergyThatAddsUp, OfFramesThatBeganInOneInstantIsNoticedAfterOnesOwn) {
+    sends_at(*receiver, us(10), us(50));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(10), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(10)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedAtOnceOfThoseInTheSamePlace) {
+    for (int i = 0; i < 3; ++i) {
+        BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(4e-11));
+        sends_at(sender, us(10), us(100));
+    }
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(10)}, {RadioWord::free, us(110)}}));
+}
+
 TEST_P(EnergyThatAddsUp, TellsOfEachFrameOnce) {
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(300));
     for (int i = 0; i < 3; ++i) {
