@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netsim/medium/medium.hpp"
+#include "support/air.hpp"
+
+namespace netsim {
+namespace {
+
+using test::Air;
+using test::BareRadio;
+using test::light_microsecond_m;
+using test::RadioEvent;
+using test::RadioWord;
+using test::us;
+
+// Two or three signals at one receiver, none of which it would notice alone.
+class EnergyThatAddsUp : public testing::TestWithParam<Hearing> {
+protected:
+    EnergyThatAddsUp() : air(MediumConfig(), GetParam()) {
+        RadioConfig config;
+        config.sensitivity_w = 1e-9;
+        config.energy_detection_w = 1e-10;
+        receiver = &air.add_radio({0, 0, 0}, config);
+    }
+    BareRadio& add_sender(Position direction, double received_w) {
+        return air.add_radio(
+            direction * light_microsecond_m,
+            test::radio_of_power(test::power_for(received_w, distance({}, direction) * light_microsecond_m)));
+    }
+    void sends_at(BareRadio& sender, SimTime start, SimTime duration) {
+        air.at(start, [&sender, duration] { sender.send(duration); });
+    }
+
+    Air air;
+    BareRadio* receiver = nullptr;
+};
+
+TEST_P(EnergyThatAddsUp, IsNotNoticedAlone) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(200), us(100));
+    air.run();
+    EXPECT_TRUE(receiver->log.events.empty());
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedWhereItOverlaps) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(60), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}}));
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedOfSimultaneousTransmissions) {
+    BareRadio& near = add_sender({1, 0, 0}, 6e-11);
+    BareRadio& far = add_sender({2, 0, 0}, 6e-11);
+    sends_at(near, us(10), us(100));
+    sends_at(far, us(10), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(12)}, {RadioWord::free, us(111)}}));
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedWhenTheLaterOneArrivesFirst) {
+    sends_at(add_sender({5, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(12), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(113)}}));
+}
+
+TEST_P(EnergyThatAddsUp, TakesAsManyAsItTakes) {
+    sends_at(add_sender({1, 0, 0}, 4e-11), us(10), us(100));
+    sends_at(add_sender({1, 0, 0}, 4e-11), us(20), us(100));
+    sends_at(add_sender({1, 0, 0}, 4e-11), us(30), us(20));
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(31)}, {RadioWord::free, us(51)}}));
+}
+
+TEST_P(EnergyThatAddsUp, IsNotNoticedWhereFramesOnlyTouch) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(110), us(100));
+    air.run();
+    EXPECT_TRUE(receiver->log.events.empty());
+}
+
+TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterOnesOwnFrame) {
+    sends_at(*receiver, us(10), us(50));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(20), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(30), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(10)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(121)});
+}
+
+TEST_P(EnergyThatAddsUp, OfFramesThatBeganInOneInstantIsNoticedAfterOnesOwn) {
+    sends_at(*receiver, us(10), us(50));
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(10), us(100));
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(10)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
+}
+
+TEST_P(EnergyThatAddsUp, IsNoticedAtOnceOfThoseInTheSamePlace) {
+    for (int i = 0; i < 3; ++i) {
+        BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(4e-11));
+        sends_at(sender, us(10), us(100));
+    }
+    air.run();
+    EXPECT_EQ(receiver->log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(10)}, {RadioWord::free, us(110)}}));
+}
+
+TEST_P(EnergyThatAddsUp, TellsOfEachFrameOnce) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(300));
+    for (int i = 0; i < 3; ++i) {
+        sends_at(add_sender({1, 0, 0}, 6e-11), us(50 + 50 * i), us(20));
+    }
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), (std::vector{us(51), us(101), us(151)}));
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(71), us(121), us(171)}));
+}
+
+TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrame) {
+    sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
+    sends_at(add_sender({2, 0, 0}, 6e-11), us(20), us(100));
+    sends_at(add_sender({1, 0, 0}, 1e-8), us(50), us(10));
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(22)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
+}
+
+INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp,
+                         testing::Values(Hearing::what_matters, Hearing::everything),
+                         [](const auto& param_info) {
+                             return param_info.param == Hearing::everything ? "everything" : "what_matters";
+                         });
+
+// Very many frames at once, of which it takes some to make a channel busy.
+TEST(EnergyOfVeryMany, LooksAtEachTransmissionAFewTimesAtEachRadio) {
+    Air air;
+    RadioConfig config = test::radio_of_power(test::power_for(3e-11, light_microsecond_m));
+    config.sensitivity_w = 1e-9;
+    config.energy_detection_w = 1e-10;
+    constexpr int side = 10;
+    std::vector<BareRadio*> senders;
+    std::vector<BareRadio*> listeners;
+    for (int i = 0; i < side * side; ++i) {
+        const int row = i / side;
+        std::vector<BareRadio*>& radios = (i + row) % 2 == 0 ? senders : listeners;
+        config.tx_power_w *= 1.001;
+        radios.push_back(
+            &air.add_radio(Position{0.0 + i % side, 0.0 + row, 0} * light_microsecond_m, config));
+    }
+    for (std::size_t i = 0; i < senders.size(); ++i) {
+        BareRadio& sender = *senders[i * 7 % senders.size()];
+        air.at(us(10 * static_cast<std::int64_t>(i)), [&sender] { sender.send(us(2000)); });
+    }
+    air.run();
+    EXPECT_GT(
+        std::ranges::count_if(
+            listeners, [](const BareRadio* radio) { return !radio->log.times_of(RadioWord::busy).empty(); }),
+        25);
+    EXPECT_LE(air.medium.energy_look_count(), 4 * senders.size() * side * side);
+}
+
+}  // namespace
+}  // namespace netsim
