@@ -47,7 +47,10 @@ DcfParameters::DcfParameters(MacConfig mac_config)
       contention_window(contention_window_of(config, modes)),
       retry_rule(config.inet_station_retry_counters ? Retry::Rule::station_counters
                                                     : Retry::Rule::frame_counters),
-      longest_wait(timing.difs + timing.slot * contention_window.min),
+      // A new message finds the window at its least, unless INET's counters have left it larger.
+      longest_wait(timing.difs + timing.slot * (retry_rule == Retry::Rule::station_counters
+                                                    ? contention_window.max
+                                                    : contention_window.min)),
       has_adaptive_rate(!config.rate_control.empty()) {}
 
 }  // namespace netsim

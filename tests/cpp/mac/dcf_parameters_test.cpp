@@ -58,5 +58,15 @@ TEST(DcfParameters, TheErrorNamesBothWindows) {
     }
 }
 
+// As far back a new message asks what made its channel busy.
+TEST(DcfParameters, TheLongestWaitIsThatOfTheLargestWindowThatANewMessageMayFind) {
+    MacConfig mac = mac_of("g(erp)", 24e6);  // DIFS 28 µs, slots of 9 µs
+    mac.cw_min = 7;
+    mac.cw_max = 255;
+    EXPECT_EQ(DcfParameters(mac).longest_wait, SimTime::from_us(28 + 7 * 9));
+    mac.inet_station_retry_counters = true;
+    EXPECT_EQ(DcfParameters(mac).longest_wait, SimTime::from_us(28 + 255 * 9));
+}
+
 }  // namespace
 }  // namespace netsim
