@@ -6,16 +6,23 @@ the comparisons depend on each other. Those with the reference runs do: INET use
 every point of a curve.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import exp, lgamma, log1p, pi, sqrt
 from statistics import fmean, variance
+from typing import TypeVar
 
 CONFIDENCE = 0.99
+Comparison = TypeVar("Comparison")
 
 
 def least_p(comparisons: int, confidence: float = CONFIDENCE) -> float:
     """The p-value that each of so many comparisons has to reach."""
     return (1 - confidence) / comparisons
+
+
+def weakest(p_values: Mapping[Comparison, float]) -> tuple[Comparison, float]:
+    """The comparison with the least p-value, and that."""
+    return min(p_values.items(), key=lambda item: item[1])
 
 
 def fisher_p(hits: int, trials: int, other_hits: int, other_trials: int) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from verification.finding import Finding
 from verification.reference_data import rows
 from verification.reference_run import run_reference, tracked
-from verification.sampling import least_p, welch_p
+from verification.sampling import least_p, weakest, welch_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -59,7 +59,7 @@ def test_counts_agree_with_inet(
     compared = [(config, column) for config in CONFIGS for column in MEASURED]
     compared += [(config, "given_up") for config in HIDDEN]
     p_values = {key: welch_p(ours(*key), inet(*key)) for key in compared}
-    (config, column), p = min(p_values.items(), key=lambda item: item[1])
+    (config, column), p = weakest(p_values)
     worst = max(CONFIGS, key=lambda config: abs(off(ours, config, "received")))
     limit = least_p(len(p_values))
     differing = ", ".join(f"{off(by_default, config, 'received'):+.1%} ({config})" for config in HIDDEN)

@@ -19,7 +19,7 @@ from verification.narrowband_circle import circle
 from verification.narrowband_model import Counts, Rules, contend
 from verification.reference_data import rows
 from verification.reference_run import run_reference, tracked
-from verification.sampling import least_p, welch_p
+from verification.sampling import least_p, weakest, welch_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -116,7 +116,7 @@ def compare(
     chances = {
         (n, quantity): p_value(*pairs[n], quantity) for n in pairs for quantity in chance_decides(acks, n)
     }
-    (n, quantity), least = min(chances.items(), key=lambda item: item[1])
+    (n, quantity), least = weakest(chances)
     number = (
         f"throughput differs by at most {off[worst]:+.2%} ({worst} stations); least p-value {least:.2g} of "
         f"{len(chances)} ({quantity}, {n} stations)"

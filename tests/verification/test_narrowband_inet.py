@@ -21,7 +21,7 @@ from verification.finding import Finding
 from verification.narrowband_circle import circle
 from verification.reference_data import Row, rows
 from verification.reference_run import run_reference, tracked
-from verification.sampling import fisher_p, least_p, welch_p
+from verification.sampling import fisher_p, least_p, weakest, welch_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -72,7 +72,7 @@ def test_reception_over_distance_agrees_with_inet(report: Callable[[Finding], No
         for case in CASES
         for count, row in zip(received(case), rows("inet_narrowband_link", case=case), strict=True)
     }
-    (case, distance_m), least = min(p_values.items(), key=lambda item: item[1])
+    (case, distance_m), least = weakest(p_values)
     limit = least_p(len(p_values))
     report(
         Finding(
@@ -136,7 +136,7 @@ def test_contention_agrees_with_inet(overlap: str, acks: bool, report: Callable[
         n: fmean(mine) / fmean(theirs) - 1 for n, quantity, mine, theirs in compared if quantity == RECEIVED
     }
     worst = max(off, key=lambda n: abs(off[n]))
-    (n, quantity), least = min(p_values.items(), key=lambda item: item[1])
+    (n, quantity), least = weakest(p_values)
     what = "whatever overlaps is lost" if overlap == "lost" else "bit errors decide what overlaps"
     report(
         Finding(
@@ -184,7 +184,7 @@ def test_stations_that_also_answer_agree_with_inet(report: Callable[[Finding], N
             mine, theirs = [run[quantity] for run in in_a_ring(n)], counts(table, quantity)
             p_values[n, quantity] = welch_p(mine, theirs)
             off[n, quantity] = fmean(mine) / fmean(theirs) - 1
-    (n, quantity), least = min(p_values.items(), key=lambda item: item[1])
+    (n, quantity), least = weakest(p_values)
     limit = least_p(len(p_values))
     report(
         Finding(

@@ -45,6 +45,7 @@ public:
     virtual void frame_received(const Transmission& transmission) = 0;
     // A frame that the radio had locked on to could not be decoded, or was given up for another one.
     virtual void frame_corrupted() = 0;
+    // The next transmission cannot begin within it.
     virtual void transmission_ended() = 0;
 
 protected:
