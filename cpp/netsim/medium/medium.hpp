@@ -218,7 +218,7 @@ private:
     void tell_everybody(OnAir& entry);
     void tell_those_it_matters_to(OnAir& entry);
     // Of one audience: who can notice it, in `heard`, and whom its ring watches. Returns the copies that it makes there.
-    CopyCount find_those_it_matters_to(OnAir& entry, std::size_t audience);
+    CopyCount find_those_it_matters_to(OnAir& entry, std::size_t index);
     void book_copies(const OnAir& entry, CopyCount copies);
     // At `radio`, at `place` when the transmission starts. `share` is that of the transmission in the radio's band. Where
     // it is less than `least_w`, perhaps 0 instead: that may cost a fraction.
