@@ -6,7 +6,7 @@ other direction the calls of the provider are the engine's own bound methods, so
 for costs one call.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
@@ -60,6 +60,7 @@ class NetsimProvider(IProvider):
         reference_coordinates: Position,
         nodes: Sequence["Node"] = (),
         handlers: Mapping[str, Any] | None = None,
+        steer: Callable[[MobilityCommand], None] | None = None,
     ) -> None:
         """Serve the protocol of `node`.
 
@@ -69,6 +70,7 @@ class NetsimProvider(IProvider):
             reference_coordinates: (latitude deg, longitude deg, altitude m) of the scene's origin.
             nodes: All nodes of the network, for extensions that look around.
             handlers: Handlers that watch the run, by their labels.
+            steer: Carries out mobility commands in the place of the engine.
         """
         self._node = node
         self._nodes = nodes
@@ -79,6 +81,8 @@ class NetsimProvider(IProvider):
         # An attribute of the instance hides the method of the class: a call goes straight to the engine.
         for name in _SAME_IN_THE_ENGINE:
             setattr(self, name, getattr(node, name))
+        if steer is not None:
+            setattr(self, "send_mobility_command", steer)  # noqa: B010 (as above, it hides a method)
 
     @property
     def random(self) -> Random:
@@ -133,6 +137,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
         reference_coordinates: Position = (0.0, 0.0, 0.0),
         nodes: Sequence["Node"] = (),
         handlers: Mapping[str, Any] | None = None,
+        steer: Callable[[MobilityCommand], None] | None = None,
     ) -> None:
         """Prepare `node`; the arguments are those of `NetsimProvider`."""
         self._node = node
@@ -142,6 +147,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
             reference_coordinates=reference_coordinates,
             nodes=nodes,
             handlers=handlers,
+            steer=steer,
         )
 
     def encapsulate(self, protocol: type[T]) -> None:

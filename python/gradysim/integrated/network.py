@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from gradysim.autopilots.scenario_flights import check_autopilots
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.keys.interface import DEFAULT_INTERFACE
 from gradysim.config.node.interface_spec import InterfaceSpec
@@ -47,6 +48,7 @@ def check_scenario(scenario: Scenario) -> None:
     Building the network does the same check; this is for who wants to know before other runs are run.
     """
     build_network(scenario)
+    check_autopilots(scenario)
 
 
 def add_node(

@@ -23,6 +23,7 @@ from gradysim.integrated.capture import (
 )
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.fates_at import checked_fates_at, with_fates
+from gradysim.integrated.flown_nodes import FlownNodes
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
@@ -69,10 +70,10 @@ class IntegratedRun:
         0 is full speed. For viewers: events are up to 10 ms of wall time late.
 
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
-        accept a value of the scenario or cannot write a capture file, ValueError or TypeError when `scenario`
-        is none, `fates_at` or `captures` names what is no node, two interfaces would write one file, a
-        handler cannot work in this mode or `real_time` is no factor, and what the constructor of a protocol
-        raises.
+        accept a value of the scenario or cannot write a capture file, SitlError when an autopilot does not
+        start, ValueError or TypeError when `scenario` is none, `fates_at` or `captures` names what is no
+        node, two interfaces would write one file, a handler cannot work in this mode or `real_time` is no
+        factor, and what the constructor of a protocol raises.
         """
         require_scenario(scenario)
         self._started = (perf_counter(), process_time())
@@ -88,8 +89,10 @@ class IntegratedRun:
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
+        self._flown = FlownNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
         self._make_protocols()
+        self._flown.take_off()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
@@ -106,6 +109,7 @@ class IntegratedRun:
                 reference_coordinates=scenario.reference_coordinates,
                 nodes=self._nodes,
                 handlers=self._handlers.by_label,
+                steer=self._flown.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
@@ -137,6 +141,7 @@ class IntegratedRun:
             try:
                 self._handlers.initialize()
                 network.initialize()
+                self._flown.initialize()
                 self._complete = run_in_slices(
                     self._advance(),
                     lambda: network.now,
@@ -156,6 +161,7 @@ class IntegratedRun:
             raise
         finally:
             self._handlers.finalize_after_failure()
+            self._flown.close()
             network.release_protocols()
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeProtocol, text_of_only_integrated
@@ -13,6 +14,7 @@ from gradysim.simulator.handler.copy_ledger import CopyLedger
 from gradysim.simulator.handler.given import given_handlers
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
+from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
 
@@ -26,7 +28,8 @@ def build_simulation(
     `SimulationConfiguration`.
 
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
-    handlers cannot be added, and what the constructor of a protocol raises.
+    handlers cannot be added, what the constructor of a protocol raises, and SitlError when an autopilot does
+    not start or a step of a flight failed.
     """
     check_protocols(scenario)
     world = "its {label} handler follows from the scenario"
@@ -41,7 +44,8 @@ def build_simulation(
             execution_logging=False,
         )
     )
-    builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility_handler(scenario))
+    mobility = mobility_handler(scenario)
+    builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
     for handler in given.values():
         builder.add_handler(handler)
     for spec in scenario.nodes:
@@ -50,6 +54,8 @@ def build_simulation(
     name = run_name(scenario, "prototype")
     for node in simulator.nodes:
         node.protocol_encapsulator.provider.run_name = name
+    if isinstance(mobility, FlownMobilityHandler):
+        mobility.take_off()
     return simulator, ledger
 
 
@@ -73,9 +79,12 @@ def check_protocols(scenario: Scenario) -> None:
 
 def mobility_handler(scenario: Scenario) -> MasslessMobilityHandler:
     """Return what moves the nodes. Raises ConfigError when a value is outside its range."""
-    mobility = MasslessMobilityHandler(
-        MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
-    )
+    configuration = MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
+    flights = flights_of(scenario)
+    if flights is None:
+        mobility = MasslessMobilityHandler(configuration)
+    else:
+        mobility = FlownMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility

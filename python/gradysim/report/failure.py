@@ -12,6 +12,7 @@ from gradysim.protocol.errors import (
     NativeProtocolError,
     TimerException,
 )
+from gradysim.sitl.error import SitlError
 
 PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -19,7 +20,7 @@ REFUSED_COMMANDS = (CommunicationException, MasslessMobilityException, TimerExce
 """Their texts tell all. Where they are raised nobody needs, and integrated mode has no frames to show."""
 
 
-WITHOUT_FRAMES = (NativeProtocolError, CaptureError)
+WITHOUT_FRAMES = (NativeProtocolError, CaptureError, SitlError)
 """No code of the user led to these."""
 
 

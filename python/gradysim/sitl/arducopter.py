@@ -37,6 +37,9 @@ PARAMETERS: Mapping[str, float] = {
 }
 """What differs from ArduCopter's defaults. A name that it does not know is the end of version 3."""
 
+_AT_ONCE = "1000"
+"""A pace that it never reaches: who waits for physics is not to wait for the wall's clock besides."""
+
 _SYSTEM_ID_OF_OLD = "SYSID_THISMAV"
 
 
@@ -75,6 +78,7 @@ def options(
     system_id: int,
     port: int,
     help_text: str,
+    physics_port: int | None = None,
 ) -> list[str]:
     """Return the options with which one vehicle is started.
 
@@ -86,14 +90,18 @@ def options(
         system_id: Its MAVLink id, 1 to 255.
         port: Of 127.0.0.1, where it connects to for MAVLink.
         help_text: What the program answers to --help: versions differ.
+        physics_port: Of 127.0.0.1, UDP, where somebody else's physics listen; None for ArduPilot's own, at
+            the pace of `speedup`.
     """
+    is_ours = physics_port is not None
     latitude, longitude, altitude = home
     serial = "--serial0" if "--serial0" in help_text else "--uartA"
     return [
         "--wipe",
-        *("--model", "quad"),
+        *("--model", "JSON:127.0.0.1" if is_ours else "quad"),
         *("--home", f"{latitude:.7f},{longitude:.7f},{altitude:.3f},0"),
-        *("--speedup", f"{speedup:g}"),
+        *("--speedup", _AT_ONCE if is_ours else f"{speedup:g}"),
+        *(("--sim-port-out", str(physics_port)) if is_ours else ()),
         *("--defaults", str(parameters)),
         *("--instance", str(instance)),
         *(("--sysid", str(system_id)) if _takes_system_id(help_text) else ()),

@@ -81,6 +81,50 @@ class Fleet:
         Raises:
             SitlError: It does not start, or does not connect.
         """
+        connection = StreamConnection(link)
+        # The autopilot comes to us: nobody else can get in between, and no port has to be guessed.
+        server = await asyncio.get_running_loop().create_server(connection.accept, "127.0.0.1", 0)
+        try:
+            process = self.start(
+                link.name,
+                identifier,
+                home,
+                mavlink_port=server.sockets[0].getsockname()[1],
+                speedup=speedup,
+                parameters=parameters,
+            )
+            connection.explain = process.obituary
+            link.last_words = process.last_words
+            await _connected(connection, process, timeout_s)
+        finally:
+            server.close()
+        return connection
+
+    def start(
+        self,
+        name: str,
+        identifier: int,
+        home: Position,
+        *,
+        mavlink_port: int,
+        speedup: float = 1.0,
+        physics_port: int | None = None,
+        parameters: Mapping[str, float] | None = None,
+    ) -> AutopilotProcess:
+        """Start an autopilot that connects to us.
+
+        Args:
+            name: Of the vehicle, for people.
+            identifier: As for `launch`; so are `home`, `speedup` and `parameters`.
+            home: Where it stands.
+            mavlink_port: TCP port of 127.0.0.1 that listens already.
+            speedup: Not used with physics of ours.
+            physics_port: UDP port of 127.0.0.1 where physics of ours listen; None for ArduPilot's own.
+            parameters: More of ArduCopter's, by name.
+
+        Raises:
+            SitlError: It does not start.
+        """
         folder = self._folder / str(identifier)
         folder.mkdir()
         self._hand_over(folder)
@@ -92,30 +136,21 @@ class Fleet:
         console = (self._consoles or self._folder) / f"autopilot_{identifier}.log"
         instance = free_instance(self._instances)
         self._instances.add(instance)
-        connection = StreamConnection(link)
-        # The autopilot comes to us: nobody else can get in between, and no port has to be guessed.
-        server = await asyncio.get_running_loop().create_server(connection.accept, "127.0.0.1", 0)
-        try:
-            arguments = options(
-                home=home,
-                speedup=speedup,
-                parameters=Path(
-                    file.name
-                ),  # A list to it if there is a comma, as the folder's path may have.
-                instance=instance,
-                port=server.sockets[0].getsockname()[1],
-                system_id=system_id,
-                help_text=help_text,
-            )
-            command = command_as(self._user, [str(self._program), *arguments])
-            process = AutopilotProcess(link.name, command, folder, console)
-            self._processes.append(process)
-            connection.explain = process.obituary
-            link.last_words = process.last_words
-            await _connected(connection, process, timeout_s)
-        finally:
-            server.close()
-        return connection
+        arguments = options(
+            home=home,
+            speedup=speedup,
+            parameters=Path(file.name),  # A list to it if there is a comma, as the folder's path may have.
+            instance=instance,
+            port=mavlink_port,
+            physics_port=physics_port,
+            system_id=system_id,
+            help_text=help_text,
+        )
+        process = AutopilotProcess(
+            name, command_as(self._user, [str(self._program), *arguments]), folder, console
+        )
+        self._processes.append(process)
+        return process
 
     def close(self) -> None:
         """End all autopilots and remove their files; no-op if that has happened."""

@@ -7,6 +7,9 @@ from gradysim.protocol.position import EARTH_RADIUS_M, Position
 _SMALLEST_DEG = 1e-7
 """Resolution of MAVLink's latitudes and longitudes, 1.1 cm."""
 
+_ARDUPILOTS_EARTH_M = 6_378_100.0
+"""Radius with which ArduPilot makes angles of metres, and metres of angles."""
+
 
 def cartesian_to_geo(ref_coord: Position, position: Position) -> Position:
     """Return the geographic place of a point: `geo_to_cartesian(ref_coord, ...)` of it is the point again.
@@ -50,3 +53,23 @@ def off_null_island(latitude: float, longitude: float) -> tuple[float, float]:
     if max(abs(latitude), abs(longitude)) <= _SMALLEST_DEG / 2:
         return (_SMALLEST_DEG, 0.0)
     return (latitude, longitude)
+
+
+def autopilots_place(home: Position, offset: Position) -> Position:
+    """Return what an autopilot takes for the place at an offset from its home: its Earth is flat.
+
+    Args:
+        home: (latitude deg, longitude deg, altitude m).
+        offset: (x, y, z) in metres: North, East and up of home.
+
+    Returns:
+        (latitude deg, longitude deg, height above home m).
+    """
+    latitude, longitude, _ = home
+    north, east, up = offset
+    parallel_m = _ARDUPILOTS_EARTH_M * math.cos(math.radians(latitude))
+    return (
+        latitude + math.degrees(north / _ARDUPILOTS_EARTH_M),
+        (longitude + math.degrees(east / parallel_m) + 180.0) % 360.0 - 180.0,
+        up,
+    )

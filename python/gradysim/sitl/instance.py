@@ -10,7 +10,9 @@ _FIRST_PORTS = ((socket.SOCK_DGRAM, 5501), (socket.SOCK_DGRAM, 9003), (socket.SO
 """What instance 0 may open: remote control and external physics (UDP), the first serial port (TCP)."""
 
 _PORTS_PER_INSTANCE = 10
-_INSTANCES = 2000
+_INSTANCES = 256
+"""ArduCopter 4.1 and older take the rest of a larger number."""
+
 _TRIES = 100
 
 

@@ -1,6 +1,7 @@
 """What docs/guides/ardupilot.md shows is what happens."""
 
 import importlib
+import shlex
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -8,6 +9,10 @@ from typing import Any
 
 import pytest
 
+import gradysim.integrated.run
+import gradysim.prototype.run
+from gradysim.cli import main
+from gradysim.config.scenario import load_scenarios
 from gradysim.simulator.handler.ardupilot_mobility import ArdupilotMobilityException
 
 PAGE = "docs/guides/ardupilot.md"
@@ -42,8 +47,44 @@ def test_the_script_flies(
         "ArdupilotMobilityConfiguration",
         lambda **settings: configuration(autopilot_user=None, simulation_startup_speedup=50, **settings),
     )
-    assert patrol.patrol(14, real_time=10) == pytest.approx((40, 0, 15), abs=1.5)
+    for real_time in (0, 10):
+        assert patrol.patrol(14, real_time) == pytest.approx((40, 0, 15), abs=1.5)
     assert (folder / "ardupilot_mobility_report.csv").exists()
+
+
+def test_the_file_flies_the_same_in_both_modes(
+    folder: Path, toy_copter: Callable[..., Path], code_blocks: CodeBlocks, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GRADYSIM_ARDUPILOT", str(toy_copter()))
+    (text,) = code_blocks(PAGE, "ini")
+    (folder / "flight.ini").write_text(text)
+    own_user = '*.uavs[*].mobility.autopilotUser = ""'
+    (scenario,) = load_scenarios(folder / "flight.ini", overrides=[own_user, "sim-time-limit = 14s"])
+    results = [run(scenario) for run in (gradysim.prototype.run.run, gradysim.integrated.run.run)]
+    for here, there in zip(*(result.nodes for result in results), strict=True):
+        assert here.position == pytest.approx((40, 0, 15), abs=1.5)
+        assert here.tracked_variables["position"] == pytest.approx(
+            there.tracked_variables["position"], abs=0.001
+        )
+
+
+def test_the_commands_run(
+    folder: Path,
+    toy_copter: Callable[..., Path],
+    code_blocks: CodeBlocks,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("GRADYSIM_ARDUPILOT", str(toy_copter()))
+    (folder / "flight.ini").write_text(code_blocks(PAGE, "ini")[0])
+    (commands,) = code_blocks(PAGE, "sh")
+    variable, *runs = commands.splitlines()
+    assert variable.startswith("export GRADYSIM_ARDUPILOT=")
+    for command in runs:
+        program, *arguments = shlex.split(command, comments=True)
+        shorter = ["--set", "sim-time-limit=1s", "--set", '*.uavs[*].mobility.autopilotUser=""']
+        assert (program, main([*arguments, *shorter])) == ("gradysim", 0)
+    assert capsys.readouterr().out.count("uavs[1]") == len(runs) == 2
 
 
 def test_a_failure_is_told_in_the_words_of_the_guide(

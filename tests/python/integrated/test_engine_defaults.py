@@ -5,7 +5,7 @@ import pytest
 from gradysim import _netsim
 from gradysim.config.key_list import OWN_STRUCTS, UNKNOWN, key_sections
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.config.keys.mobility import STATIC_GRID
+from gradysim.config.keys.mobility import ARDUPILOT, STATIC_GRID
 from gradysim.config.value.expression import parse_value
 from gradysim.integrated.engine_defaults import engine_defaults
 
@@ -18,7 +18,7 @@ MADE_WITH = {
 NOT_NAMES_OF_THE_ENGINE = {"radio.carrier_hz", "obstacle.typename"}
 """The name of a band becomes a frequency, boxes become prisms."""
 
-SAID_IN_OTHER_WORDS = {STATIC_GRID}
+SAID_IN_OTHER_WORDS = {ARDUPILOT, STATIC_GRID}
 """Names that the reader of files turns into what the engine knows."""
 
 CHOICES = {

@@ -87,7 +87,7 @@ def test_a_line_is_told_until_its_model_is_chosen(
 def test_speed_is_for_those_who_move(warnings: Callable[..., list[str]]) -> None:
     assert warnings(f"{UAVS}.mobility.speed=3mps") == []
     (text,) = warnings(f"{UAVS}.mobility.speed=3mps", f'{UAVS}.mobility.typename="StationaryMobility"')
-    assert 'that takes `*.uavs[*].mobility.typename = "MasslessMobility"`' in text
+    assert 'that takes `*.uavs[*].mobility.typename = "MasslessMobility" or "ArdupilotMobility"`' in text
 
 
 def test_what_one_node_reads_is_not_told(warnings: Callable[..., list[str]]) -> None:

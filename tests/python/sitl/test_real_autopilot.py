@@ -83,3 +83,33 @@ def test_a_mission_a_drift_and_a_node_on_the_ground(reference, tmp_path):
         for row in csv.DictReader(file):
             assert int(row["telemetry_requests"]) == 401
             assert float(row["battery_wasted"]) > 0
+
+
+def on_simulated_time(**parameters):
+    configuration = ArdupilotMobilityConfiguration(
+        reference_coordinates=(-15.84, -47.92, 1000.0), autopilot_parameters=parameters
+    )
+    builder = SimulationBuilder(SimulationConfiguration(duration=40))
+    builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
+    builder.add_node(Mission, (0, 0, 10))
+    builder.add_node(Drift, (0, 50, 12))
+    builder.add_node(Quiet, (0, 0, 0))
+    simulator = builder.build()
+    simulator.start_simulation()
+    return [node.protocol_encapsulator.protocol for node in simulator.nodes]
+
+
+def test_on_simulated_time_flights_are_exact_and_repeatable():
+    mission, drift, ground = flights = on_simulated_time()
+    assert mission.track[0] == (0.1, pytest.approx((0, 0, 10), abs=0.3))
+    assert mission.mission.is_idle
+    assert mission.at(40) == pytest.approx((40, 20, 15), abs=0.3)
+    moved = [b - a for a, b in zip(drift.at(20), drift.at(40), strict=True)]
+    assert moved == pytest.approx([0, -60, 10], abs=1)
+    assert ground.at(20) == pytest.approx((0, 0, 0), abs=0.3)
+    assert [each.track for each in on_simulated_time()] == [each.track for each in flights]
+
+
+def test_on_simulated_time_it_stands_in_the_wind():
+    mission, _, _ = on_simulated_time(SIM_WIND_SPD=6, SIM_WIND_DIR=90)
+    assert mission.at(40) == pytest.approx((40, 20, 15), abs=1)

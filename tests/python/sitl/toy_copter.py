@@ -2,7 +2,8 @@
 """A small vehicle that speaks MAVLink as ArduCopter's SITL does, for tests: started with the same options.
 
 A point without mass that flies straight at its speed, on a clock of its own that runs `--speedup` times as
-fast as the wall's. What it does wrong is in the file `misbehaviour.json` beside it, by node id:
+fast as the wall's; with `--model JSON:...`, it steers the physics that it is told of, on their clock. What it
+does wrong is in the file `misbehaviour.json` beside it, by node id:
 
     {"1": {"refuse_arming": true}}
 
@@ -21,6 +22,7 @@ stubborn        it ignores SIGTERM
 exits           it prints a line and ends with status 3 before it connects
 gives_up        it connects, prints a line and does nothing any more, whatever happens
 slow            its clock goes at half the pace
+repeats         it asks for its next step again and again, all 50 ms of wall time
 refuses_first   the first wish for a message is refused, as if that were the answer to somebody else's
 """
 
@@ -29,11 +31,14 @@ import math
 import select
 import signal
 import socket
+import struct
 import sys
 import time
 from pathlib import Path
 
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
+
+from gradysim.sitl import quadcopter as body
 
 GUIDED, LAND = 4, 9
 EARTH_RADIUS_M = 6_371_000.0
@@ -65,6 +70,8 @@ def connected(kind, address):
 
 
 class Copter:
+    """Of no mass, on a clock of its own."""
+
     def __init__(self, options, wrongs):
         self.wrongs = wrongs
         latitude, longitude, altitude, _ = map(float, options["--home"].split(","))
@@ -263,9 +270,109 @@ class Copter:
         return unsupported
 
 
+class LockStepCopter(Copter):
+    """Waits for its physics at each step. It knows where it is, and steers like a cautious beginner."""
+
+    RATE_HZ = 100
+
+    def __init__(self, options, wrongs):
+        super().__init__(options, wrongs)
+        self.physics = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.physics.connect(("127.0.0.1", int(options["--sim-port-out"])))
+        self.physics.settimeout(0.05 if wrongs.get("repeats") else 1.0)
+        self.felt = {"imu": {"gyro": [0] * 3}, "quaternion": [1, 0, 0, 0], "velocity": [0] * 3}
+        self.frames = self.repeats = 0
+
+    def run(self):
+        while True:
+            self.take_step()
+            readable, _, _ = select.select([self.socket], [], [], 0)
+            if readable:
+                data = self.socket.recv(65536)
+                if not data:
+                    return
+                for message in self.codec.parse_buffer(data) or ():
+                    self.obey(message)
+            self.advance(1 / self.RATE_HZ)
+
+    def take_step(self):
+        while self.is_time_to("hangs_at"):
+            time.sleep(60)
+        self.frames += 1
+        servos = struct.pack("<HHI16H", 18458, self.RATE_HZ, self.frames, *self.pulses(), *([0] * 12))
+        self.physics.send(servos)
+        while True:
+            try:
+                text = self.physics.recv(4096)
+            except TimeoutError:
+                self.repeats += 1
+                self.physics.send(servos)
+                continue
+            self.felt = json.loads(text)
+            break
+        assert (text[:1], text[-1:]) == (b"\n", b"\n")
+        north, east, down = self.felt["position"]
+        self.position = [north, east, -down]
+        assert self.felt["timestamp"] > self.now
+        self.now = self.felt["timestamp"] - 1 / self.RATE_HZ  # to which `advance` adds a step
+
+    def move(self, dt):
+        """The physics do."""
+
+    def command(self, message):
+        if message.command == mavlink.MAV_CMD_DO_CHANGE_SPEED:  # the last one before the simulation starts
+            self.begun = min(self.begun, self.now)
+        return super().command(message)
+
+    def pulses(self):
+        """Microseconds: the throttles that turn it to where it is to accelerate to."""
+        if not self.armed or (self.target is None and self.now >= self.until):
+            return [1000 + 450 * self.armed * (self.position[2] > 0.5)] * 4
+        wanted, drag = self.wanted_velocity(), body.DRAG_KGPS / body.MASS_KG
+        north, east, down = self.felt["velocity"]
+        forward, right = (
+            max(-4, min(4, 1.5 * (want - has) + drag * has))
+            for want, has in zip(wanted[:2], (north, east), strict=True)
+        )
+        rise = max(-3, min(3, 2 * (wanted[2] + down) - drag * down))
+        w, x, y, z = self.felt["quaternion"]
+        roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        pitch = math.asin(max(-1, min(1, 2 * (w * y - z * x))))
+        p, q, r = self.felt["imu"]["gyro"]
+        g = body.GRAVITY_MPS2
+        ix, iy, iz = body.INERTIA_KGM2
+        lever = 4 * body.ARM_M * math.sqrt(0.5)
+        by_roll = ix * (36 * (right / g - roll) - 10 * p) / lever
+        by_pitch = iy * (36 * (-forward / g - pitch) - 10 * q) / lever
+        by_yaw = -iz * 4 * r / (4 * body.TORQUE_M)
+        lift = body.MASS_KG * (g + rise) / (4 * max(0.5, math.cos(roll) * math.cos(pitch)))
+        thrusts = [
+            lift - by_roll + by_pitch + by_yaw,
+            lift + by_roll - by_pitch + by_yaw,
+            lift + by_roll + by_pitch - by_yaw,
+            lift - by_roll - by_pitch - by_yaw,
+        ]
+        return [round(1000 + 1000 * self.throttle(thrust)) for thrust in thrusts]
+
+    def wanted_velocity(self):
+        if self.target is None:
+            return self.velocity
+        way = [b - a for a, b in zip(self.position, self.target, strict=True)]
+        distance = math.hypot(*way)
+        return [each / max(distance, 1e-9) * min(self.speed, distance) for each in way]
+
+    def throttle(self, thrust):
+        greatest = body.MASS_KG * body.GRAVITY_MPS2 / (4 * body.HOVER_THRUST)
+        share, e = max(0, min(1, thrust / greatest)), body.THRUST_EXPO
+        return (math.sqrt((1 - e) ** 2 + 4 * e * share) - (1 - e)) / (2 * e)
+
+
 def main():
     if sys.argv[1:] == ["--help"]:
-        print("options: --wipe --model --home --defaults --uartA --serial0 --speedup --instance --sysid")
+        print(
+            "options: --wipe --model --home --defaults --uartA --serial0 --speedup --instance --sysid "
+            "--sim-port-out"
+        )
         return
     arguments = [argument for argument in sys.argv[1:] if argument != "--wipe"]
     options = dict(zip(arguments[::2], arguments[1::2], strict=True))
@@ -281,7 +388,8 @@ def main():
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
     else:
         signal.signal(signal.SIGTERM, lambda number, frame: sys.exit())
-    copter = Copter(options, wrongs)
+    kind = LockStepCopter if options["--model"].startswith("JSON") else Copter
+    copter = kind(options, wrongs)
     if wrongs.get("gives_up"):
         print("invalid param", flush=True)
         while True:

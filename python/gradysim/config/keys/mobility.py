@@ -2,10 +2,15 @@
 
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.value.kinds import boolean, choice, coordinate, integer, quantity
+from gradysim.config.value.kinds import boolean, choice, coordinate, file_name, integer, quantity, text
+
+MASSLESS = "MasslessMobility"
+ARDUPILOT = "ArdupilotMobility"
+"""A node flown by an ArduCopter of its own."""
 
 _own = Below("mobility", "mobility")
-_flight = _own.only_for("mobility.typename", "MasslessMobility", shown="")
+_flight = _own.only_for("mobility.typename", MASSLESS, ARDUPILOT, shown="")
+_autopilot = Below("mobility", "autopilot").only_for("mobility.typename", ARDUPILOT, shown="")
 _start = Below("mobility", "position")
 
 STATIC_GRID = "StaticGridMobility"
@@ -15,9 +20,10 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     _own(
         "typename",
         "typename",
-        choice("MasslessMobility", "StationaryMobility", STATIC_GRID),
+        choice(MASSLESS, "StationaryMobility", STATIC_GRID, ARDUPILOT),
         "How it moves: as its protocol says (missions, random waypoints: docs/guides/plugins.md), or not;"
-        " StaticGridMobility: it does not, and starts in a grid",
+        " StaticGridMobility: it does not, and starts in a grid; ArdupilotMobility: as its protocol says,"
+        " flown by a real autopilot (docs/guides/ardupilot.md)",
     ),
     _start(
         "initialX",
@@ -97,5 +103,27 @@ MOBILITY_KEYS: tuple[Key, ...] = (
         "face_forward",
         boolean(),
         "Whether heading and elevation follow the direction of flight",
+    ),
+    _autopilot(
+        "autopilotPath",
+        "program",
+        file_name(),
+        "ArdupilotMobility: an arducopter program for SITL; without it that of the environment variable"
+        " GRADYSIM_ARDUPILOT, or the command arducopter",
+        default="none",
+    ),
+    _autopilot(
+        "autopilotUser",
+        "user",
+        text(),
+        'ArdupilotMobility: whom the autopilot belongs to if root runs the simulation; "" for root',
+        default='"nobody"',
+    ),
+    _autopilot(
+        "autopilotParameters",
+        "parameters",
+        text(),
+        'ArdupilotMobility: ArduCopter\'s parameters, "WPNAV_SPEED_UP=500 SIM_WIND_SPD=8"',
+        default="none",
     ),
 )

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gradysim.config.errors.source import Source
+from gradysim.config.node.autopilot_spec import AutopilotSpec
 from gradysim.config.node.interface_spec import InterfaceSpec
 from gradysim.config.protocol.origin import Origin
 from gradysim.config.protocol.portable import class_from, portable
@@ -30,6 +31,8 @@ class NodeSpec:
         wlan: Its network interfaces, at least one.
         protocol_sources: Where the parameters were written, and under "" what chose the protocol.
         node: Where what is about the whole node was written: the number of its interfaces.
+        autopilot: What flies it, if an autopilot does; its mobility is massless then, which follows the
+            autopilot's vehicle.
     """
 
     id: int
@@ -43,6 +46,7 @@ class NodeSpec:
     wlan: tuple[InterfaceSpec, ...] = (InterfaceSpec(),)
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
+    autopilot: AutopilotSpec | None = None
 
     def __post_init__(self) -> None:
         """Check what scripts replace. Raises TypeError and ValueError, which name the node."""

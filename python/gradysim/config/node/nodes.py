@@ -13,12 +13,13 @@ from gradysim.config.errors.nearest import nearest
 from gradysim.config.errors.source import Source
 from gradysim.config.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.key import Key
-from gradysim.config.keys.mobility import MOBILITY_KEYS, STATIC_GRID
+from gradysim.config.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import is_misspelt_class
 from gradysim.config.matching.lookup import Candidates, Found, Lookup
 from gradysim.config.matching.struct_reader import read_struct
+from gradysim.config.node.autopilot_spec import AutopilotSpec, read_autopilot
 from gradysim.config.node.grid import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
 from gradysim.config.node.interface_spec import InterfaceSpec
 from gradysim.config.node.interfaces import InterfaceBuilder
@@ -53,6 +54,7 @@ class _Shared:
     mobility: Mapping[str, Setting]
     node: Mapping[str, Setting]
     wlan: tuple[InterfaceSpec, ...]
+    autopilot: AutopilotSpec | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +123,7 @@ def build_nodes(
                     wlan=shared.wlan,
                     protocol_sources=shared.protocol_sources,
                     node=shared.node,
+                    autopilot=shared.autopilot,
                 )
             )
     return tuple(nodes)
@@ -204,6 +207,9 @@ class _NodeBuilder:
         if is_static_grid:
             mobility["typename"] = replace(mobility["typename"], value="StationaryMobility")
             position[STATIC_GRID] = found[_TYPENAME]
+        autopilot = read_autopilot(mobility, read_struct("autopilot", found, self._settings, path_of))
+        if autopilot is not None:
+            mobility["typename"] = replace(mobility["typename"], value=MASSLESS)
         row = tuple(_axis_row(axis, position, values) for axis in _AXES)
         steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
         asked_for = [entry for axis in AXES_OF_GRID for entry in _grid_entries(axis, position)]
@@ -218,6 +224,7 @@ class _NodeBuilder:
             mobility=mobility,
             node=read_struct("node", found, self._settings, path_of),
             wlan=wlan,
+            autopilot=autopilot,
         )
 
 

@@ -5,12 +5,12 @@ import logging
 import math
 from typing import Any
 
+from gradysim.encapsulator.flight_orders import give_order
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
-from gradysim.simulator.handler.ardupilot_mobility.pilot import Pilot
 from gradysim.simulator.handler.ardupilot_mobility.report import NodeReport
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
@@ -20,11 +20,11 @@ from gradysim.sitl.fleet import Fleet
 from gradysim.sitl.frame import cartesian_to_geo, home_of
 from gradysim.sitl.ground_station import GroundStationPort, open_ground_station
 from gradysim.sitl.link import MavlinkLink, Message
+from gradysim.sitl.pilot import Pilot
+from gradysim.sitl.preparation import prepare
 from gradysim.sitl.vehicle import Vehicle, position_of
 
 _logger = logging.getLogger(__name__)
-
-_TAKE_OFF_M = 10.0
 
 _SILENCE_S = 10.0
 """Wall time without any position after which an autopilot is given up."""
@@ -69,7 +69,7 @@ class Flight:
         self._link = MavlinkLink(f"node {node.id} ({label_node(node)})")
         self._link.on_message = self._note
         self._vehicle = Vehicle(self._link)
-        self._pilot = Pilot(self._vehicle, self._reference, configuration.default_speed, real_time)
+        self._pilot = Pilot(self._vehicle, self._place_of, configuration.default_speed, real_time)
         self._connection: Connection | None = None
         self._ground_station: GroundStationPort | None = None
         self._hello: asyncio.Task[None] | None = None
@@ -92,20 +92,16 @@ class Flight:
         if fleet is not None and initial[2] < -_DEEPEST_START_M:
             raise SitlError(f"{vehicle.name}: its initial position is below the ground: z = {initial[2]:g} m")
         await self._connect(fleet, timeout_s)
-        await vehicle.meet(timeout_s)
-        if fleet is not None:
-            for name, value in (configuration.autopilot_parameters or {}).items():
-                await vehicle.set_parameter(name, value)
-        await vehicle.stream(self._position_hz)
-        await vehicle.find_position(timeout_s)
-        if fleet is None:
-            self._check_distance(initial)
-        await vehicle.enter_guided(timeout_s)
-        await vehicle.arm(timeout_s)
-        await vehicle.take_off(_TAKE_OFF_M, timeout_s)
-        latitude, longitude, _ = cartesian_to_geo(self._reference, initial)
-        await vehicle.arrive(latitude, longitude, initial[2], timeout_s)
-        await vehicle.set_speed(configuration.default_speed)
+        is_simulated = fleet is not None
+        await prepare(
+            vehicle,
+            self._place_of(initial),
+            position_hz=self._position_hz,
+            speed_mps=configuration.default_speed,
+            timeout_s=timeout_s,
+            parameters=(configuration.autopilot_parameters or {}) if is_simulated else {},
+            check=lambda: None if is_simulated else self._check_distance(initial),
+        )
         _logger.debug("%s is at its initial position", vehicle.name)
 
     async def begin(self, *, is_simulated: bool) -> None:
@@ -118,11 +114,11 @@ class Flight:
 
     async def attend(self) -> None:
         """Keep the vehicle flying, for ever. SitlError as soon as it is gone or does not obey any more."""
-        await asyncio.gather(self._watch(), self._pilot.attend(), self._keep_positions_coming())
+        await asyncio.gather(self._pilot.watch(), self._pilot.attend(), self._keep_positions_coming())
 
     def obey(self, command: MobilityCommand) -> None:
-        """Carry out a command of the protocol."""
-        self._pilot.obey(command)
+        """Carry out a command of the protocol; raises as `give_order`, and SitlError if it is gone."""
+        give_order(command, self._node.id, self._reference, self._pilot)
 
     def telemetry_is_due(self) -> None:
         """Deliver the position if it is new; otherwise as soon as it comes, if that is before the next time.
@@ -193,11 +189,10 @@ class Flight:
             await asyncio.sleep(_RESTORE_S)
             self._vehicle.restore_stream(self._position_hz)
 
-    async def _watch(self) -> None:
-        vehicle = self._vehicle
-        vehicle.check_flight()
-        await self._link.wait_for(lambda message: not (vehicle.is_armed and vehicle.is_guided), None)
-        vehicle.check_flight()
+    def _place_of(self, point: Position) -> Position:
+        """Return (latitude deg, longitude deg, height above home m) of a point of the frame."""
+        latitude, longitude, _ = cartesian_to_geo(self._reference, point)
+        return (latitude, longitude, point[2])
 
     def _check_distance(self, initial: Position) -> None:
         place = self._vehicle.position

@@ -19,9 +19,13 @@ from gradysim.sitl.dialect import load_dialect
 from python.simulator.handler.ardupilot_mobility.flying import Flyer, build, failure_of, fly, flyer
 
 
-def test_who_seeks_no_real_time_is_told(toy_copter):
+@pytest.mark.parametrize(
+    "settings",
+    [{"simulate_drones": False, "vehicle_addresses": {0: "tcp:h:1"}}, {"ground_station_ip": "127.0.0.1"}],
+)
+def test_who_needs_real_time_is_told(toy_copter, settings):
     with pytest.raises(ArdupilotMobilityException, match="set real_time=True"):
-        build(toy_copter(), Flyer, real_time=False)
+        build(toy_copter(), Flyer, real_time=False, **settings)
     gc.collect()
 
 

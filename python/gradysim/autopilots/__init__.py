@@ -1,0 +1,1 @@
+"""The nodes of a scenario that autopilots fly, for both modes."""

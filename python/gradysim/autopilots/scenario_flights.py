@@ -1,0 +1,81 @@
+"""From what a scenario says of its nodes to autopilots that fly them."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.node.autopilot_spec import AutopilotSpec
+from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.protocol.native import NativeProtocol
+from gradysim.config.scenario import Scenario
+from gradysim.sitl.arducopter import find_arducopter
+from gradysim.sitl.dialect import load_dialect
+from gradysim.sitl.error import SitlError
+
+if TYPE_CHECKING:  # where no autopilot flies, asyncio need not be there
+    from gradysim.sitl.flights import Flights, FlownNode
+
+
+def check_autopilots(scenario: Scenario) -> None:
+    """Raise ConfigError, with the place in the .ini file, for what keeps a node from being flown.
+
+    Raises:
+        ConfigError: There is no program, or one of the nodes cannot be flown by it.
+        ModuleNotFoundError: The extra `sitl` is not installed.
+    """
+    for spec in scenario.nodes:
+        if spec.autopilot is not None:
+            load_dialect()
+            _check(spec, spec.autopilot)
+
+
+def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights | None":
+    """Return the flights of all nodes that autopilots fly, not begun; None if there are no such nodes.
+
+    Args:
+        scenario: A checked one.
+        on_text: Called with a node's name and what its autopilot says.
+
+    Raises:
+        ConfigError: As `check_autopilots`.
+    """
+    check_autopilots(scenario)
+    if all(spec.autopilot is None for spec in scenario.nodes):
+        return None
+    from gradysim.sitl.flights import Flights
+
+    nodes = [_flown(spec, spec.autopilot) for spec in scenario.nodes if spec.autopilot is not None]
+    return Flights(nodes, scenario.reference_coordinates, on_text=on_text)
+
+
+def _flown(spec: NodeSpec, autopilot: AutopilotSpec) -> "FlownNode":
+    from gradysim.sitl.flights import FlownNode
+
+    return FlownNode(
+        id=spec.id,
+        name=f"node {spec.id} ({spec.name})",
+        start=spec.initial_position,
+        speed_mps=autopilot.speed_mps,
+        program=autopilot.program,
+        user=autopilot.user,
+        parameters=autopilot.parameters,
+    )
+
+
+def _check(spec: NodeSpec, autopilot: AutopilotSpec) -> None:
+    from gradysim.sitl.flights import wind_mps
+
+    if issubclass(spec.protocol, NativeProtocol):
+        text = f"{spec.name}: an autopilot obeys protocols in Python only; expected another mobility.typename"
+        raise ConfigError.at(autopilot.source, text)
+    if spec.initial_position[2] < 0:
+        text = f"{spec.name} starts at z = {spec.initial_position[2]:g}m; expected at least 0m, the ground"
+        raise ConfigError.at(autopilot.source, text)
+    try:
+        find_arducopter(autopilot.program)
+    except SitlError as error:
+        raise ConfigError.at(autopilot.program_source, f"{spec.name}: {error}") from error
+    try:
+        wind_mps(spec.name, autopilot.parameters)
+    except SitlError as error:
+        raise ConfigError.at(autopilot.source, str(error)) from error

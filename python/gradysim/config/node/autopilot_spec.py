@@ -1,0 +1,77 @@
+"""What a scenario says of the autopilot of a node."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.source import Source
+from gradysim.config.keys.mobility import ARDUPILOT
+from gradysim.config.value.setting import Setting
+
+_SPEED_MPS = 10.0
+_USER = "nobody"
+
+
+@dataclass(frozen=True)
+class AutopilotSpec:
+    """The autopilot of one node.
+
+    Attributes:
+        source: Where it was chosen.
+        program_source: Where the program was named, or it was chosen.
+        program: An arducopter for SITL, or an ArduPilot checkout; None for the environment's.
+        user: Whom it belongs to if root runs the simulation; None for root.
+        speed_mps: Ground speed until the protocol sets another, > 0.
+        parameters: Of ArduCopter, by name.
+    """
+
+    source: Source
+    program_source: Source
+    program: str | None = None
+    user: str | None = _USER
+    speed_mps: float = _SPEED_MPS
+    parameters: Mapping[str, float] = field(default_factory=dict)
+
+
+def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Setting]) -> AutopilotSpec | None:
+    """Return what the settings of a node's mobility say; None if no autopilot flies it.
+
+    Raises:
+        ConfigError: A value is none, or is out of range for an autopilot.
+    """
+    typename = mobility.get("typename")
+    if typename is None or typename.value != ARDUPILOT:
+        return None
+    speed = mobility.get("speed_mps")
+    if speed is not None and not float(speed.value) > 0:
+        raise ConfigError.at(speed.source, "an autopilot begins with a speed; expected more than 0mps")
+    program = autopilot.get("program")
+    user = autopilot.get("user")
+    parameters = autopilot.get("parameters")
+    return AutopilotSpec(
+        source=typename.source,
+        program_source=program.source if program else typename.source,
+        program=str(program.value) or None if program else None,
+        user=str(user.value) or None if user else _USER,
+        speed_mps=float(speed.value) if speed else _SPEED_MPS,
+        parameters=_parameters(parameters) if parameters else {},
+    )
+
+
+def _parameters(setting: Setting) -> dict[str, float]:
+    """Return {name: value} of a text such as "WPNAV_SPEED_UP=500 SIM_WIND_SPD=8"."""
+    parameters: dict[str, float] = {}
+    for word in str(setting.value).replace(",", " ").split():
+        name, equals, text = word.partition("=")
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not name or not equals or not math.isfinite(value):
+            raise ConfigError.at(
+                setting.source,
+                f'`{word}` is no parameter; expected some as "WPNAV_SPEED_UP=500 SIM_WIND_SPD=8"',
+            )
+        parameters[name.upper()] = value
+    return parameters

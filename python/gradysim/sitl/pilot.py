@@ -1,0 +1,94 @@
+"""Has one vehicle do what is wanted of it last."""
+
+import asyncio
+from collections.abc import Callable
+
+from gradysim.protocol.position import Position
+from gradysim.sitl.vehicle import Vehicle
+
+_RENEWAL_S = 1.0
+"""Of the autopilot's time: it drops a velocity that is 3 s old."""
+
+
+class Pilot:
+    """Remembers what is wanted, and has the vehicle do it. The newest order counts.
+
+    Attributes:
+        vehicle: What it flies.
+    """
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        place_of: Callable[[Position], Position],
+        speed_mps: float,
+        pace: float = 1.0,
+    ) -> None:
+        """Take a vehicle that holds its position, or will before the first order.
+
+        Args:
+            vehicle: What it is to fly.
+            place_of: Returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in
+                metres; ValueError if there is no such place.
+            speed_mps: Ground speed, > 0.
+            pace: Seconds of the autopilot's time for each second of the asyncio loop's.
+        """
+        self.vehicle = vehicle
+        self._place_of = place_of
+        self._renewal_s = _RENEWAL_S / pace
+        self._target: Position | None = None
+        self._speed_mps = speed_mps
+        self._velocity: Position | None = None
+        self._speed_is_new = asyncio.Event()
+        self._speed_is_new.set()
+
+    def go_to(self, target: Position) -> None:
+        """Fly to a point (x, y, z) in metres.
+
+        Raises:
+            ValueError: There is no such place on Earth.
+            SitlError: The vehicle is gone, as for all orders.
+        """
+        place = self._place_of(target)
+        self._target = target
+        if self._speed_mps == 0:
+            return
+        if self._velocity is not None:
+            self._velocity = None
+            self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
+        self.vehicle.go_to(*place)
+
+    def set_velocity(self, velocity_mps: Position) -> None:
+        """Hold a velocity (North, East, up)."""
+        self._velocity = velocity_mps
+        self.vehicle.set_velocity(*velocity_mps)
+
+    def set_speed(self, speed_mps: float) -> None:
+        """Fly at this ground speed from now on, >= 0; the autopilot has to confirm it, in `attend`."""
+        before, self._speed_mps = self._speed_mps, speed_mps
+        if speed_mps == 0:  # Which ArduCopter refuses.
+            self.set_velocity((0.0, 0.0, 0.0))
+            return
+        self._speed_is_new.set()
+        if before == 0 and self._target is not None:
+            self.go_to(self._target)
+
+    async def attend(self) -> None:
+        """Do what takes time, for ever: have speeds confirmed, renew velocities. SitlError if that fails."""
+        while True:
+            try:
+                await asyncio.wait_for(self._speed_is_new.wait(), self._renewal_s)
+            except TimeoutError:
+                if self._velocity is not None:
+                    self.vehicle.set_velocity(*self._velocity)
+                continue
+            self._speed_is_new.clear()
+            if self._speed_mps > 0:
+                await self.vehicle.set_speed(self._speed_mps)
+
+    async def watch(self) -> None:
+        """Wait for ever. SitlError as soon as the vehicle is gone or does not obey any more."""
+        vehicle = self.vehicle
+        vehicle.check_flight()
+        await vehicle.link.wait_for(lambda message: not (vehicle.is_armed and vehicle.is_guided), None)
+        vehicle.check_flight()

@@ -1,0 +1,144 @@
+"""A quadcopter as a rigid body: what an autopilot's motors do to it.
+
+Frames as in the autopilot's world: North, East, down of home for places and velocities; forward, right, down
+of the vehicle for rates and forces. The equations are those of any textbook on rigid bodies (R. W. Beard and
+T. W. McLain, Small Unmanned Aircraft, 2012, chapter 3), with a drag that grows with the speed through the
+air, and the simplest integration that keeps its energy in check: semi-implicit Euler.
+"""
+
+import math
+from collections.abc import Sequence
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+GRAVITY_MPS2 = 9.80665
+
+MASS_KG = 2.0
+INERTIA_KGM2: Vector = (0.03, 0.03, 0.05)
+ARM_M = 0.25
+"""From the centre to each motor; an X, so each is as far in front or behind as it is to the side."""
+
+HOVER_THRUST = 0.35
+"""Share of the greatest thrust at which it hovers: ArduCopter's own default (MOT_THST_HOVER)."""
+
+THRUST_EXPO = 0.65
+"""How much of the thrust goes with the square of the throttle: ArduCopter's own default (MOT_THST_EXPO)."""
+
+TORQUE_M = 0.02
+"""Torque of a propeller about its axis, for each newton of its thrust; N m / N."""
+
+DRAG_KGPS = 0.3
+"""Force against each metre per second through the air."""
+
+ROTATION_DRAG_NMS = 0.05
+"""Torque against each radian per second."""
+
+_GREATEST_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
+_LEVER_M = ARM_M * math.sqrt(0.5)
+
+
+class Quadcopter:
+    """One vehicle, on the ground at home, level and looking North, at first.
+
+    Attributes:
+        position_m: North, East and down of home.
+        velocity_mps: The same of its velocity.
+        attitude: Quaternion (w, x, y, z) that turns the vehicle's frame into that of the world.
+        rates_radps: Of its rotation, about its own axes: roll, pitch, yaw.
+        specific_force_mps2: What an accelerometer in it measures, along its own axes: at rest (0, 0, -g).
+    """
+
+    def __init__(self, wind_mps: Vector = (0.0, 0.0, 0.0)) -> None:
+        """`wind_mps` is the velocity of the air: North, East and down."""
+        self._wind_mps = wind_mps
+        self.position_m: Vector = (0.0, 0.0, 0.0)
+        self.velocity_mps: Vector = (0.0, 0.0, 0.0)
+        self.attitude: Quaternion = (1.0, 0.0, 0.0, 0.0)
+        self.rates_radps: Vector = (0.0, 0.0, 0.0)
+        self.specific_force_mps2: Vector = (0.0, 0.0, -GRAVITY_MPS2)
+
+    def step(self, throttles: Sequence[float], duration_s: float) -> None:
+        """Fly on for a moment.
+
+        Args:
+            throttles: Of the four motors, 0 to 1, in ArduPilot's order: front right, rear left (these turn
+                counterclockwise, seen from above), front left, rear right (clockwise).
+            duration_s: At most some milliseconds.
+        """
+        front_right, rear_left, front_left, rear_right = map(_thrust_n, throttles)
+        torque = (
+            _LEVER_M * (rear_left + front_left - front_right - rear_right),
+            _LEVER_M * (front_right + front_left - rear_left - rear_right),
+            TORQUE_M * (front_right + rear_left - front_left - rear_right),
+        )
+        self._turn(torque, duration_s)
+        self._move(front_right + rear_left + front_left + rear_right, duration_s)
+
+    def _turn(self, torque_nm: Vector, duration_s: float) -> None:
+        """Change the rates by Euler's equations, and the attitude by the new rates."""
+        p, q, r = self.rates_radps
+        ix, iy, iz = INERTIA_KGM2
+        roll, pitch, yaw = torque_nm
+        p, q, r = (
+            p + duration_s * (roll - ROTATION_DRAG_NMS * p - (iz - iy) * q * r) / ix,
+            q + duration_s * (pitch - ROTATION_DRAG_NMS * q - (ix - iz) * r * p) / iy,
+            r + duration_s * (yaw - ROTATION_DRAG_NMS * r - (iy - ix) * p * q) / iz,
+        )
+        w, x, y, z = self.attitude
+        half = duration_s / 2
+        w, x, y, z = (
+            w - half * (x * p + y * q + z * r),
+            x + half * (w * p + y * r - z * q),
+            y + half * (w * q - x * r + z * p),
+            z + half * (w * r + x * q - y * p),
+        )
+        length = math.sqrt(w * w + x * x + y * y + z * z)
+        self.rates_radps = (p, q, r)
+        self.attitude = (w / length, x / length, y / length, z / length)
+
+    def _move(self, thrust_n: float, duration_s: float) -> None:
+        """Change the velocity by Newton's law, and the position by it; the ground holds it up."""
+        forward, right, down = self._axes()
+        north, east, sink = self.velocity_mps
+        wind = self._wind_mps
+        lift, drag = -thrust_n / MASS_KG, DRAG_KGPS / MASS_KG
+        a_north = down[0] * lift - drag * (north - wind[0])
+        a_east = down[1] * lift - drag * (east - wind[1])
+        a_down = down[2] * lift - drag * (sink - wind[2])
+        x, y, z = self.position_m
+        if z >= 0 and sink >= 0 and a_down + GRAVITY_MPS2 >= 0:
+            self._stand()
+            return
+        north += a_north * duration_s
+        east += a_east * duration_s
+        sink += (a_down + GRAVITY_MPS2) * duration_s
+        self.velocity_mps = (north, east, sink)
+        self.position_m = (x + north * duration_s, y + east * duration_s, z + sink * duration_s)
+        self.specific_force_mps2 = (
+            forward[0] * a_north + forward[1] * a_east + forward[2] * a_down,
+            right[0] * a_north + right[1] * a_east + right[2] * a_down,
+            down[0] * a_north + down[1] * a_east + down[2] * a_down,
+        )
+
+    def _stand(self) -> None:
+        """Be at rest on the ground, level, with the heading that it had."""
+        w, x, y, z = self.attitude
+        half_heading = math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z)) / 2
+        self.attitude = (math.cos(half_heading), 0.0, 0.0, math.sin(half_heading))
+        self.rates_radps = self.velocity_mps = (0.0, 0.0, 0.0)
+        self.position_m = (self.position_m[0], self.position_m[1], 0.0)
+        self.specific_force_mps2 = (0.0, 0.0, -GRAVITY_MPS2)
+
+    def _axes(self) -> tuple[Vector, Vector, Vector]:
+        """Forward, right and down of the vehicle, in the world's frame."""
+        w, x, y, z = self.attitude
+        return (
+            (1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
+            (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
+            (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)),
+        )
+
+
+def _thrust_n(throttle: float) -> float:
+    return _GREATEST_THRUST_N * throttle * ((1 - THRUST_EXPO) + THRUST_EXPO * throttle)

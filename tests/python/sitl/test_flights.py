@@ -1,0 +1,217 @@
+"""Vehicles on simulated time, with the toy in ArduCopter's place."""
+
+import gc
+import time
+
+import pytest
+
+from gradysim.sitl.error import SitlError
+from gradysim.sitl.flights import Flights, FlownNode, ground_temperature, wind_mps
+
+REFERENCE = (-15.84, -47.92, 1000.0)
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+
+
+@pytest.fixture
+def flights_of():
+    """`flights_of(program, start, ...)`: begun, and ended after the test."""
+    made = []
+
+    def make(program, *starts, timeout_s=20.0, parameters=None, **settings):
+        nodes = [
+            FlownNode(
+                number, f"vehicle {number}", start, program=program, user=None, parameters=parameters or {}
+            )
+            for number, start in enumerate(starts)
+        ]
+        flights = Flights(nodes, REFERENCE, timeout_s=timeout_s, **settings)
+        made.append(flights)
+        flights.begin()
+        return flights
+
+    yield make
+    for flights in made:
+        flights.close()
+
+
+def flown(flights, seconds, begin=0.0, step=0.01):
+    """The places of vehicle 0 at each step."""
+    track = []
+    for number in range(1, round(seconds / step) + 1):
+        flights.advance_to(begin + number * step)
+        track.append(flights.position(0))
+    return track
+
+
+def test_all_hover_at_their_starts_when_they_begin(toy_copter, flights_of):
+    starts = [(0.0, 0.0, 10.0), (30.0, -20.0, 15.0), (5.0, 5.0, 3.0)]
+    flights = flights_of(toy_copter(), *starts)
+    for number, start in enumerate(starts):
+        assert flights.position(number) == pytest.approx(start, abs=0.3)
+    assert list(flights.ids) == [0, 1, 2]
+
+
+def test_one_flies_where_it_is_sent_and_the_other_stays(toy_copter, flights_of):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), (0.0, 20.0, 10.0))
+    flights.pilot(0).go_to((60.0, -20.0, 18.0))
+    flown(flights, 20)
+    assert flights.position(0) == pytest.approx((60, -20, 18), abs=0.5)
+    assert flights.position(1) == pytest.approx((0, 20, 10), abs=0.5)
+
+
+def test_a_speed_is_flown(toy_copter, flights_of):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
+    flights.pilot(0).go_to((500.0, 0.0, 10.0))
+    flights.pilot(0).set_speed(4.0)
+    track = flown(flights, 12)
+    assert track[-1][0] - track[-201][0] == pytest.approx(8, abs=0.4)
+
+
+def test_a_velocity_is_held(toy_copter, flights_of):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
+    flights.pilot(0).set_velocity((0.0, 3.0, 1.0))
+    track = flown(flights, 12)
+    moved = [b - a for a, b in zip(track[-201], track[-1], strict=True)]
+    assert moved == pytest.approx([0, 6, 2], abs=0.4)
+
+
+def test_two_flights_are_the_same_to_the_last_bit(toy_copter, flights_of):
+    def flight():
+        flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), (0.0, 20.0, 10.0))
+        flights.pilot(0).go_to((40.0, 10.0, 15.0))
+        track = flown(flights, 2)
+        flights.pilot(0).set_speed(7.0)
+        return [*track, *flown(flights, 3, begin=2.0)]
+
+    assert flight() == flight()
+
+
+def test_a_simulation_that_takes_its_time_changes_nothing(toy_copter, flights_of):
+    """Meanwhile the autopilot asks again and again for its next step."""
+
+    def flight(wrongs, pause_s):
+        flights = flights_of(toy_copter(wrongs), (0.0, 0.0, 10.0))
+        flights.pilot(0).go_to((40.0, 10.0, 15.0))
+        track = flown(flights, 0.5)
+        time.sleep(pause_s)
+        return [*track, *flown(flights, 1, begin=0.5)]
+
+    assert flight({0: {"repeats": True}}, 0.4) == flight({}, 0.0)
+
+
+def test_how_often_it_is_asked_where_they_are_makes_no_difference(toy_copter, flights_of):
+    def flight(step):
+        flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
+        flights.pilot(0).go_to((40.0, 10.0, 15.0))
+        return flown(flights, 3, step=step)[-1]
+
+    assert flight(0.01) == flight(0.5)
+
+
+def test_the_wind_of_the_parameters_blows(toy_copter, flights_of):
+    """The toy does not know of it, and is off by what its gains leave."""
+    parameters = {"SIM_WIND_SPD": 1.0, "SIM_WIND_DIR": 90.0}
+    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), parameters=parameters)
+    north, east, _ = flights.position(0)
+    assert abs(north) < 0.02
+    assert east < -0.05
+
+
+@pytest.mark.parametrize(
+    ("parameters", "wind"),
+    [
+        ({}, (0, 0, 0)),
+        ({"SIM_WIND_SPD": 5.0}, (5, 0, 0)),
+        ({"SIM_WIND_SPD": 5.0, "SIM_WIND_DIR": 0.0}, (-5, 0, 0)),
+        ({"SIM_WIND_SPD": 5.0, "SIM_WIND_DIR": 90.0}, (0, -5, 0)),
+    ],
+)
+def test_a_wind_is_named_by_where_it_comes_from(parameters, wind):
+    assert wind_mps("vehicle 0", parameters) == pytest.approx(wind, abs=1e-9)
+
+
+def test_a_wind_that_would_not_blow_is_refused():
+    with pytest.raises(SitlError, match="vehicle 0: parameter SIM_WIND_TURB: on simulated time"):
+        wind_mps("vehicle 0", {"SIM_WIND_SPD": 5.0, "SIM_WIND_TURB": 1.0})
+
+
+def test_autopilots_are_told_how_warm_it_is_at_home():
+    assert set(ground_temperature(0.0).values()) == {15.0}
+    assert set(ground_temperature(1000.0).values()) == {8.5}
+
+
+def failure_of(flights_of, program, **settings):
+    with pytest.raises(SitlError) as caught:
+        flown(flights_of(program, (0.0, 0.0, 10.0), **settings), 5)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (
+            {"refuse_arming": True},
+            'vehicle 0: arming: refused with MAV_RESULT_FAILED; the autopilot said: "PreArm',
+        ),
+        ({"no_fix": True}, "vehicle 0: position estimate: not done after 3 s"),
+        ({"deaf": True}, "vehicle 0: telemetry: no answer after 5 tries"),
+        (
+            {"dies_at": "take-off"},
+            "vehicle 0: the autopilot ended with status 7; it printed last: the battery",
+        ),
+        (
+            {"dies_at": 2},
+            "vehicle 0: the autopilot ended with status 7; it printed last: the battery exploded",
+        ),
+        ({"leaves_at": 2}, "vehicle 0: flight: it left mode GUIDED for mode number 9"),
+        (
+            {"exits": True},
+            "ended with status 3; it printed last: no such model; ArduCopter 4.1 or newer is needed",
+        ),
+    ],
+)
+def test_what_goes_wrong_is_told(toy_copter, flights_of, wrong, said):
+    assert said in failure_of(flights_of, toy_copter({0: wrong}), timeout_s=3.0)
+
+
+def test_an_autopilot_that_hangs_is_given_up(toy_copter, flights_of, monkeypatch):
+    monkeypatch.setattr("gradysim.sitl.lock_step_group._SILENCE_S", 0.5)
+    said = failure_of(flights_of, toy_copter({0: {"hangs_at": 2}}))
+    assert said.startswith("vehicle 0: no sign of life in 0.5 s of wall time")
+
+
+def test_one_that_starts_and_does_nothing_is_given_up(toy_copter, flights_of):
+    said = failure_of(flights_of, toy_copter({0: {"gives_up": True}}), timeout_s=1.0)
+    assert said == "vehicle 0: start: it did not ask for physics in 1 s; it printed last: invalid param"
+
+
+def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
+    flights = Flights([FlownNode(0, "vehicle 0", (0.0, 0.0, -5.0), program=toy_copter())], REFERENCE)
+    with pytest.raises(SitlError, match="vehicle 0: its initial position is below the ground: z = -5 m"):
+        flights.begin()
+    flights.close()
+
+
+def test_nothing_is_left_of_them(toy_copter, flights_of, tmp_path, caplog):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
+    flights.close()
+    flights.close()
+    gc.collect()
+    assert list(tmp_path.glob("gradysim-sitl-*")) == []
+    assert caplog.records == []
+
+
+def test_of_several_failures_one_is_told_and_the_others_are_not_logged(toy_copter, caplog):
+    program = toy_copter({number: {"refuse_arming": True} for number in range(2)})
+    nodes = [FlownNode(n, f"vehicle {n}", (0.0, 9.0 * n, 10.0), program=program, user=None) for n in range(2)]
+    flights = Flights(nodes, REFERENCE, timeout_s=2.0)
+    with pytest.raises(SitlError, match="vehicle 0: arming"):
+        flights.begin()
+    flights.close()
+    del flights
+    gc.collect()
+    assert caplog.records == []
