@@ -1,0 +1,105 @@
+"""A run of ZigZag, and what a handler saw of it once a minute: steps.py and figures.py begin here.
+
+docs/guides/handlers.md explains handlers, docs/guides/paper.md what is looked for.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import fmean
+from time import process_time
+from typing import Any
+
+import gradysim.integrated.run
+import gradysim.prototype.run
+from gradysim.config import Scenario
+from gradysim.results.run_result import RunResult
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.node import Node
+
+SCENARIOS = Path(__file__).parents[2] / "configs" / "zigzag.ini"
+MODES: dict[str, Callable[..., RunResult]] = {
+    "prototype": gradysim.prototype.run.run,
+    "integrated": gradysim.integrated.run.run,
+}
+
+
+@dataclass(frozen=True)
+class Sample:
+    """What there was at one simulated time.
+
+    Attributes:
+        time_s: Simulated seconds.
+        readings: Readings that had arrived at the ground station.
+        nearest_m: Metres from a UAV to the one nearest to it, the mean over all UAVs.
+        processor_s: Processor time that building and running had taken, in seconds.
+    """
+
+    time_s: float
+    readings: int
+    nearest_m: float
+    processor_s: float
+
+
+class Observer(INodeHandler):
+    """Takes a sample at the start and once a minute."""
+
+    INTERVAL_S = 60.0
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.samples: list[Sample] = []
+        self._groups = [node.group for node in scenario.nodes]
+        self._started_s = process_time()
+
+    @staticmethod
+    def get_label() -> str:
+        """The name of the handler."""
+        return "observer"
+
+    def inject(self, event_loop: EventLoop) -> None:
+        """Take the clock, and forget the nodes of an earlier run."""
+        self._event_loop = event_loop
+        self._uavs: list[Node[Any]] = []
+
+    def register_node(self, node: Node[Any]) -> None:
+        """Remember the nodes to look at: ids count as the scenario does."""
+        if self._groups[node.id] == "uavs":
+            self._uavs.append(node)
+        elif self._groups[node.id] == "groundStation":
+            self._station = node
+
+    def initialize(self) -> None:
+        """Plan the first sample."""
+        self._event_loop.schedule_event(self._event_loop.current_time, self._sample, "observer")
+
+    def _sample(self) -> None:
+        now_s = self._event_loop.current_time
+        tracked = self._station.protocol_encapsulator.provider.tracked_variables
+        cost_s = process_time() - self._started_s
+        self.samples.append(Sample(now_s, tracked["data"], self._nearest_m(), cost_s))
+        self._event_loop.schedule_event(now_s + self.INTERVAL_S, self._sample, "observer")
+
+    def _nearest_m(self) -> float:
+        places = [uav.position for uav in self._uavs]
+        return fmean(
+            min(math.dist(place, other) for j, other in enumerate(places) if j != i)
+            for i, place in enumerate(places)
+        )
+
+
+@dataclass(frozen=True)
+class ObservedRun:
+    """A run and its samples."""
+
+    result: RunResult
+    samples: tuple[Sample, ...]
+
+
+def observed_run(task: tuple[Scenario, str]) -> ObservedRun:
+    """Run a scenario in a mode; a single argument, so that `Pool.imap` can hand it to another process."""
+    scenario, mode = task
+    observer = Observer(scenario)
+    result = MODES[mode](scenario, handlers=[observer])
+    return ObservedRun(result, tuple(observer.samples))
