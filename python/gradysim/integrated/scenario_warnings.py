@@ -42,7 +42,7 @@ def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
         config = node_config(spec)
         name = f"{spec.group}[*]" if spec.name.endswith("]") else spec.name
         sources = {f"protocol.{field}": source for field, source in spec.protocol_sources.items()}
-        sources |= _sources("mobility", spec.mobility)
+        sources |= _sources("mobility", spec.mobility) | _sources("autopilot", spec.idle_autopilot)
         of_node = {"medium": medium, "mobility": config.mobility}
         lines.add(sources, _chosen(of_node, {*of_network, *sources}), name)
         for interface, wlan in zip(config.wlan, spec.wlan, strict=True):

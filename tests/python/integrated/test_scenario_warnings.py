@@ -84,6 +84,11 @@ def test_a_line_is_told_until_its_model_is_chosen(
     assert [text for text in warnings(setting, choice) if "nothing reads" in text] == []
 
 
+def test_an_autopilot_that_does_not_fly_is_told(warnings: Callable[..., list[str]]) -> None:
+    (text,) = warnings(f'{UAVS}.mobility.autopilotPath="arducopter"')
+    assert 'that takes `*.uavs[*].mobility.typename = "ArdupilotMobility"`' in text
+
+
 def test_speed_is_for_those_who_move(warnings: Callable[..., list[str]]) -> None:
     assert warnings(f"{UAVS}.mobility.speed=3mps") == []
     (text,) = warnings(f"{UAVS}.mobility.speed=3mps", f'{UAVS}.mobility.typename="StationaryMobility"')

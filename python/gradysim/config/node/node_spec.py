@@ -33,6 +33,7 @@ class NodeSpec:
         node: Where what is about the whole node was written: the number of its interfaces.
         autopilot: What flies it, if an autopilot does; its mobility is massless then, which follows the
             autopilot's vehicle.
+        idle_autopilot: What was written for an autopilot, if none flies it.
     """
 
     id: int
@@ -47,6 +48,7 @@ class NodeSpec:
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
     autopilot: AutopilotSpec | None = None
+    idle_autopilot: Mapping[str, Setting] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check what scripts replace. Raises TypeError and ValueError, which name the node."""

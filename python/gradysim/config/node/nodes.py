@@ -55,6 +55,7 @@ class _Shared:
     node: Mapping[str, Setting]
     wlan: tuple[InterfaceSpec, ...]
     autopilot: AutopilotSpec | None
+    idle_autopilot: Mapping[str, Setting]
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,6 +125,7 @@ def build_nodes(
                     protocol_sources=shared.protocol_sources,
                     node=shared.node,
                     autopilot=shared.autopilot,
+                    idle_autopilot=shared.idle_autopilot,
                 )
             )
     return tuple(nodes)
@@ -207,7 +209,8 @@ class _NodeBuilder:
         if is_static_grid:
             mobility["typename"] = replace(mobility["typename"], value="StationaryMobility")
             position[STATIC_GRID] = found[_TYPENAME]
-        autopilot = read_autopilot(mobility, read_struct("autopilot", found, self._settings, path_of))
+        autopilot_settings = read_struct("autopilot", found, self._settings, path_of)
+        autopilot = read_autopilot(mobility, autopilot_settings)
         if autopilot is not None:
             mobility["typename"] = replace(mobility["typename"], value=MASSLESS)
         row = tuple(_axis_row(axis, position, values) for axis in _AXES)
@@ -225,6 +228,7 @@ class _NodeBuilder:
             node=read_struct("node", found, self._settings, path_of),
             wlan=wlan,
             autopilot=autopilot,
+            idle_autopilot=autopilot_settings if autopilot is None else {},
         )
 
 
