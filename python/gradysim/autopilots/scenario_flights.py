@@ -20,12 +20,11 @@ def check_autopilots(scenario: Scenario) -> None:
     """Raise ConfigError, with the place in the .ini file, for what keeps a node from being flown.
 
     Raises:
-        ConfigError: There is no program, or one of the nodes cannot be flown by it.
-        ModuleNotFoundError: The extra `sitl` is not installed.
+        ConfigError: There is no program, one of the nodes cannot be flown by it, or the extra `sitl` is not
+            installed.
     """
     for spec in scenario.nodes:
         if spec.autopilot is not None:
-            load_dialect()
             _check(spec, spec.autopilot)
 
 
@@ -71,6 +70,10 @@ def _check(spec: NodeSpec, autopilot: AutopilotSpec) -> None:
     if spec.initial_position[2] < 0:
         text = f"{spec.name} starts at z = {spec.initial_position[2]:g}m; expected at least 0m, the ground"
         raise ConfigError.at(autopilot.source, text)
+    try:
+        load_dialect()
+    except ModuleNotFoundError as error:
+        raise ConfigError.at(autopilot.source, str(error)) from error
     try:
         find_arducopter(autopilot.program)
     except SitlError as error:

@@ -174,7 +174,7 @@ def test_without_pymavlink_the_error_says_what_to_install(flown, monkeypatch):
 
     load_dialect.cache_clear()
     monkeypatch.setitem(sys.modules, "pymavlink.dialects.v20.ardupilotmega", None)
-    with pytest.raises(ModuleNotFoundError, match=r'pip install "gradysim\[sitl\]"'):
+    with pytest.raises(ConfigError, match=r'pip install "gradysim\[sitl\]"'):
         check_autopilots(flown())
 
 
