@@ -11,9 +11,10 @@ from gradysim.config.scenario import Scenario
 from gradysim.sitl.arducopter import find_arducopter
 from gradysim.sitl.dialect import load_dialect
 from gradysim.sitl.error import SitlError
+from gradysim.sitl.flown_node import FlownNode, wind_mps
 
-if TYPE_CHECKING:  # where no autopilot flies, asyncio need not be there
-    from gradysim.sitl.flights import Flights, FlownNode
+if TYPE_CHECKING:
+    from gradysim.sitl.flights import Flights
 
 
 def check_autopilots(scenario: Scenario) -> None:
@@ -47,9 +48,7 @@ def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = 
     return Flights(nodes, scenario.reference_coordinates, on_text=on_text)
 
 
-def _flown(spec: NodeSpec, autopilot: AutopilotSpec) -> "FlownNode":
-    from gradysim.sitl.flights import FlownNode
-
+def _flown(spec: NodeSpec, autopilot: AutopilotSpec) -> FlownNode:
     return FlownNode(
         id=spec.id,
         name=f"node {spec.id} ({spec.name})",
@@ -62,8 +61,6 @@ def _flown(spec: NodeSpec, autopilot: AutopilotSpec) -> "FlownNode":
 
 
 def _check(spec: NodeSpec, autopilot: AutopilotSpec) -> None:
-    from gradysim.sitl.flights import wind_mps
-
     if issubclass(spec.protocol, NativeProtocol):
         text = f"{spec.name}: an autopilot obeys protocols in Python only; expected another mobility.typename"
         raise ConfigError.at(autopilot.source, text)

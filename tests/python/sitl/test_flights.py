@@ -6,7 +6,8 @@ import time
 import pytest
 
 from gradysim.sitl.error import SitlError
-from gradysim.sitl.flights import Flights, FlownNode, ground_temperature, wind_mps
+from gradysim.sitl.flights import Flights
+from gradysim.sitl.flown_node import FlownNode
 
 REFERENCE = (-15.84, -47.92, 1000.0)
 
@@ -119,29 +120,6 @@ def test_the_wind_of_the_parameters_blows(toy_copter, flights_of):
     north, east, _ = flights.position(0)
     assert abs(north) < 0.02
     assert east < -0.05
-
-
-@pytest.mark.parametrize(
-    ("parameters", "wind"),
-    [
-        ({}, (0, 0, 0)),
-        ({"SIM_WIND_SPD": 5.0}, (5, 0, 0)),
-        ({"SIM_WIND_SPD": 5.0, "SIM_WIND_DIR": 0.0}, (-5, 0, 0)),
-        ({"SIM_WIND_SPD": 5.0, "SIM_WIND_DIR": 90.0}, (0, -5, 0)),
-    ],
-)
-def test_a_wind_is_named_by_where_it_comes_from(parameters, wind):
-    assert wind_mps("vehicle 0", parameters) == pytest.approx(wind, abs=1e-9)
-
-
-def test_a_wind_that_would_not_blow_is_refused():
-    with pytest.raises(SitlError, match="vehicle 0: parameter SIM_WIND_TURB: on simulated time"):
-        wind_mps("vehicle 0", {"SIM_WIND_SPD": 5.0, "SIM_WIND_TURB": 1.0})
-
-
-def test_autopilots_are_told_how_warm_it_is_at_home():
-    assert set(ground_temperature(0.0).values()) == {15.0}
-    assert set(ground_temperature(1000.0).values()) == {8.5}
 
 
 def failure_of(flights_of, program, **settings):

@@ -1,9 +1,11 @@
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.protocol.position import geo_to_cartesian
-from gradysim.sitl.frame import cartesian_to_geo, home_of, off_null_island
+from gradysim.sitl.frame import autopilots_place, cartesian_to_geo, home_of, off_null_island
 
 references = st.tuples(st.floats(-80, 80), st.floats(-180, 180), st.floats(-100, 5000))
 points = st.tuples(*[st.floats(-100_000, 100_000)] * 2, st.floats(-1000, 10_000))
@@ -43,3 +45,13 @@ def test_null_island_is_avoided(place):
 @pytest.mark.parametrize("place", [(1e-7, 0.0), (0.0, -2e-7), (-15.84, -47.92)])
 def test_all_other_places_stay(place):
     assert off_null_island(*place) == place
+
+
+def test_an_autopilots_earth_is_flat_and_a_little_larger():
+    home = (60.0, 179.9999, 100.0)
+    latitude, longitude, height = autopilots_place(home, (1000.0, 1000.0, 20.0))
+    degree_m = math.pi / 180 * 6_378_100
+    assert (latitude - 60.0) * degree_m == pytest.approx(1000)
+    assert (longitude + 360 - 179.9999) * degree_m / 2 == pytest.approx(1000)
+    assert height == 20.0
+    assert autopilots_place(home, (0.0, 0.0, 0.0)) == pytest.approx((60.0, 179.9999, 0.0))

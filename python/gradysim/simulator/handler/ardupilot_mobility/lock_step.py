@@ -16,7 +16,8 @@ from gradysim.simulator.handler.mobility.massless import MasslessMobilityConfigu
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl.error import SitlError
-from gradysim.sitl.flights import Flights, FlownNode
+from gradysim.sitl.flights import Flights
+from gradysim.sitl.flown_node import FlownNode
 
 _logger = logging.getLogger(__name__)
 

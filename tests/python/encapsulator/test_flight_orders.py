@@ -1,0 +1,86 @@
+"""From commands to orders for a vehicle."""
+
+import pytest
+
+from gradysim.encapsulator.flight_orders import give_order
+from gradysim.protocol.errors import MasslessMobilityException
+from gradysim.protocol.messages.mobility import (
+    GotoCoordsMobilityCommand,
+    GotoGeoCoordsMobilityCommand,
+    MobilityCommand,
+    SetSpeedMobilityCommand,
+    SetVelocityMobilityCommand,
+)
+from gradysim.protocol.position import geo_to_cartesian
+
+REFERENCE = (-15.84, -47.92, 1000.0)
+
+
+class Vehicle:
+    def __init__(self, edge_m=1e6):
+        self.orders = []
+        self.edge_m = edge_m
+
+    def go_to(self, target):
+        if target[0] > self.edge_m:
+            raise ValueError("beyond the Earth's edge")
+        self.orders.append(("go_to", target))
+
+    def set_speed(self, speed_mps):
+        self.orders.append(("set_speed", speed_mps))
+
+    def set_velocity(self, velocity_mps):
+        self.orders.append(("set_velocity", velocity_mps))
+
+
+def ordered(command):
+    vehicle = Vehicle()
+    give_order(command, 3, REFERENCE, vehicle)
+    (order,) = vehicle.orders
+    return order
+
+
+@pytest.mark.parametrize(
+    ("command", "order"),
+    [
+        (GotoCoordsMobilityCommand(1, 2, 3), ("go_to", (1, 2, 3))),
+        (SetSpeedMobilityCommand(0), ("set_speed", 0)),
+        (SetVelocityMobilityCommand(1, -2, 0.5), ("set_velocity", (1, -2, 0.5))),
+    ],
+)
+def test_each_command_is_one_order(command, order):
+    assert ordered(command) == order
+
+
+def test_a_geographic_place_is_one_of_the_frame():
+    place = (-15.839, -47.919, 1020.0)
+    kind, target = ordered(GotoGeoCoordsMobilityCommand(*place))
+    assert (kind, target) == ("go_to", pytest.approx(geo_to_cartesian(REFERENCE, place)))
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (
+            GotoCoordsMobilityCommand(float("nan"), 0, 0),
+            "node 3 was sent to (nan, 0, 0): expected three finite",
+        ),
+        (
+            GotoCoordsMobilityCommand(2e6, 0, 0),
+            "node 3 was sent to a place that is none: beyond the Earth's edge",
+        ),
+        (
+            SetVelocityMobilityCommand(1, None, 0),
+            "node 3 was given (1, None, 0): expected three finite numbers",
+        ),
+        (SetSpeedMobilityCommand(-1), "node 3 was given the speed -1: expected a finite number of m/s, >= 0"),
+        (MobilityCommand(17), "node 3 was given an unknown mobility command: 17"),
+        ("north", "node 3 can carry out a MobilityCommand, was given 'north'"),
+    ],
+)
+def test_what_cannot_be_carried_out_is_no_order(command, said):
+    vehicle = Vehicle()
+    with pytest.raises(MasslessMobilityException) as caught:
+        give_order(command, 3, REFERENCE, vehicle)
+    assert said in str(caught.value)
+    assert vehicle.orders == []
