@@ -77,7 +77,7 @@ class MavlinkLink:
                 future.set_exception(SitlError(f"{self.name}: {reason}"))
 
     async def wait_for(self, accept: Callable[[Message], bool], timeout_s: float | None) -> Message | None:
-        """Return the first message to come that is accepted; None if there is none in `timeout_s` wall s.
+        """Return the first message to come that is accepted; None if there is none in `timeout_s` s.
 
         Without a limit it waits for ever.
 

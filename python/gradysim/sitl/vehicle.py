@@ -1,7 +1,7 @@
 """A vehicle flown over MAVLink: steps that are done when the vehicle says so, or fail with what it said.
 
 Written for ArduCopter, in the frame of latitude, longitude and height above the place where it was armed.
-Times are wall times.
+Times are those of the asyncio loop: the wall's, or the vehicles' own.
 """
 
 import asyncio
