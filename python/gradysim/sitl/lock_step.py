@@ -179,9 +179,13 @@ class LockStepAutopilot:
     def _send(self, data: bytes) -> None:
         assert self._mavlink is not None
         try:
-            self._mavlink.sendall(data)
+            sent = self._mavlink.send(data, socket.MSG_DONTWAIT)
+        except BlockingIOError:
+            sent = 0
         except OSError:
             self._give_up(self._obituary())
+        if sent < len(data):  # It reads nothing before its next step: who waits now waits for ever.
+            self._give_up("it was given more orders than it can take before its next step")
 
     def _obituary(self) -> str:
         assert self._process is not None

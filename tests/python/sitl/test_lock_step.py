@@ -7,6 +7,7 @@ from contextlib import closing
 
 import pytest
 
+from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
 from gradysim.sitl.lock_step import LockStepAutopilot
 from gradysim.sitl.quadcopter import Quadcopter
@@ -119,7 +120,7 @@ def test_the_step_nearest_to_a_time_is_the_last_one(played):
 
 def test_an_end_of_the_connection_is_the_autopilots(played):
     played.mavlink.close()
-    with pytest.raises(Exception, match="vehicle 0: it died"):
+    with pytest.raises(SitlError, match="vehicle 0: it died"):
         played.ours.listen()
     assert played.ours.link.lost == "it died"
 
@@ -128,3 +129,12 @@ def test_it_listens_only_to_what_is_there(played):
     assert not played.ours.listen()
     played.mavlink.sendall(b"\0")
     assert played.ours.listen()
+
+
+def test_more_orders_than_it_takes_between_two_steps_end_it_instead_of_waiting_for_ever(played):
+    def order(times):
+        for _ in range(times):
+            played.ours.link.send_bytes(bytes(100_000))
+
+    with pytest.raises(SitlError, match="vehicle 0: it was given more orders than it can take"):
+        order(1000)
