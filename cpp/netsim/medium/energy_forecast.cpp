@@ -42,6 +42,15 @@ void EnergyForecast::add_told(const Coming& coming, SimTime sensed_from, bool is
     }
 }
 
+SimTime EnergyForecast::told_until(double level_w) const {
+    for (std::size_t i = first_step(); i < steps_.size(); ++i) {
+        if (!steps_[i].is_told(level_w)) {
+            return std::max(steps_[i].time, now_);
+        }
+    }
+    return std::max(steps_.back().time, now_);
+}
+
 void EnergyForecast::change_at(SimTime time) {
     if (time < now_) {
         return;

@@ -42,12 +42,18 @@ public:
     // Whether all that was added has ended before `now`.
     bool is_over(SimTime now) const { return steps_.back().time < now; }
 
+    // What was told reaches the level from now on and until then, or longer if nothing is known to change then; now if it does
+    // not reach it.
+    SimTime told_until(double level_w) const;
+    std::size_t untold_count() const { return untold_.size(); }
     // Tells as many as it takes: calls `tell(coming)` for each. Returns by how many W the sum may still rise before more
     // has to be told; not positive if that is not known.
     template <typename Tell>
     double settle(double level_w, const Tell& tell);
 
 private:
+    static constexpr double margin = 1e-9;  // for rounding
+
     // From its time to that of the next step; or, of several changes in one moment, for the instants between them:
     // then everything counts for `all_w` and nothing for `told_w` that changes there.
     struct Step {
@@ -57,8 +63,11 @@ private:
         double told_w = 0;
 
         bool is_within(SimTime start, SimTime end) const { return time >= start && time < end; }
+        bool is_told(double level_w) const { return told_w * (1 - margin) >= level_w; }
     };
 
+    // Which of them holds now.
+    std::size_t first_step() const { return steps_.size() > 1 && steps_[1].time <= now_ ? 1 : 0; }
     void change_at(SimTime time);
     void add_to_all(SimTime start, SimTime end, double power_w);
     void add_to_told(SimTime start, SimTime end, double power_w);
@@ -69,25 +78,24 @@ private:
     std::vector<Coming> untold_;
 };
 
-// Of those not yet told the strongest first: that takes the fewest. To be told for nothing does no harm.
+// From the last step to the first, and of those not yet told the strongest first: that takes the fewest. Frames that began
+// together end in the order of their distances. The last ones have to be told in any case, and are enough while the
+// others last, too; the other way round it would take nearly all of them. To be told for nothing does no harm.
 template <typename Tell>
 double EnergyForecast::settle(double level_w, const Tell& tell) {
-    constexpr double margin = 1e-9;  // for rounding
     double missing_w = std::numeric_limits<double>::infinity();
-    const bool is_first_over = steps_.size() > 1 && steps_[1].time <= now_;
-    for (std::size_t i = is_first_over ? 1 : 0; i < steps_.size(); ++i) {
-        const Step& step = steps_[i];
-        bool is_told = step.told_w * (1 - margin) >= level_w;
-        while (!is_told && step.all_w * (1 + margin) >= level_w) {
+    const std::size_t first = first_step();
+    for (std::size_t i = steps_.size(); i > first; --i) {
+        const Step& step = steps_[i - 1];
+        while (!step.is_told(level_w) && step.all_w * (1 + margin) >= level_w) {
             const std::optional<Coming> strongest = take_strongest_untold(step);
             if (!strongest) {
                 break;
             }
             add_to_told(strongest->start, strongest->end, strongest->power_w);
             tell(*strongest);
-            is_told = step.told_w * (1 - margin) >= level_w;
         }
-        if (!is_told) {
+        if (!step.is_told(level_w)) {
             missing_w = std::min(missing_w, level_w - step.all_w * (1 + margin));
         }
     }

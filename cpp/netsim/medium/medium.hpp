@@ -179,6 +179,8 @@ private:
         RadioId radio = 0;
         double missing_w = 0;       // more than that must come before there is somebody to tell of
         std::uint64_t next_id = 0;  // of the first transmission that it does not know
+        // It was told of enough until then, when it is looked at; long ago if it has been.
+        SimTime rests_until = SimTime::long_ago();
         EnergyForecast forecast;
     };
 
@@ -296,9 +298,11 @@ private:
     }
     double loud_to_all_m_of(const Transmission& transmission, const Audience& audience) const;
     // Tells the radio of as many as it takes to find its channel busy when it is. Returns by how many W the sum may still
-    // rise before more has to be told. What is worked out once for a radio is kept in its outlook, as the rings of several
-    // transmissions ask for it, and again for each new one.
+    // rise before more has to be told; not positive if that is not known. What is worked out once for a radio is kept in its
+    // outlook, as the rings of several transmissions ask for it, and again for each new one.
     double missing_at(RadioId radio, const Position& place);
+    // The same at that time, if it watches then.
+    void look_at(RadioId radio, SimTime time);
     // The same for one that gets `received_w` of one transmission, and of the others at most what is in `bounds_`.
     double missing_by_bounds(RadioId radio, const Position& place, double received_w);
     void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air);

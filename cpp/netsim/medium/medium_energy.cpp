@@ -5,6 +5,9 @@
 // them, as long as the transmission lasts there, one of two things holds at any moment: the radio was told of enough to
 // find its channel busy, or all that is on the air stays below the level, by what the ring says is missing. Where bounds
 // do not tell what is missing, the sum of the powers does (energy_forecast.hpp).
+//
+// Looking at a radio is put off while nothing depends on it: until what it was told of is not enough any more, or the next
+// frame arrives. By then more frames are known, or it sends itself.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,6 +17,20 @@
 #include "netsim/medium/medium.hpp"
 
 namespace netsim {
+
+namespace {
+
+// Of what is missing: who needs to know has to ask again.
+constexpr double unknown_w = 0;
+
+// To put off looking at so many frames that a radio was not told of.
+constexpr std::size_t worth_an_event = 4;
+
+SimTime just_before(SimTime time) {
+    return time - SimTime::from_ps(1);
+}
+
+}  // namespace
 
 // At any receiver that gets `there` and is within a radius, in m, of where `here` began when that did.
 auto Medium::most_brought_w(const OnAir& there, const OnAir& here, double most_sent_w) const {
@@ -215,10 +232,13 @@ double Medium::loud_to_all_m_of(const Transmission& transmission, const Audience
 
 double Medium::missing_at(RadioId radio, const Position& place) {
     Outlook& outlook = outlook_of(radio);
-    if (outlook.next_id == next_id_) {
+    if (outlook.next_id == next_id_ && outlook.rests_until == SimTime::long_ago()) {
         return outlook.missing_w;
     }
     const SimTime now = simulator_.now();
+    if (now < outlook.rests_until) {
+        return unknown_w;
+    }
     outlook.forecast.begin_at(now);
     const std::uint64_t first_id = on_air_.front()->transmission.id;
     for (std::uint64_t id = std::max(outlook.next_id, first_id); id < next_id_; ++id) {
@@ -228,6 +248,13 @@ double Medium::missing_at(RadioId radio, const Position& place) {
         }
     }
     outlook.next_id = next_id_;
+    const SimTime rests_until = just_before(outlook.forecast.told_until(kind(radio).energy_detection_w));
+    if (now < rests_until && outlook.forecast.untold_count() >= worth_an_event) {
+        outlook.rests_until = rests_until;
+        look_at(radio, rests_until);
+        return unknown_w;
+    }
+    outlook.rests_until = SimTime::long_ago();
     outlook.missing_w =
         outlook.forecast.settle(kind(radio).energy_detection_w, [&](const EnergyForecast::Coming& coming) {
             OnAir& other = *on_air_[coming.transmission - first_id];
@@ -236,6 +263,15 @@ double Medium::missing_at(RadioId radio, const Position& place) {
                  Arrival{&other.transmission, coming.start, coming.end, coming.power_w, place, false});
         });
     return outlook.missing_w;
+}
+
+void Medium::look_at(RadioId radio, SimTime time) {
+    const auto look = [this, radio] {
+        if (attached_[radio].watches_energy) {
+            missing_at(radio, trajectories_[radio]->position_at(simulator_.now()));
+        }
+    };
+    simulator_.schedule_at(time, look, Priority::last);
 }
 
 SimTime Medium::watch_energy(RadioId radio, SimTime since) {
@@ -261,16 +297,31 @@ SimTime Medium::watch_energy(RadioId radio, SimTime since) {
     if (!is_in_a_ring && missing_beside_w(here, all_w) > 0) {
         return SimTime::long_ago();  // mostly: they are far away
     }
+    double arrived_w = 0;
     double present_w = 0;
+    SimTime next_start = SimTime::never();
+    std::size_t coming = 0;
     std::erase_if(passing_, [&](Passing& passing) {
-        passing.arrival = arrival_at(*passing.on_air, radio, place);
+        const Arrival& arrival = passing.arrival = arrival_at(*passing.on_air, radio, place);
         const bool is_its_own = passing.on_air->transmission.radio == radio;
-        present_w += !is_its_own && passing.arrival.end > now ? passing.arrival.power_w : 0;
-        return is_its_own || passing.arrival.end <= since;
+        if (!is_its_own && arrival.end > now) {
+            present_w += arrival.power_w;
+            if (arrival.start <= now) {
+                arrived_w += arrival.power_w;
+            } else {
+                next_start = std::min(next_start, arrival.start);
+                ++coming;
+            }
+        }
+        return is_its_own || arrival.end <= since;
     });
     double missing_w = missing_beside_w(here, present_w);
     if (missing_w <= 0) {
-        missing_w = missing_at(radio, place);
+        if (missing_beside_w(here, arrived_w) > 0 && coming >= worth_an_event) {
+            look_at(radio, just_before(next_start));
+        } else {
+            missing_w = missing_at(radio, place);
+        }
     }
     for (const Passing& passing : passing_) {
         EnergyRing& ring = passing.on_air->rings[audience];
@@ -357,6 +408,7 @@ Medium::Outlook& Medium::outlook_of(RadioId radio) {
         Outlook& outlook = outlooks_[outlook_of_[radio]];
         outlook.radio = radio;
         outlook.next_id = 0;
+        outlook.rests_until = SimTime::long_ago();
         outlook.forecast.begin(kind(radio).noise_w);
     }
     return outlooks_[outlook_of_[radio]];

@@ -81,6 +81,15 @@ TEST_F(EnergyForecastTest, TellsOfOthersForWhenOneThatWasToldEnds) {
     EXPECT_EQ(told.ids, (std::vector<std::uint64_t>{3, 2}));
 }
 
+TEST_F(EnergyForecastTest, TellsOfThoseThatLastAndNotOfThoseThatEndBeforeThem) {
+    for (std::int64_t id = 1; id <= 6; ++id) {
+        const double power_w = static_cast<double>(11 - id) / 10 * 0.95 * level_w;
+        forecast.add_untold({static_cast<std::uint64_t>(id), us(-1), us(10 + id), power_w});
+    }
+    told.settle();
+    EXPECT_EQ(told.ids, (std::vector<std::uint64_t>{5, 6}));
+}
+
 TEST_F(EnergyForecastTest, OnesAfterEachOtherDoNotAddUp) {
     forecast.add_untold({1, us(1), us(10), 0.6 * level_w});
     forecast.add_untold({2, us(11), us(20), 0.7 * level_w});
@@ -148,6 +157,34 @@ TEST_F(EnergyForecastTest, OnesBesideALoudOneMatterWhileItMayBeLeftOut) {
 TEST_F(EnergyForecastTest, ALoudOneThatEndsBeforeItIsSensedIsOfNoInterest) {
     forecast.add_told({1, us(1), us(4), 2 * level_w}, us(5), true);
     EXPECT_NEAR(told.settle(), level_w - noise_w, tiny_w);
+}
+
+TEST_F(EnergyForecastTest, IsToldUntilWhatWasToldIsNotEnough) {
+    forecast.add_told({1, us(0), us(10), 2 * level_w}, us(0), true);
+    forecast.add_told({2, us(5), us(20), 0.6 * level_w}, us(5), false);
+    forecast.add_told({3, us(5), us(15), 0.6 * level_w}, us(5), false);
+    EXPECT_EQ(forecast.told_until(level_w), us(15));
+}
+
+TEST_F(EnergyForecastTest, IsToldUntilNowWhileWhatWasToldIsNotEnough) {
+    forecast.add_told({1, us(1), us(10), 2 * level_w}, us(1), true);
+    EXPECT_EQ(forecast.told_until(level_w), us(0));
+}
+
+TEST_F(EnergyForecastTest, IsToldUntilTheMomentInWhichOneEndsAndTheNextBegins) {
+    forecast.add_told({1, us(0), us(10), 2 * level_w}, us(0), true);
+    forecast.add_told({2, us(10), us(20), 2 * level_w}, us(10), true);
+    EXPECT_EQ(forecast.told_until(level_w), us(10));
+}
+
+TEST_F(EnergyForecastTest, IsToldAsFarAsIsKnownWhereTheNoiseIsEnough) {
+    EnergyForecast loud;
+    loud.begin(2 * level_w);
+    loud.begin_at(us(0));
+    loud.add_untold({1, us(1), us(10), level_w});
+    EXPECT_EQ(loud.told_until(level_w), us(10));
+    loud.begin_at(us(30));
+    EXPECT_EQ(loud.told_until(level_w), us(30));
 }
 
 TEST_F(EnergyForecastTest, LevelsAreNotLostBesideLargePowers) {

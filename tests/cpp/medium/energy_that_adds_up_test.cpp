@@ -136,6 +136,27 @@ TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrame) {
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
 }
 
+// Many, so that looking at them is put off.
+TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrameBesideWhichManyBegan) {
+    sends_at(add_sender({1, 0, 0}, 1e-8), us(10), us(100));
+    for (int i = 1; i <= 8; ++i) {
+        sends_at(add_sender({1.0 * i, 0, 0}, 2e-11), us(20 + i), us(100));
+    }
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), std::vector{us(11)});
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(20 + 4 + 4 + 100)});
+}
+
+TEST_P(EnergyThatAddsUp, OfManyIsNoticedIfItArrivesAfterALoudFrameBesideWhichTheyBegan) {
+    sends_at(add_sender({1, 0, 0}, 1e-8), us(10), us(10));
+    for (int i = 0; i < 8; ++i) {
+        sends_at(add_sender({20.0 + i, 0, 0}, 2e-11), us(12), us(100));
+    }
+    air.run();
+    EXPECT_EQ(receiver->log.times_of(RadioWord::busy), (std::vector{us(11), us(36)}));
+    EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(21), us(135)}));
+}
+
 INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp,
                          testing::Values(Hearing::what_matters, Hearing::everything),
                          [](const auto& param_info) {

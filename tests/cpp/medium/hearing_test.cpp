@@ -86,8 +86,10 @@ void expect_same_course(const RandomScenario& scenario) {
     }
     EXPECT_TRUE(shortcut.deliveries == plain.deliveries) << "scenario " << scenario.seed;
     EXPECT_EQ(ledger_of(shortcut.network), ledger_of(plain.network)) << "scenario " << scenario.seed;
-    // One event more for an instant in which many frames begin: five or more of them.
-    EXPECT_LE(shortcut.network.event_count(), plain.network.event_count() + frame_count(plain.network) / 5)
+    // One event more for an instant in which many frames begin, five or more of them, and for putting off to look at a radio,
+    // which mostly saves telling it of four or more.
+    const std::uint64_t more = frame_count(plain.network) / 5 + plain.network.event_count() / 50;
+    EXPECT_LE(shortcut.network.event_count(), plain.network.event_count() + more)
         << "scenario " << scenario.seed;
 }
 

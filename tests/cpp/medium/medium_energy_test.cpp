@@ -122,6 +122,68 @@ TEST_F(WatchedEnergy, OfWhatDidNotSufficeNothingIsKnown) {
     EXPECT_EQ(busy_until, SimTime::long_ago());
 }
 
+// Six frames on the way, of which it takes five: they arrive at 11, 12, … µs and last for 100 µs.
+class ManyThatAreComing : public testing::TestWithParam<Hearing> {
+protected:
+    ManyThatAreComing() {
+        receiver.stop_watching_channel();
+        for (int i = 1; i <= 6; ++i) {
+            const double away_m = i * light_microsecond_m;
+            BareRadio& sender =
+                air.add_radio({away_m, 0, 0}, test::radio_of_power(test::power_for(2.3e-11, away_m)));
+            air.at(us(10), [&sender] { sender.send(us(100)); });
+        }
+    }
+
+    Air air{MediumConfig(), GetParam()};
+    BareRadio& bare = air.add_radio({0, 0, 0}, deaf_but_sensing());
+    Radio& receiver = bare.radio;
+};
+
+TEST_P(ManyThatAreComing, MakeTheChannelBusyOfWhoBeganToWatchBeforeTheyArrived) {
+    air.at(us(10) + SimTime::from_ns(500), [this] { receiver.watch_channel(us(10)); });
+    air.run();
+    EXPECT_EQ(bare.log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(112)}}));
+}
+
+TEST_P(ManyThatAreComing, MakeTheChannelBusyOfWhoBeganToWatchAsTheFirstArrived) {
+    air.at(us(11), [this] { receiver.watch_channel(us(10)); });
+    air.run();
+    EXPECT_EQ(bare.log.events,
+              (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(112)}}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Hearings, ManyThatAreComing,
+                         testing::Values(Hearing::what_matters, Hearing::everything),
+                         [](const auto& param_info) {
+                             return param_info.param == Hearing::everything ? "everything" : "what_matters";
+                         });
+
+// Who stops before they arrive, to send itself, is told of none of them.
+TEST(ManyThatAreStillComing, CostWhoStopsToWatchOneEvent) {
+    const auto event_count = [](bool watches) {
+        Air air;
+        Radio& receiver = air.add_radio({0, 0, 0}, deaf_but_sensing()).radio;
+        receiver.stop_watching_channel();
+        for (int i = 1; i <= 6; ++i) {
+            const double away_m = i * light_microsecond_m;
+            BareRadio& sender =
+                air.add_radio({away_m, 0, 0}, test::radio_of_power(test::power_for(2.3e-11, away_m)));
+            air.at(us(10), [&sender] { sender.send(us(100)); });
+        }
+        air.at(us(10) + SimTime::from_ns(500), [&receiver, watches] {
+            if (watches) {
+                receiver.watch_channel(us(10));
+                receiver.stop_watching_channel();
+            }
+        });
+        air.run();
+        return air.simulator.event_count();
+    };
+    EXPECT_EQ(event_count(true), event_count(false) + 1);
+}
+
 // A station does not watch as long as it has nothing to send, and finds its channel all the same as if it did.
 class StationBesideEnergy : public testing::TestWithParam<Hearing> {
 protected:
