@@ -60,19 +60,23 @@ class Drift(Quiet):
         self.provider.send_mobility_command(SetVelocityMobilityCommand(0, -3, 0.5))
 
 
-@pytest.mark.parametrize("reference", [(-15.84, -47.92, 1000.0), (0, 0, 0)])
-def test_a_mission_a_drift_and_a_node_on_the_ground(reference, tmp_path):
-    configuration = ArdupilotMobilityConfiguration(
-        reference_coordinates=reference, simulation_startup_speedup=10
-    )
-    builder = SimulationBuilder(SimulationConfiguration(duration=40, real_time=4))
+def flown(configuration, real_time):
+    builder = SimulationBuilder(SimulationConfiguration(duration=40, real_time=real_time))
     builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
     builder.add_node(Mission, (0, 0, 10))
     builder.add_node(Drift, (0, 50, 12))
     builder.add_node(Quiet, (0, 0, 0))
     simulator = builder.build()
     simulator.start_simulation()
-    mission, drift, ground = (node.protocol_encapsulator.protocol for node in simulator.nodes)
+    return [node.protocol_encapsulator.protocol for node in simulator.nodes]
+
+
+@pytest.mark.parametrize("reference", [(-15.84, -47.92, 1000.0), (0, 0, 0)])
+def test_a_mission_a_drift_and_a_node_on_the_ground(reference, tmp_path):
+    configuration = ArdupilotMobilityConfiguration(
+        reference_coordinates=reference, simulation_startup_speedup=10
+    )
+    mission, drift, ground = flown(configuration, real_time=4)
     assert mission.at(0) == pytest.approx((0, 0, 10), abs=1.5)
     assert mission.mission.is_idle
     assert mission.at(40) == pytest.approx((40, 20, 15), abs=2)
@@ -89,14 +93,7 @@ def on_simulated_time(**parameters):
     configuration = ArdupilotMobilityConfiguration(
         reference_coordinates=(-15.84, -47.92, 1000.0), autopilot_parameters=parameters
     )
-    builder = SimulationBuilder(SimulationConfiguration(duration=40))
-    builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
-    builder.add_node(Mission, (0, 0, 10))
-    builder.add_node(Drift, (0, 50, 12))
-    builder.add_node(Quiet, (0, 0, 0))
-    simulator = builder.build()
-    simulator.start_simulation()
-    return [node.protocol_encapsulator.protocol for node in simulator.nodes]
+    return flown(configuration, real_time=False)
 
 
 def test_on_simulated_time_flights_are_exact_and_repeatable():

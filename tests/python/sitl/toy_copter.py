@@ -100,18 +100,19 @@ class Copter:
         self.parameters = {name: float(value) for name, value in map(str.split, lines) if name != UNKNOWN}
 
     def run(self):
-        while True:
-            readable, _, _ = select.select([self.socket], [], [], 0.002)
-            if readable:
-                data = self.socket.recv(65536)
-                if not data:
-                    return
-                for message in self.codec.parse_buffer(data) or ():
-                    self.obey(message)
+        while self.listen(0.002):
             wall = time.monotonic()
             pace = 0.5 if self.wrongs.get("slow") else 1.0
             self.advance((wall - self.wall) * self.speedup * pace)
             self.wall = wall
+
+    def listen(self, wait_s):
+        """Obey what comes by MAVLink; whether there is still somebody."""
+        readable, _, _ = select.select([self.socket], [], [], wait_s)
+        data = self.socket.recv(65536) if readable else None
+        for message in self.codec.parse_buffer(data) or () if data else ():
+            self.obey(message)
+        return data != b""
 
     def advance(self, dt):
         self.now += dt
@@ -284,16 +285,10 @@ class LockStepCopter(Copter):
         self.frames = self.repeats = 0
 
     def run(self):
-        while True:
-            self.take_step()
-            readable, _, _ = select.select([self.socket], [], [], 0)
-            if readable:
-                data = self.socket.recv(65536)
-                if not data:
-                    return
-                for message in self.codec.parse_buffer(data) or ():
-                    self.obey(message)
+        self.take_step()
+        while self.listen(0):
             self.advance(1 / self.RATE_HZ)
+            self.take_step()
 
     def take_step(self):
         while self.is_time_to("hangs_at"):
