@@ -24,8 +24,8 @@ COMPLETED = {
 """Files whose General runs only with what the others add."""
 FILES = {
     *("beacons", "capture", "flood", "flyby", "hidden", "hidden_inet", "jittered", "link", "narrowband"),
-    *("narrowband_contention", "narrowband_link", "rate_control", "saturation", "sir", "synchronised"),
-    "unicast_failures",
+    *("narrowband_contention", "narrowband_link", "rate_control", "rate_control_inet", "saturation", "sir"),
+    *("synchronised", "unicast_failures"),
 }
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 

@@ -45,6 +45,7 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in metres, mo
         ),
     ),
     "reference/rate_control": ("Fixed", 1000, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
+    "reference/rate_control_inet": ("ArfTimer", 1000, ()),
     "reference/saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/sir": ("General", 1000, ()),
     "reference/synchronised": ("General", 100, ()),
