@@ -6,7 +6,7 @@
 // it of as many as that takes. What is known once stays known, so another transmission costs its own power and a few
 // additions. Sums are only added to, never subtracted from: beside 1 W a level of 1e-12 W is lost to rounding.
 //
-// Kept by the medium (medium_energy.cpp) for receivers for which bounds did not tell that the level is not reached.
+// Kept by the watch over energy (energy_outlooks.hpp) for receivers for which bounds did not tell that the level is not reached.
 #pragma once
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 // Mostly the ring is the first zone and one number tells that it is enough: what the others can bring to anybody farther
 // out who matters. The zones beyond are told apart only once that is not so.
 //
-// Kept by the medium for each transmission that has others beside it (medium_energy.cpp), which knows the powers.
+// Kept for each transmission that has others beside it by the watch over energy (energy_watch.hpp), which knows the powers.
 #pragma once
 
 #include <algorithm>

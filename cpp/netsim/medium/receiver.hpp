@@ -17,6 +17,9 @@ protected:
     ~MediumListener() = default;
 };
 
+// Bounds are taken so much larger and levels so much lower, for rounding.
+inline constexpr double rounding_margin = 1e-9;
+
 // What a receiver can hear. Mostly all of a network have the same.
 struct ReceiverKind {
     Band band;
@@ -28,6 +31,20 @@ struct ReceiverKind {
     PpduFormats formats = PpduFormats::all();
 
     bool operator==(const ReceiverKind&) const = default;
+
+    bool can_decode(const Transmission& sent) const { return sent.can_be_decoded(band, formats); }
+    // If that power of it arrives.
+    bool can_lock_on(const Transmission& sent, double power_w) const {
+        return power_w >= sensitivity_w && can_decode(sent);
+    }
+    // Whether that power makes the channel busy,
+    bool is_loud(double power_w) const { return noise_w + power_w >= energy_detection_w; }
+    // also if it is a sum, however that was rounded.
+    bool is_surely_loud(double power_w) const { return is_loud(power_w * (1 - rounding_margin)); }
+    // Of what its channel needs to be busy, beside that power.
+    double missing_beside_w(double power_w) const {
+        return energy_detection_w * (1 - rounding_margin) - (noise_w + power_w);
+    }
 };
 
 struct Receiver {

@@ -1,3 +1,9 @@
+#include "netsim/medium/energy_watch.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,6 +26,95 @@ RadioConfig deaf_but_sensing() {
     config.sensitivity_w = 1e-9;
     config.energy_detection_w = 1e-10;
     return config;
+}
+
+// The watch alone: who is told of what, by whoever else is told.
+class EnergyWatchAlone : public testing::Test, private EnergyListener {
+protected:
+    struct Matter {
+        RadioId radio;
+        std::uint64_t transmission;
+        SimTime start;
+
+        bool operator==(const Matter&) const = default;
+    };
+
+    // Of 1e-10 W, that of noise included, and one that hears nothing else.
+    RadioId add(Position place) {
+        const Trajectory& trajectory = places.emplace_back(place);
+        const RadioConfig config = deaf_but_sensing();
+        watch.add_radio();
+        return links.add(InterfaceId{static_cast<NodeId>(places.size()) - 1, 0},
+                         {.band = {config.carrier_hz, config.bandwidth_hz},
+                          .sensitivity_w = config.sensitivity_w,
+                          .energy_detection_w = config.energy_detection_w},
+                         trajectory, MountedAntenna(), SimTime());
+    }
+    // Begins now for 100 µs, as the medium has it; the receiver at the origin gets that power.
+    void send(RadioId sender, double received_w) {
+        Transmission transmission;
+        transmission.radio = sender;
+        transmission.sender = links.interface(sender);
+        transmission.duration = us(100);
+        transmission.band = links.kind(sender).band;
+        transmission.power_w =
+            test::power_for(received_w, distance({}, links.position(sender, simulator.now())));
+        OnAir& entry = waves.put(std::move(transmission), simulator.now(), 0);
+        entry.last_end = simulator.now() + us(1000);
+        Audience& audience = links.audiences()[0];
+        watch.begin_ring(entry.rings[0], audience, entry.transmission);
+        audience.members.prepare(simulator.now(), links.odometer(), 1000);
+        if (links.watches_energy(0) && received_w >= entry.rings[0].least_power_w()) {
+            entry.rings[0].watched().push_back({0, {}, links.kind(0).missing_beside_w(received_w)});
+        }
+        std::vector<OnAir*> beside;
+        waves.find_those_beside(entry, beside);
+        if (!beside.empty()) {
+            watch.add_up_in_time(entry, beside);
+        }
+    }
+
+    Simulator simulator;
+    std::deque<Trajectory> places;
+    Links links{MediumConfig(), 1};
+    Airwaves waves{links};
+    EnergyWatch watch{simulator, links, waves, *this};
+    std::vector<Matter> told;
+    RadioId receiver = add({0, 0, 0});
+    RadioId near = add({light_microsecond_m, 0, 0});
+    RadioId far = add({0, 2 * light_microsecond_m, 0});
+
+private:
+    void energy_matters(RadioId radio, OnAir& on_air, const Arrival& arrival) override {
+        if (radio == receiver) {
+            told.push_back({radio, on_air.transmission.id, arrival.start});
+        }
+    }
+};
+
+TEST_F(EnergyWatchAlone, TellsOfAllThatItTakes) {
+    send(near, 6e-11);
+    EXPECT_TRUE(told.empty());
+    send(far, 6e-11);
+    EXPECT_EQ(told.size(), 2U);
+    EXPECT_NE(std::ranges::find(told, Matter{receiver, 0, us(1)}), told.end());
+    EXPECT_NE(std::ranges::find(told, Matter{receiver, 1, us(2)}), told.end());
+}
+
+TEST_F(EnergyWatchAlone, TellsNobodyWhereItIsNotEnough) {
+    send(near, 4e-11);
+    send(far, 4e-11);
+    EXPECT_TRUE(told.empty());
+}
+
+TEST_F(EnergyWatchAlone, TellsNobodyWhoDoesNotWatchBeforeHeDoes) {
+    links.set_watches_energy(receiver, false);
+    send(near, 6e-11);
+    send(far, 6e-11);
+    EXPECT_TRUE(told.empty());
+    links.set_watches_energy(receiver, true);
+    watch.watch(receiver, simulator.now());
+    EXPECT_EQ(told.size(), 2U);
 }
 
 // Two frames that together make the channel of a receiver busy from 62 µs to 111 µs, the second lasts until 162 µs.

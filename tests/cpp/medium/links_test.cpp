@@ -1,0 +1,131 @@
+#include "netsim/medium/links.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace netsim {
+namespace {
+
+ReceiverKind usual() {
+    return {.band = {2.412e9, 20e6}, .sensitivity_w = 3e-12, .energy_detection_w = 3e-12, .noise_w = 1e-14};
+}
+
+ReceiverKind with_sensitivity(double sensitivity_w) {
+    ReceiverKind kind = usual();
+    kind.sensitivity_w = sensitivity_w;
+    return kind;
+}
+
+ReceiverKind elsewhere() {
+    ReceiverKind kind = usual();
+    kind.band.carrier_hz = 2.437e9;
+    return kind;
+}
+
+class LinksTest : public testing::Test {
+protected:
+    RadioId add(Position place, const ReceiverKind& kind = usual(), std::uint8_t interface = 0) {
+        if (interface == 0) {
+            places.emplace_back(place);
+        }
+        const auto node = static_cast<NodeId>(places.size()) - 1;
+        return links.add(InterfaceId{node, interface}, kind, places.back(), MountedAntenna(), SimTime());
+    }
+    Transmission sent_by(RadioId radio, double power_w = 1e-3) const {
+        Transmission sent;
+        sent.sender = links.interface(radio);
+        sent.radio = radio;
+        sent.start = SimTime::from_us(10);
+        sent.duration = SimTime::from_us(100);
+        sent.power_w = power_w;
+        sent.band = links.kind(radio).band;
+        sent.origin = links.position(radio, sent.start);
+        return sent;
+    }
+
+    std::deque<Trajectory> places;
+    Links links{MediumConfig(), 1};
+};
+
+TEST_F(LinksTest, OfOneBandAndLikeEarsAreOneAudience) {
+    const RadioId one = add({0, 0, 0});
+    const RadioId like = add({10, 0, 0}, with_sensitivity(2.9e-12));
+    EXPECT_EQ(links.audience_of(one), links.audience_of(like));
+    EXPECT_EQ(links.audiences().size(), 1U);
+    EXPECT_EQ(links.audiences()[0].least_w, 2.9e-12);
+}
+
+TEST_F(LinksTest, WhoHearsMuchLessOrElsewhereIsOfAnotherAudience) {
+    const RadioId one = add({0, 0, 0});
+    const RadioId keen = add({10, 0, 0}, with_sensitivity(1e-15));
+    const RadioId other = add({10, 0, 0}, elsewhere());
+    EXPECT_NE(links.audience_of(one), links.audience_of(keen));
+    EXPECT_NE(links.audience_of(one), links.audience_of(other));
+}
+
+TEST_F(LinksTest, AnArrivalComesAfterItsWayAndIsLockableIfItIsStrongEnough) {
+    const RadioId sender = add({0, 0, 0});
+    const RadioId receiver = add({300, 0, 0});
+    const Position place{300, 0, 0};
+    const double received_w = links.power_w(sent_by(sender), 1, receiver, place, 300);
+    const double enough = usual().sensitivity_w / received_w;
+    for (const bool is_enough : {false, true}) {
+        const Transmission sent = sent_by(sender, 1e-3 * enough * (is_enough ? 1.001 : 0.999));
+        const Arrival arrival = links.arrival(sent, 1, receiver, place);
+        EXPECT_EQ(arrival.start, sent.start + propagation_delay(300));
+        EXPECT_EQ(arrival.end, arrival.start + sent.duration);
+        EXPECT_EQ(arrival.lockable, is_enough);
+    }
+}
+
+TEST_F(LinksTest, AShareOfTheBandBringsThatShareOfThePower) {
+    const RadioId sender = add({0, 0, 0});
+    const RadioId receiver = add({300, 0, 0});
+    const Position place{300, 0, 0};
+    EXPECT_DOUBLE_EQ(links.power_w(sent_by(sender), 0.25, receiver, place, 300),
+                     links.power_w(sent_by(sender), 1, receiver, place, 300) / 4);
+}
+
+TEST_F(LinksTest, NobodyGetsAPowerFromBeyondItsReach) {
+    const RadioId sender = add({0, 0, 0});
+    const RadioId receiver = add({300, 0, 0});
+    const Transmission sent = sent_by(sender);
+    Audience& audience = links.audiences()[0];
+    const double reach_m = links.reach_m(audience, sent);
+    EXPECT_EQ(reach_m, links.reach_of_power_m(sent, audience, audience.noticed_w(sent)));
+    EXPECT_LT(links.power_w(sent, 1, receiver, {reach_m, 0, 0}, reach_m), audience.least_w);
+    EXPECT_GT(links.power_w(sent, 1, receiver, {0.999 * reach_m, 0, 0}, 0.999 * reach_m), audience.least_w);
+    EXPECT_EQ(links.reach_of_power_m(sent, audience, 0), std::numeric_limits<double>::infinity());
+}
+
+TEST_F(LinksTest, WhoIsNearerThanThatFindsItLoud) {
+    const RadioId sender = add({0, 0, 0});
+    const RadioId receiver = add({300, 0, 0});
+    const Transmission sent = sent_by(sender);
+    const double loud_m = links.loud_to_all_m(sent, links.audiences()[0]);
+    ASSERT_GT(loud_m, 0);
+    EXPECT_TRUE(usual().is_surely_loud(links.power_w(sent, 1, receiver, {loud_m, 0, 0}, loud_m)));
+}
+
+TEST_F(LinksTest, TheAddresseeIsTheInterfaceOfThatNodeThatCanDecodeIt) {
+    const RadioId sender = add({0, 0, 0});
+    add({10, 0, 0}, elsewhere());
+    const RadioId second = add({10, 0, 0}, usual(), 1);
+    add({20, 0, 0}, elsewhere());
+    Transmission sent = sent_by(sender);
+    const auto addressee_of_frame_to = [&](NodeId node) {
+        sent.label.destination = node;
+        return links.addressee_of(sent);
+    };
+    EXPECT_EQ(addressee_of_frame_to(1), second);
+    EXPECT_EQ(addressee_of_frame_to(2), -1);  // on another channel
+    EXPECT_EQ(addressee_of_frame_to(0), -1);  // the sender itself
+    EXPECT_EQ(addressee_of_frame_to(3), -1);  // nobody
+    EXPECT_EQ(addressee_of_frame_to(broadcast_id), -1);
+}
+
+}  // namespace
+}  // namespace netsim
