@@ -55,6 +55,17 @@ def off_null_island(latitude: float, longitude: float) -> tuple[float, float]:
     return (latitude, longitude)
 
 
+def check_same_hemisphere(home: Position, longitude: float) -> None:
+    """Raise ValueError if the date line is between home and a longitude.
+
+    ArduPilot takes the difference of two longitudes as it is, and flies away for ever.
+    """
+    if abs(longitude - home[1]) > 180.0:
+        raise ValueError(
+            f"ArduPilot cannot fly across the date line, from longitude {home[1]:.4f} to {longitude:.4f}"
+        )
+
+
 def autopilots_place(home: Position, offset: Position) -> Position:
     """Return what an autopilot takes for the place at an offset from its home: its Earth is flat.
 
@@ -64,12 +75,13 @@ def autopilots_place(home: Position, offset: Position) -> Position:
 
     Returns:
         (latitude deg, longitude deg, height above home m).
+
+    Raises:
+        ValueError: It is across the date line.
     """
     latitude, longitude, _ = home
     north, east, up = offset
     parallel_m = _ARDUPILOTS_EARTH_M * math.cos(math.radians(latitude))
-    return (
-        latitude + math.degrees(north / _ARDUPILOTS_EARTH_M),
-        (longitude + math.degrees(east / parallel_m) + 180.0) % 360.0 - 180.0,
-        up,
-    )
+    target_longitude = (longitude + math.degrees(east / parallel_m) + 180.0) % 360.0 - 180.0
+    check_same_hemisphere(home, target_longitude)
+    return (latitude + math.degrees(north / _ARDUPILOTS_EARTH_M), target_longitude, up)

@@ -34,15 +34,16 @@ class LockStepGroup:
             autopilot.answer()
         last_sign_s = time.monotonic()
         while behind:
-            ready = self._selector.select(PATIENCE_S)
-            for key, _ in ready:
+            has_gone_on = False
+            for key, _ in self._selector.select(PATIENCE_S):
                 autopilot = cast(LockStepAutopilot, key.fileobj)
-                if autopilot.take_wish():
+                if autopilot.take_wish():  # and no repetition, by one that waits for the others
+                    has_gone_on = True
                     if autopilot.is_behind(time_s):
                         autopilot.answer()
                     else:
                         behind.discard(autopilot)
-            if ready:
+            if has_gone_on:
                 last_sign_s = time.monotonic()
                 continue
             for autopilot in behind:

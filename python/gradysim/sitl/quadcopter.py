@@ -106,15 +106,15 @@ class Quadcopter:
         a_north = down[0] * lift - drag * (north - wind[0])
         a_east = down[1] * lift - drag * (east - wind[1])
         a_down = down[2] * lift - drag * (sink - wind[2])
-        x, y, z = self.position_m
-        if z >= 0 and sink >= 0 and a_down + GRAVITY_MPS2 >= 0:
-            self._stand()
-            return
         north += a_north * duration_s
         east += a_east * duration_s
         sink += (a_down + GRAVITY_MPS2) * duration_s
+        x, y, z = self.position_m
         self.velocity_mps = (north, east, sink)
         self.position_m = (x + north * duration_s, y + east * duration_s, z + sink * duration_s)
+        if self.position_m[2] >= 0 and sink >= 0:
+            self._stand()
+            return
         self.specific_force_mps2 = (
             forward[0] * a_north + forward[1] * a_east + forward[2] * a_down,
             right[0] * a_north + right[1] * a_east + right[2] * a_down,

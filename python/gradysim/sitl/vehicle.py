@@ -236,7 +236,9 @@ class Vehicle:
             )
             if await self.link.wait_for(confirmed, _ANSWER_S) is not None:
                 return
-        raise self._failure(f"parameter {name} = {value:g}", f"not confirmed after {_TRIES} tries")
+        raise self._failure(
+            f"parameter {name} = {value:g}", f"not confirmed after {_TRIES} tries: is there one of that name?"
+        )
 
     def say_hello(self) -> None:
         """Send the HEARTBEAT of a ground station, without which a real vehicle takes its link for lost."""

@@ -6,6 +6,8 @@ those on the wall's; only here they are repeatable.
 
 import asyncio
 
+from gradysim.sitl.nested_loop import outer_loop_stands
+
 _HOPS = 12
 """Rounds of callbacks for each turn: as many as it takes from a message to the next order, and some more."""
 
@@ -27,12 +29,8 @@ class VehicleClockLoop(asyncio.SelectorEventLoop):
         self._now_s = now_s
         self._hops_left = _HOPS
         self.call_soon(self._hop)
-        outer = asyncio._get_running_loop()  # of a notebook, for example; it stands still meanwhile
-        asyncio._set_running_loop(None)
-        try:
+        with outer_loop_stands():
             self.run_forever()
-        finally:
-            asyncio._set_running_loop(outer)
 
     def cancel_all(self) -> None:
         """Cancel all tasks, let them finish, and close the loop; no-op if that has happened."""

@@ -162,6 +162,16 @@ def test_an_autopilot_that_hangs_is_given_up(toy_copter, flights_of, monkeypatch
     assert said.startswith("vehicle 0: no sign of life in 0.5 s of wall time")
 
 
+def test_so_is_one_that_hangs_beside_another_that_waits_for_it(toy_copter, monkeypatch):
+    monkeypatch.setattr("gradysim.sitl.lock_step_group._SILENCE_S", 0.5)
+    program = toy_copter({0: {"repeats": True}, 1: {"hangs_at": 2}})
+    nodes = [FlownNode(n, f"vehicle {n}", (0.0, 9.0 * n, 10.0), program=program, user=None) for n in range(2)]
+    flights = Flights(nodes, REFERENCE)
+    with pytest.raises(SitlError, match="vehicle 1: no sign of life in"):
+        flights.begin()
+    flights.close()
+
+
 def test_one_that_starts_and_does_nothing_is_given_up(toy_copter, flights_of):
     said = failure_of(flights_of, toy_copter({0: {"gives_up": True}}), timeout_s=1.0)
     assert said == "vehicle 0: start: it did not ask for physics in 1 s; it printed last: invalid param"

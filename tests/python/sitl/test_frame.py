@@ -48,10 +48,17 @@ def test_all_other_places_stay(place):
 
 
 def test_an_autopilots_earth_is_flat_and_a_little_larger():
-    home = (60.0, 179.9999, 100.0)
-    latitude, longitude, height = autopilots_place(home, (1000.0, 1000.0, 20.0))
+    home = (60.0, 30.0, 100.0)
+    latitude, longitude, height = autopilots_place(home, (1000.0, -1000.0, 20.0))
     degree_m = math.pi / 180 * 6_378_100
     assert (latitude - 60.0) * degree_m == pytest.approx(1000)
-    assert (longitude + 360 - 179.9999) * degree_m / 2 == pytest.approx(1000)
+    assert (longitude - 30.0) * degree_m / 2 == pytest.approx(-1000)
     assert height == 20.0
-    assert autopilots_place(home, (0.0, 0.0, 0.0)) == pytest.approx((60.0, 179.9999, 0.0))
+    assert autopilots_place(home, (0.0, 0.0, 0.0)) == pytest.approx((60.0, 30.0, 0.0))
+
+
+@pytest.mark.parametrize(("longitude", "east_m"), [(179.9998, 60.0), (-179.9998, -60.0)])
+def test_it_ends_at_the_date_line(longitude, east_m):
+    assert autopilots_place((0.0, longitude, 0.0), (0.0, -east_m, 5.0))[2] == 5.0
+    with pytest.raises(ValueError, match="across the date line"):
+        autopilots_place((0.0, longitude, 0.0), (0.0, east_m, 5.0))

@@ -57,6 +57,15 @@ def test_a_fall_ends_on_the_ground():
     assert body.specific_force_mps2 == (0, 0, -GRAVITY_MPS2)
 
 
+def test_who_brakes_as_it_touches_down_stands_on_the_ground():
+    body = Quadcopter()
+    body.position_m, body.velocity_mps = (0.0, 0.0, -0.01), (3.0, 0.0, 2.0)
+    for _ in range(10):
+        body.step([HOVER * 1.05] * 4, STEP_S)
+        assert body.position_m[2] <= 0
+    assert abs(body.velocity_mps[0]) < 0.1
+
+
 MORE, LESS = HOVER * 1.02, HOVER * 0.98
 
 
@@ -97,5 +106,5 @@ def test_whatever_the_motors_do_it_is_above_the_ground_and_turned_somehow(comman
     for command in commands:
         for _ in range(20):
             body.step(command, STEP_S)
-        assert body.position_m[2] <= 0.1
+        assert body.position_m[2] <= 0
         assert math.hypot(*body.attitude) == pytest.approx(1)

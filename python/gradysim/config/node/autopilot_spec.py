@@ -73,5 +73,7 @@ def _parameters(setting: Setting) -> dict[str, float]:
                 setting.source,
                 f'`{word}` is no parameter; expected some as "WPNAV_SPEED_UP=500 SIM_WIND_SPD=8"',
             )
+        if name.upper() in parameters:
+            raise ConfigError.at(setting.source, f"`{name}` comes twice; expected each parameter once")
         parameters[name.upper()] = value
     return parameters

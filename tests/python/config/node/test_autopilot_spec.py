@@ -47,6 +47,10 @@ def test_all_of_it(make_scenario, tmp_path):
         ('*.uavs[*].mobility.autopilotParameters = "A=fast"', "`A=fast` is no parameter"),
         ('*.uavs[*].mobility.autopilotParameters = "A=inf"', "`A=inf` is no parameter"),
         ('*.uavs[*].mobility.autopilotParameters = "=1"', "`=1` is no parameter"),
+        (
+            '*.uavs[*].mobility.autopilotParameters = "A=1 a=2"',
+            "`a` comes twice; expected each parameter once",
+        ),
     ],
 )
 def test_what_makes_no_sense_is_refused_with_its_line(make_scenario, line, said):

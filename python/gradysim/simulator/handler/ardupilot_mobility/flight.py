@@ -17,7 +17,7 @@ from gradysim.simulator.node import Node
 from gradysim.sitl.connection import Connection, connect
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.fleet import Fleet
-from gradysim.sitl.frame import cartesian_to_geo, home_of
+from gradysim.sitl.frame import cartesian_to_geo, check_same_hemisphere, home_of
 from gradysim.sitl.ground_station import GroundStationPort, open_ground_station
 from gradysim.sitl.link import MavlinkLink, Message
 from gradysim.sitl.pilot import Pilot
@@ -66,6 +66,7 @@ class Flight:
         self._real_time = real_time
         self._position_hz = max(configuration.mavlink_streamrate, 1 / configuration.update_rate)
         self._reference: Position = configuration.reference_coordinates
+        self._start = home_of(self._reference, node.position)
         self._link = MavlinkLink(f"node {node.id} ({label_node(node)})")
         self._link.on_message = self._note
         self._vehicle = Vehicle(self._link)
@@ -167,7 +168,7 @@ class Flight:
             self._connection = await fleet.launch(
                 self._link,
                 self._node.id,
-                home_of(self._reference, self._node.position),
+                self._start,
                 speedup=configuration.simulation_startup_speedup,
                 timeout_s=timeout_s,
                 parameters=configuration.autopilot_parameters,
@@ -192,6 +193,7 @@ class Flight:
     def _place_of(self, point: Position) -> Position:
         """Return (latitude deg, longitude deg, height above home m) of a point of the frame."""
         latitude, longitude, _ = cartesian_to_geo(self._reference, point)
+        check_same_hemisphere(self._start, longitude)
         return (latitude, longitude, point[2])
 
     def _check_distance(self, initial: Position) -> None:

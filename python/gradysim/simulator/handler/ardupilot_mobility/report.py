@@ -44,13 +44,13 @@ class NodeReport:
 
 
 def write_report(path: Path, nodes: Mapping[int, NodeReport]) -> None:
-    """Write the file and log it as a table."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for identifier, node in nodes.items():
-            wasted = "" if node.battery_wasted is None else node.battery_wasted
-            writer.writerow((identifier, node.requests, node.drops, wasted))
+    """Write the file and log it as a table. If it cannot be written, that is a warning; the table remains."""
+    try:
+        _write(path, nodes)
+        written = f"Written to {path.absolute()}"
+    except OSError as error:
+        _logger.warning("The report of the autopilots cannot be written: %s", error)
+        written = "Not written to a file"
     table = format_table(
         ["Node", "Telemetries", "Dropped", "Battery used (%)", "Clock off (s)"],
         [
@@ -64,4 +64,13 @@ def write_report(path: Path, nodes: Mapping[int, NodeReport]) -> None:
             for identifier, node in nodes.items()
         ],
     )
-    _logger.info("Autopilots\n%s\nWritten to %s", table, path.absolute())
+    _logger.info("Autopilots\n%s\n%s", table, written)
+
+
+def _write(path: Path, nodes: Mapping[int, NodeReport]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        for identifier, node in nodes.items():
+            wasted = "" if node.battery_wasted is None else node.battery_wasted
+            writer.writerow((identifier, node.requests, node.drops, wasted))

@@ -1,5 +1,6 @@
 """Without real time the autopilots fly on simulated time."""
 
+import asyncio
 import csv
 import logging
 
@@ -51,6 +52,17 @@ def test_two_simulations_are_the_same_to_the_last_bit(toy_copter):
     tested = flyer(at_1=GotoCoordsMobilityCommand(60, -20, 18))
     tracks = [[each.telemetry for each in fly(toy_copter(), tested, Flyer, duration=3)] for _ in range(2)]
     assert tracks[0] == tracks[1]
+
+
+@pytest.mark.parametrize("real_time", [False, 10])
+def test_it_flies_in_a_notebook_too(toy_copter, real_time):
+    """Where another asyncio loop runs in the same thread."""
+
+    async def cell():
+        return fly_at_any_pace(toy_copter(), Flyer, duration=0.5, real_time=real_time)
+
+    (protocol,) = asyncio.run(cell())
+    assert len(protocol.telemetry) >= 4
 
 
 def test_what_autopilots_say_can_be_logged(toy_copter, caplog):
