@@ -55,7 +55,7 @@ class LockStepFlight:
         """Where the node is, (x, y, z) in metres."""
         north, east, down = self.autopilot.body.position_m
         x, y, _ = self._node.start
-        return (x + north, y + east, -down)
+        return (x + north, y + east, 0.0 - down)
 
     @property
     def is_settled(self) -> bool:
