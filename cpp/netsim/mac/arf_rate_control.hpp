@@ -10,9 +10,7 @@
 //
 // Sources: A. Kamerman, L. Monteban, "WaveLAN-II: a high-performance wireless LAN for the unlicensed band", 1997 (ARF);
 // M. Lacage, M. H. Manshaei, T. Turletti, "IEEE 802.11 rate adaptation: a practical approach", 2004 (AARF).
-// Parameters are INET's. Unlike INET 4.5, and as the papers have it: what became of frames is kept for each
-// destination; a failure ends a row of successes, and falls need as many failures in a row as decrease_threshold
-// says (INET: one less); an attempt after `interval` is a probe, too; the number of successes grows up to its bound.
+// Parameters are INET's; the rules are those of the papers, which INET 4.5 leaves in six points: docs/decisions/0017.
 #pragma once
 
 #include <cstddef>
