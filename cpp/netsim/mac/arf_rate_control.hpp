@@ -10,7 +10,7 @@
 //
 // Sources: A. Kamerman, L. Monteban, "WaveLAN-II: a high-performance wireless LAN for the unlicensed band", 1997 (ARF);
 // M. Lacage, M. H. Manshaei, T. Turletti, "IEEE 802.11 rate adaptation: a practical approach", 2004 (AARF).
-// Parameters are INET's; the rules are those of the papers, which INET 4.5 leaves in six points: docs/decisions/0017.
+// Parameters are INET's; the rules are those of the papers, not all of which INET 4.5 keeps: docs/decisions/0017.
 #pragma once
 
 #include <cstddef>
