@@ -1,17 +1,21 @@
 """From what a scenario says of its nodes to autopilots that fly them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.source import Source
 from gradysim.config.node.autopilot_spec import AutopilotSpec
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeProtocol
 from gradysim.config.scenario import Scenario
+from gradysim.protocol.position import Position
 from gradysim.sitl.arducopter import find_arducopter
 from gradysim.sitl.dialect import load_dialect
 from gradysim.sitl.error import SitlError
-from gradysim.sitl.flown_node import FlownNode, wind_mps
+from gradysim.sitl.flown_node import FlownNode, check_start, wind_mps
+from gradysim.sitl.unprivileged import user_for
 
 if TYPE_CHECKING:
     from gradysim.sitl.flights import Flights
@@ -26,7 +30,7 @@ def check_autopilots(scenario: Scenario) -> None:
     """
     for spec in scenario.nodes:
         if spec.autopilot is not None:
-            _check(spec, spec.autopilot)
+            _check(spec, spec.autopilot, scenario.reference_coordinates)
 
 
 def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights | None":
@@ -60,22 +64,23 @@ def _flown(spec: NodeSpec, autopilot: AutopilotSpec) -> FlownNode:
     )
 
 
-def _check(spec: NodeSpec, autopilot: AutopilotSpec) -> None:
+def _check(spec: NodeSpec, autopilot: AutopilotSpec, reference: Position) -> None:
     if issubclass(spec.protocol, NativeProtocol):
         text = f"{spec.name}: an autopilot obeys protocols in Python only; expected another mobility.typename"
         raise ConfigError.at(autopilot.source, text)
-    if spec.initial_position[2] < 0:
-        text = f"{spec.name} starts at z = {spec.initial_position[2]:g}m; expected at least 0m, the ground"
-        raise ConfigError.at(autopilot.source, text)
-    try:
+    with _errors_at(autopilot.source):
         load_dialect()
-    except ModuleNotFoundError as error:
-        raise ConfigError.at(autopilot.source, str(error)) from error
-    try:
-        find_arducopter(autopilot.program)
-    except SitlError as error:
-        raise ConfigError.at(autopilot.program_source, f"{spec.name}: {error}") from error
-    try:
+        check_start(spec.name, spec.initial_position, reference)
         wind_mps(spec.name, autopilot.parameters)
-    except SitlError as error:
-        raise ConfigError.at(autopilot.source, str(error)) from error
+    with _errors_at(autopilot.program_source):
+        find_arducopter(autopilot.program)
+    with _errors_at(autopilot.user_source):
+        user_for(autopilot.user)
+
+
+@contextmanager
+def _errors_at(source: Source) -> Iterator[None]:
+    try:
+        yield
+    except (SitlError, ModuleNotFoundError) as error:
+        raise ConfigError.at(source, str(error)) from error

@@ -15,12 +15,10 @@ from gradysim.protocol.messages.mobility import (
     SetSpeedMobilityCommand,
 )
 from gradysim.protocol.position import Position
+from gradysim.sitl.flown_node import UPDATE_S
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node
-
-_UPDATES_HZ = 100
-"""How often a node learns where its vehicle is; as in prototype mode. In between it moves straight on."""
 
 
 class FlownNodes:
@@ -36,6 +34,7 @@ class FlownNodes:
         self._flights = flights_of(scenario)
         self._nodes = [node for node in nodes if self._flights is not None and node.id in self._flights.ids]
         self._updates = 0
+        self._updates_hz = round(1 / UPDATE_S)
         if self._flights is not None:
             weakref.finalize(self, self._flights.close)  # Of a run that is dropped half-way.
 
@@ -77,10 +76,10 @@ class FlownNodes:
         flights = self._flights
         assert flights is not None
         self._updates += 1
-        next_s = self._updates / _UPDATES_HZ
+        next_s = self._updates / self._updates_hz
         flights.advance_to(next_s)
         for node in self._nodes:
-            _move(node, flights.position(node.id))
+            self._move(node, flights.position(node.id))
         self._network.schedule(next_s, self._let_others_pass)
 
     def _let_others_pass(self) -> None:
@@ -90,10 +89,9 @@ class FlownNodes:
     def _schedule_flight(self) -> None:
         self._network.schedule(self._network.now, self._fly_on)
 
-
-def _move(node: "Node", target: Position) -> None:
-    """Let a node be at a place by the next update."""
-    distance_m = math.dist(node.position, target)
-    if distance_m > 0:
-        node.send_mobility_command(SetSpeedMobilityCommand(distance_m * _UPDATES_HZ))
-        node.send_mobility_command(GotoCoordsMobilityCommand(*target))
+    def _move(self, node: "Node", target: Position) -> None:
+        """Let a node be at a place by the next update: straight on."""
+        distance_m = math.dist(node.position, target)
+        if distance_m > 0:
+            node.send_mobility_command(SetSpeedMobilityCommand(distance_m * self._updates_hz))
+            node.send_mobility_command(GotoCoordsMobilityCommand(*target))

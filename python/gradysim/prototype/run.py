@@ -33,8 +33,8 @@ class PrototypeRun:
         0 is full speed.
 
         Raises ConfigError when the simulator does not accept a value of the scenario, ValueError or TypeError
-        when `scenario` is none, one of the handlers cannot be added or `real_time` is no factor, and what the
-        constructor of a protocol raises.
+        when `scenario` is none, one of the handlers cannot be added or `real_time` is no factor, what the
+        constructor of a protocol raises, and SitlError when an autopilot does not start.
         """
         require_scenario(scenario)
         self._started = (perf_counter(), process_time())

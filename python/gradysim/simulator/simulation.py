@@ -218,6 +218,9 @@ class Simulator:
         """
         if self._finalized:
             return
+        if self._turns is None:
+            self._finalize(complete=complete)
+            return
         with outer_loop_stands():
             self._finalize(complete=complete)
 

@@ -57,7 +57,8 @@ def find_arducopter(path: str | os.PathLike[str] | None) -> Path:
     if not given:
         raise SitlError(
             "no autopilot: give the path of an arducopter program for SITL, or of an ArduPilot checkout in "
-            f"which it was built, as ardupilot_path or in the environment variable {ENVIRONMENT_VARIABLE}"
+            "which it was built, as mobility.autopilotPath (in a script ardupilot_path) or in the "
+            f"environment variable {ENVIRONMENT_VARIABLE}"
         )
     place = Path(given).expanduser().absolute()
     program = place / _IN_A_CHECKOUT if place.is_dir() else place

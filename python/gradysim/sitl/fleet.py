@@ -15,8 +15,8 @@ from gradysim.sitl.error import SitlError
 from gradysim.sitl.folder import FleetFolder
 from gradysim.sitl.instance import free_instance
 from gradysim.sitl.link import MavlinkLink
-from gradysim.sitl.process import AutopilotProcess, stop_all
-from gradysim.sitl.unprivileged import command_as, user_for
+from gradysim.sitl.process import GRACE_S, AutopilotProcess, stop_all
+from gradysim.sitl.unprivileged import DEFAULT_USER, command_as, user_for
 
 _HELP_S = 10.0
 
@@ -32,8 +32,9 @@ class Fleet:
         self,
         program: str | os.PathLike[str] | None,
         *,
-        user: str | None = "nobody",
+        user: str | None = DEFAULT_USER,
         console_folder: str | os.PathLike[str] | None = None,
+        grace_s: float = GRACE_S,
     ) -> None:
         """Find the program and prepare a folder.
 
@@ -41,6 +42,7 @@ class Fleet:
             program: See `find_arducopter`.
             user: Whom autopilots that root starts belong to; None for root.
             console_folder: Keeps what each autopilot prints, `autopilot_<id>.log`; None to throw it away.
+            grace_s: Wall time in which autopilots may end by themselves; one that waits for physics cannot.
 
         Raises:
             SitlError: The program cannot be run so.
@@ -53,7 +55,7 @@ class Fleet:
         files = FleetFolder()
         self._folder = files.path
         self._processes: list[AutopilotProcess] = []
-        self._end = weakref.finalize(self, _end, self._processes, files)
+        self._end = weakref.finalize(self, _end, self._processes, files, grace_s)
         self._instances: set[int] = set()
         self._program = self._reachable(found)
         self._help: str | None = None
@@ -205,6 +207,6 @@ async def _connected(connection: StreamConnection, process: AutopilotProcess, ti
         await asyncio.sleep(0.02)
 
 
-def _end(processes: list[AutopilotProcess], files: FleetFolder) -> None:
-    stop_all(processes)
+def _end(processes: list[AutopilotProcess], files: FleetFolder, grace_s: float) -> None:
+    stop_all(processes, grace_s)
     files.remove()

@@ -1,30 +1,26 @@
 """All vehicles of a simulation that autopilots fly on simulated time: as fast as they go, and repeatable."""
 
 import asyncio
+import logging
 import os
 from collections.abc import Callable, Collection, Coroutine, Iterable
 from typing import Any
 
 from gradysim.protocol.position import Position
-from gradysim.sitl.error import SitlError
 from gradysim.sitl.fleet import Fleet
-from gradysim.sitl.flown_node import FlownNode
+from gradysim.sitl.flown_node import UPDATE_S, FlownNode, check_start
 from gradysim.sitl.lock_step_flight import LockStepFlight
 from gradysim.sitl.lock_step_group import LockStepGroup
 from gradysim.sitl.pilot import Pilot
 from gradysim.sitl.vehicle_clock import VehicleClockLoop
 
-_EXCHANGE_S = 0.01
-"""After so much time at most the autopilots are listened to."""
+_logger = logging.getLogger(__name__)
 
 _TURN_S = 0.05
 """Longest time between two turns of the clock's loop, of which there is one after each message."""
 
 _SETTLED_AFTER_S = 10.0
 """How long vehicles may take to hover quietly at their starts."""
-
-_DEEPEST_START_M = 1.0
-"""Below ground, where no vehicle arrives."""
 
 
 class Flights:
@@ -71,10 +67,7 @@ class Flights:
             ModuleNotFoundError: The extra `sitl` is not installed.
         """
         for node in self._nodes:
-            if node.start[2] < -_DEEPEST_START_M:
-                raise SitlError(
-                    f"{node.name}: its initial position is below the ground: z = {node.start[2]:g} m"
-                )
+            check_start(node.name, node.start, self._reference)
         self._loop = VehicleClockLoop()
         for node in self._nodes:
             flight = self._flights[node.id] = LockStepFlight(node, self._reference, self._on_text)
@@ -133,11 +126,16 @@ class Flights:
         limit_s = self._time_s + _SETTLED_AFTER_S
         while self._time_s < limit_s and not all(each.is_settled for each in self._flights.values()):
             self._advance(self._time_s + _TURN_S)
+        for flight in self._flights.values():
+            if not flight.is_settled:
+                _logger.warning("%s: it does not hover quietly at its start: too strong a wind?", flight.name)
 
     def _fleet_of(self, node: FlownNode) -> Fleet:
         key = (node.program, node.user)
         if key not in self._fleets:
-            self._fleets[key] = Fleet(node.program, user=node.user, console_folder=self._console_folder)
+            self._fleets[key] = Fleet(
+                node.program, user=node.user, console_folder=self._console_folder, grace_s=0.0
+            )
         return self._fleets[key]
 
     def _do(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
@@ -149,16 +147,20 @@ class Flights:
     def _advance(self, time_s: float) -> None:
         """Fly until `time_s` of the vehicles' clock."""
         assert self._group is not None
-        assert self._loop is not None
+        if any(flight.pilot.has_news for flight in self._flights.values()):
+            self._turn()
         while self._time_s < time_s:
-            self._time_s = min(time_s, self._time_s + _EXCHANGE_S)
-            heard_something = self._group.fly_to(self._time_s)
+            next_s = min(time_s, self._time_s + UPDATE_S)
+            heard_something = self._group.fly_to(next_s)
+            self._time_s = next_s
             if heard_something or self._time_s >= self._next_turn_s:
-                self._next_turn_s = self._time_s + _TURN_S
-                self._loop.turn(self._time_s)
-                self._pass_on_failures()
+                self._turn()
 
-    def _pass_on_failures(self) -> None:
+    def _turn(self) -> None:
+        """Let all steps go on that can; raise what went wrong in one."""
+        assert self._loop is not None
+        self._next_turn_s = self._time_s + _TURN_S
+        self._loop.turn(self._time_s)
         for task in self._tasks:
             if task.done() and not task.cancelled() and (failure := task.exception()) is not None:
                 raise failure

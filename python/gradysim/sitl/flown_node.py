@@ -7,7 +7,15 @@ from dataclasses import dataclass, field
 
 from gradysim.protocol.position import Position
 from gradysim.sitl.error import SitlError
+from gradysim.sitl.frame import home_of
 from gradysim.sitl.quadcopter import Vector
+from gradysim.sitl.unprivileged import DEFAULT_USER
+
+UPDATE_S = 0.01
+"""Simulated time between two places of a node, in both modes."""
+
+DEFAULT_SPEED_MPS = 10.0
+"""Ground speed until a protocol sets another."""
 
 _SEA_LEVEL_DEGC, _LAPSE_DEGCPM = 15.0, 0.0065
 """Of the standard atmosphere (ISO 2533), in which ArduPilot's simulated barometers are."""
@@ -38,10 +46,20 @@ class FlownNode:
     id: int
     name: str
     start: Position
-    speed_mps: float = 10.0
+    speed_mps: float = DEFAULT_SPEED_MPS
     program: str | os.PathLike[str] | None = None
-    user: str | None = "nobody"
+    user: str | None = DEFAULT_USER
     parameters: Mapping[str, float] = field(default_factory=dict)
+
+
+def check_start(name: str, start: Position, reference: Position) -> None:
+    """Raise SitlError, which names the vehicle, if it cannot start at (x, y, z) m from the reference."""
+    if start[2] < 0:
+        raise SitlError(f"{name}: its initial position is below the ground: z = {start[2]:g} m")
+    try:
+        home_of(reference, start)
+    except ValueError as error:
+        raise SitlError(f"{name}: its initial position is none: {error}") from error
 
 
 def ground_temperature(altitude_m: float) -> dict[str, float]:

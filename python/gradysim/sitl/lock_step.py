@@ -37,6 +37,7 @@ class LockStepAutopilot:
         body: Its vehicle.
         time_s: What its clock shows, from 0.
         port: Of UDP, where it sends to.
+        is_at_work: Whether it has been answered, and has not got to its next step.
     """
 
     def __init__(self, link: MavlinkLink, body: Quadcopter) -> None:
@@ -47,6 +48,7 @@ class LockStepAutopilot:
         self._steps_from = (0.0, 0)  # since when they have been of one length, and how many there were
         self._rate_hz = 0
         self._throttles = (0.0, 0.0, 0.0, 0.0)
+        self.is_at_work = False
         self._frame: int | None = None
         self._address: Any = None
         self._process: AutopilotProcess | None = None
@@ -110,6 +112,7 @@ class LockStepAutopilot:
             f'"accel_body":[{ax!r},{ay!r},{az!r}]}},"position":[{north!r},{east!r},{down!r}],'
             f'"quaternion":[{w!r},{x!r},{y!r},{z!r}],"velocity":[{vn!r},{ve!r},{vd!r}]}}\n'
         )
+        self.is_at_work = True
         self._physics.sendto(text.encode(), self._address)
 
     def take_wish(self) -> bool:
@@ -125,6 +128,7 @@ class LockStepAutopilot:
             # One that had to wait for us says the same again: answered twice, its clock would be off.
             if magic == _SERVOS_MAGIC and frame != self._frame and 0 < rate_hz <= _HIGHEST_RATE_HZ:
                 break
+        self.is_at_work = False
         self._frame, self._address = frame, sender
         a, b, c, d = (min(1.0, max(0.0, (pulse_us - 1000) / 1000)) for pulse_us in pulses_us[:4])
         self._throttles = (a, b, c, d)

@@ -32,6 +32,7 @@ class LockStepFlight:
     """Flies one node.
 
     Attributes:
+        name: For people.
         autopilot: Its autopilot.
         vehicle: What is told to it, step by step.
         pilot: Takes orders, once it is prepared.
@@ -41,6 +42,7 @@ class LockStepFlight:
         self, node: FlownNode, reference: Position, on_text: Callable[[str, str], None] | None
     ) -> None:
         """Open the ports; `reference` and `on_text` are those of `Flights`."""
+        self.name = node.name
         self._node = node
         self._home = home_of(reference, node.start)
         self._on_text = on_text

@@ -29,9 +29,10 @@ class LockStepGroup:
         Raises:
             SitlError: One of them is gone, or hangs.
         """
-        behind = {autopilot for autopilot in self._autopilots if autopilot.is_behind(time_s)}
+        behind = [each for each in self._autopilots if each.is_at_work or each.is_behind(time_s)]
         for autopilot in behind:
-            autopilot.answer()
+            if not autopilot.is_at_work:  # unless Ctrl-C came in between
+                autopilot.answer()
         last_sign_s = time.monotonic()
         while behind:
             has_gone_on = False
@@ -42,7 +43,7 @@ class LockStepGroup:
                     if autopilot.is_behind(time_s):
                         autopilot.answer()
                     else:
-                        behind.discard(autopilot)
+                        behind.remove(autopilot)
             if has_gone_on:
                 last_sign_s = time.monotonic()
                 continue

@@ -52,6 +52,7 @@ class Pilot:
         place = self._place_of(target)
         self._target = target
         if self._speed_mps == 0:
+            self._stop()
             return
         if self._velocity is not None:
             self._velocity = None
@@ -66,25 +67,25 @@ class Pilot:
     def set_speed(self, speed_mps: float) -> None:
         """Fly at this ground speed from now on, >= 0; the autopilot has to confirm it, in `attend`."""
         before, self._speed_mps = self._speed_mps, speed_mps
-        if speed_mps == 0:  # Which ArduCopter refuses.
-            self.set_velocity((0.0, 0.0, 0.0))
+        if speed_mps == 0:
+            self._stop()
             return
         self._speed_is_new.set()
         if before == 0 and self._target is not None:
             self.go_to(self._target)
 
+    def _stop(self) -> None:
+        """Stand: by a velocity, as ArduCopter refuses a speed of 0."""
+        self.set_velocity((0.0, 0.0, 0.0))
+
+    @property
+    def has_news(self) -> bool:
+        """Whether a speed waits for its turn to be told to the autopilot."""
+        return self._speed_is_new.is_set()
+
     async def attend(self) -> None:
         """Do what takes time, for ever: have speeds confirmed, renew velocities. SitlError if that fails."""
-        while True:
-            try:
-                await asyncio.wait_for(self._speed_is_new.wait(), self._renewal_s)
-            except TimeoutError:
-                if self._velocity is not None:
-                    self.vehicle.set_velocity(*self._velocity)
-                continue
-            self._speed_is_new.clear()
-            if self._speed_mps > 0:
-                await self.vehicle.set_speed(self._speed_mps)
+        await asyncio.gather(self._have_speeds_confirmed(), self._renew_velocities())
 
     async def watch(self) -> None:
         """Wait for ever. SitlError as soon as the vehicle is gone or does not obey any more."""
@@ -92,3 +93,16 @@ class Pilot:
         vehicle.check_flight()
         await vehicle.link.wait_for(lambda message: not (vehicle.is_armed and vehicle.is_guided), None)
         vehicle.check_flight()
+
+    async def _have_speeds_confirmed(self) -> None:
+        while True:
+            await self._speed_is_new.wait()
+            self._speed_is_new.clear()
+            if self._speed_mps > 0:
+                await self.vehicle.set_speed(self._speed_mps)
+
+    async def _renew_velocities(self) -> None:
+        while True:
+            await asyncio.sleep(self._renewal_s)
+            if self._velocity is not None:
+                self.vehicle.set_velocity(*self._velocity)

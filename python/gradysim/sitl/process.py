@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gradysim.sitl.error import SitlError
 
-_GRACE_S = 2.0
+GRACE_S = 2.0
 """Between SIGTERM, which an autopilot may be unable to follow, and SIGKILL."""
 
 _LAST_LINES = 5
@@ -89,7 +89,7 @@ class AutopilotProcess:
         return True
 
 
-def stop_all(processes: Iterable[AutopilotProcess], grace_s: float = _GRACE_S) -> None:
+def stop_all(processes: Iterable[AutopilotProcess], grace_s: float = GRACE_S) -> None:
     """End processes: SIGTERM to all, and SIGKILL to those that are there after `grace_s` wall seconds."""
     running = [process for process in processes if process.is_running]
     for process in running:
@@ -98,4 +98,4 @@ def stop_all(processes: Iterable[AutopilotProcess], grace_s: float = _GRACE_S) -
     for process in running:
         if not process.wait_until(deadline_s):
             process.send(signal.SIGKILL)
-            process.wait_until(time.monotonic() + grace_s)
+            process.wait_until(time.monotonic() + GRACE_S)

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 
 from gradysim.sitl.error import SitlError
 
+DEFAULT_USER = "nobody"
+"""Whom autopilots that root starts belong to."""
+
 
 def user_for(wanted: str | None) -> str | None:
     """Return the user whom the program is to belong to: the one wanted if root asks, otherwise None.

@@ -13,7 +13,7 @@ _HOPS = 12
 
 
 class VehicleClockLoop(asyncio.SelectorEventLoop):
-    """Has no files or sockets of its own, and never sleeps."""
+    """Never sleeps. Has to be closed, by `cancel_all`."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -83,6 +83,19 @@ def test_the_flight_is_the_same_in_both_modes(flown):
         assert here == pytest.approx(there, abs=1e-6)
 
 
+def test_it_starts_where_the_file_says_in_both_modes(flown, mode):
+    """The vehicle hovers near by; its node is there from the first update on."""
+    at_once = (
+        FLYER.replace("def initialize(self):", "def initialize(self):\n        self.note()")
+        + """
+    def note(self):
+        self.provider.tracked_variables["start"] = self.provider.node_positions()[0]
+"""
+    )
+    result = mode.run(flown(at_once, "sim-time-limit = 1s"))
+    assert result.nodes[0].tracked_variables["start"] == (0, 0, 10)
+
+
 def test_a_run_is_repeatable(flown, mode):
     scenario = flown()
     one, other = mode.run(scenario), mode.run(scenario)
@@ -153,8 +166,16 @@ def test_without_such_nodes_there_are_no_flights(make_scenario):
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        (['*.uavs[0].mobility.autopilotPath = "nothing"'], "uavs[0]: no autopilot at "),
-        (["*.uavs[0].mobility.initialZ = -5m"], "uavs[0] starts at z = -5m; expected at least 0m"),
+        (['*.uavs[0].mobility.autopilotPath = "nothing"'], "no autopilot at "),
+        (
+            ["*.uavs[0].mobility.initialZ = -5m"],
+            "uavs[0]: its initial position is below the ground: z = -5 m",
+        ),
+        (['*.uavs[0].mobility.autopilotUser = "nosuchuser"'], "there is no user 'nosuchuser'"),
+        (
+            ["*.coordinateSystem.sceneLatitude = 90deg", "*.uavs[0].mobility.initialY = 5m"],
+            "uavs[0]: its initial position is none",
+        ),
         (['*.uavs[0].mobility.autopilotParameters = "SIM_WIND_TURB=1"'], "parameter SIM_WIND_TURB"),
     ],
 )

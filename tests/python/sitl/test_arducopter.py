@@ -44,7 +44,7 @@ def test_it_may_be_a_command(checkout, monkeypatch):
 
 def test_without_any_it_says_what_to_give():
     with pytest.raises(
-        SitlError, match="as ardupilot_path or in the environment variable GRADYSIM_ARDUPILOT"
+        SitlError, match=r"as mobility.autopilotPath .* or in the environment variable GRADYSIM_ARDUPILOT"
     ):
         find_arducopter(None)
 

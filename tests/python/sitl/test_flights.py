@@ -203,3 +203,35 @@ def test_of_several_failures_one_is_told_and_the_others_are_not_logged(toy_copte
     del flights
     gc.collect()
     assert caplog.records == []
+
+
+def test_a_speed_leaves_before_the_next_step(toy_copter, flights_of):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
+    flown(flights, 1)
+    sent = []
+    link = flights.pilot(0).vehicle.link
+    send_bytes, link.send_bytes = link.send_bytes, lambda data: (sent.append(data), send_bytes(data))
+    flights.pilot(0).set_speed(4.0)
+    flights.advance_to(1.0001)
+    assert len(sent) == 1
+
+
+def _interrupt(timeout_s):
+    raise KeyboardInterrupt
+
+
+def test_a_step_that_was_interrupted_goes_on_where_it_was(toy_copter, flights_of, monkeypatch):
+    """By Ctrl-C while autopilots are at work: none of them is answered twice."""
+
+    def flight(*, interrupted):
+        flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), (0.0, 20.0, 10.0))
+        flights.pilot(0).go_to((40.0, 10.0, 15.0))
+        track = flown(flights, 1)
+        if interrupted:
+            with monkeypatch.context() as patch:
+                patch.setattr(flights._group._selector, "select", _interrupt)
+                with pytest.raises(KeyboardInterrupt):
+                    flights.advance_to(1.01)
+        return [*track, *flown(flights, 1, begin=1.0)]
+
+    assert flight(interrupted=True) == flight(interrupted=False)

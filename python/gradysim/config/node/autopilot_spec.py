@@ -8,9 +8,8 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.keys.mobility import ARDUPILOT
 from gradysim.config.value.setting import Setting
-
-_SPEED_MPS = 10.0
-_USER = "nobody"
+from gradysim.sitl.flown_node import DEFAULT_SPEED_MPS
+from gradysim.sitl.unprivileged import DEFAULT_USER
 
 
 @dataclass(frozen=True)
@@ -20,6 +19,7 @@ class AutopilotSpec:
     Attributes:
         source: Where it was chosen.
         program_source: Where the program was named, or it was chosen.
+        user_source: Where the user was named, or it was chosen.
         program: An arducopter for SITL, or an ArduPilot checkout; None for the environment's.
         user: Whom it belongs to if root runs the simulation; None for root.
         speed_mps: Ground speed until the protocol sets another, > 0.
@@ -28,9 +28,10 @@ class AutopilotSpec:
 
     source: Source
     program_source: Source
+    user_source: Source
     program: str | None = None
-    user: str | None = _USER
-    speed_mps: float = _SPEED_MPS
+    user: str | None = DEFAULT_USER
+    speed_mps: float = DEFAULT_SPEED_MPS
     parameters: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -52,9 +53,10 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
     return AutopilotSpec(
         source=typename.source,
         program_source=program.source if program else typename.source,
+        user_source=user.source if user else typename.source,
         program=str(program.value) or None if program else None,
-        user=str(user.value) or None if user else _USER,
-        speed_mps=float(speed.value) if speed else _SPEED_MPS,
+        user=str(user.value) or None if user else DEFAULT_USER,
+        speed_mps=float(speed.value) if speed else DEFAULT_SPEED_MPS,
         parameters=_parameters(parameters) if parameters else {},
     )
 

@@ -9,6 +9,7 @@ from gradysim.protocol.position import Position
 from gradysim.simulator.number_range import is_in_range
 from gradysim.simulator.reference_coordinates import check_reference
 from gradysim.sitl.connection import parse_address
+from gradysim.sitl.unprivileged import DEFAULT_USER
 
 
 @dataclass
@@ -28,13 +29,14 @@ class ArdupilotMobilityConfiguration:
         ardupilot_path: An arducopter program for SITL, or an ArduPilot checkout in which it was built. None
             for what the environment variable GRADYSIM_ARDUPILOT names, or the command `arducopter`.
         uav_api_log_path: Folder for what the autopilots print, `autopilot_<id>.log`; None to throw it away.
-        uav_api_startup_timeout: Wall time for each step before the simulation starts: to connect, to know
-            the position, to arm, to take off, to reach the initial position; s, > 0.
+        uav_api_startup_timeout: Time for each step before the simulation starts: to connect, to know the
+            position, to arm, to take off, to reach the initial position; s, > 0. Wall time; on simulated time
+            that of the vehicle, from the moment when it has connected.
         uav_api_log_console: Log what the autopilots say (STATUSTEXT) as information, not just for debugging.
-        simulation_startup_speedup: How fast simulated autopilots run before the simulation starts: seconds
-            of theirs for each wall second; > 0.
-        mavlink_streamrate: Positions that each autopilot sends in a second of its own; Hz, > 0. At least one
-            for each `update_rate` is asked for.
+        simulation_startup_speedup: In real time: how fast simulated autopilots run before the simulation
+            starts, seconds of theirs for each wall second; > 0.
+        mavlink_streamrate: In real time: positions that each autopilot sends in a second of its own; Hz, > 0.
+            At least one for each `update_rate` is asked for.
         vehicle_addresses: Where the vehicles are if they are not simulated, by node id: "tcp:HOST:PORT" or
             "udpout:HOST:PORT" to connect to, "udpin:HOST:PORT" to listen on.
         autopilot_parameters: ArduCopter's parameters by name, such as {"SIM_WIND_SPD": 5}, for simulated
@@ -56,7 +58,7 @@ class ArdupilotMobilityConfiguration:
     simulation_startup_speedup: float = 5
     mavlink_streamrate: float = 10
     vehicle_addresses: Mapping[int, str] | None = None
-    autopilot_user: str | None = "nobody"
+    autopilot_user: str | None = DEFAULT_USER
     autopilot_parameters: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:

@@ -17,6 +17,7 @@ from gradysim.simulator.node import Node
 from gradysim.sitl.connection import Connection, connect
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.fleet import Fleet
+from gradysim.sitl.flown_node import check_start
 from gradysim.sitl.frame import cartesian_to_geo, check_same_hemisphere, home_of
 from gradysim.sitl.ground_station import GroundStationPort, open_ground_station
 from gradysim.sitl.link import MavlinkLink, Message
@@ -31,9 +32,6 @@ _SILENCE_S = 10.0
 
 _FARTHEST_START_M = 10_000.0
 """A real vehicle that is farther from its initial position than this has been given a wrong one."""
-
-_DEEPEST_START_M = 1.0
-"""Below ground, where no vehicle arrives."""
 
 _CLOCK_OFF_S = 1.0
 """Simulated time by which an autopilot's clock may be off before somebody ought to know."""
@@ -90,8 +88,8 @@ class Flight:
         timeout_s = configuration.uav_api_startup_timeout
         vehicle = self._vehicle
         initial = self._node.position
-        if fleet is not None and initial[2] < -_DEEPEST_START_M:
-            raise SitlError(f"{vehicle.name}: its initial position is below the ground: z = {initial[2]:g} m")
+        if fleet is not None:
+            check_start(vehicle.name, initial, self._reference)
         await self._connect(fleet, timeout_s)
         is_simulated = fleet is not None
         await prepare(

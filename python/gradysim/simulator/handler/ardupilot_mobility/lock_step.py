@@ -17,12 +17,9 @@ from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.flights import Flights
-from gradysim.sitl.flown_node import FlownNode
+from gradysim.sitl.flown_node import UPDATE_S, FlownNode
 
 _logger = logging.getLogger(__name__)
-
-_LONGEST_UPDATE_S = 0.01
-"""Between two positions of a node, as for massless vehicles."""
 
 
 class LockStep:
@@ -101,7 +98,7 @@ class _Mobility(FlownMobilityHandler):
     ) -> None:
         rate_s = configuration.update_rate
         mobility = MasslessMobilityConfiguration(
-            update_rate=min(rate_s, _LONGEST_UPDATE_S),
+            update_rate=rate_s / math.ceil(rate_s / UPDATE_S - 1e-9),  # so that telemetry is due at updates
             reference_coordinates=configuration.reference_coordinates,
         )
         super().__init__(mobility, flights)

@@ -38,9 +38,8 @@ class FlownMobilityHandler(MasslessMobilityHandler):
             raise
 
     def initialize(self) -> None:
-        """Put the nodes where their vehicles hover, after `take_off`."""
+        """Plan the first flight, after `take_off`: until the first update nodes stay where they were put."""
         super().initialize()
-        self._follow()
         self._schedule_flight()
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
