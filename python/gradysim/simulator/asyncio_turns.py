@@ -5,6 +5,7 @@ import logging
 from typing import Any
 
 from gradysim.simulator.event import EventLoop, ScheduledEvent
+from gradysim.sitl.nested_loop import outer_loop_stands
 
 _logger = logging.getLogger(__name__)
 
@@ -34,7 +35,8 @@ class AsyncioTurns:
         alarm = loop.call_later(duration_s, loop.stop) if duration_s > 0 else loop.call_soon(loop.stop)
         self._is_turn = True
         try:
-            loop.run_forever()
+            with outer_loop_stands():
+                loop.run_forever()
         finally:
             self._is_turn = False
             alarm.cancel()
@@ -52,9 +54,10 @@ class AsyncioTurns:
         loop = self.asyncio_loop
         if loop.is_closed():
             return
-        if _is_inside_another_loop():
-            loop.close()  # By the garbage collector: no loop can run within another.
-            return
+        with outer_loop_stands():  # of a notebook, or of whoever runs as the garbage collector closes this
+            self._close(loop)
+
+    def _close(self, loop: asyncio.AbstractEventLoop) -> None:
         try:
             tasks = asyncio.all_tasks(loop)
             for task in tasks:
@@ -76,14 +79,6 @@ class AsyncioTurns:
         elif self._failure is None:
             self._failure = exception
             self.wake()
-
-
-def _is_inside_another_loop() -> bool:
-    try:
-        asyncio.get_running_loop()
-    except RuntimeError:
-        return False
-    return True
 
 
 class WakingEventLoop(EventLoop):

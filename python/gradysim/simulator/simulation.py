@@ -34,7 +34,6 @@ from gradysim.simulator.position_scheme import PositionScheme
 from gradysim.simulator.profile import EventProfile
 from gradysim.simulator.real_time import RealTimePacer, real_time_factor
 from gradysim.simulator.timing_report import TimingReport
-from gradysim.sitl.nested_loop import outer_loop_stands
 
 __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
 
@@ -159,12 +158,6 @@ class Simulator:
         """
         if self._finalized:
             return False
-        if self._turns is None:
-            return self._run_events(count)
-        with outer_loop_stands():
-            return self._run_events(count)
-
-    def _run_events(self, count: int) -> bool:
         try:
             if not self._initialized:
                 self._initialize_simulation()
@@ -218,13 +211,6 @@ class Simulator:
         """
         if self._finalized:
             return
-        if self._turns is None:
-            self._finalize(complete=complete)
-            return
-        with outer_loop_stands():
-            self._finalize(complete=complete)
-
-    def _finalize(self, *, complete: bool) -> None:
         if not complete:
             judge_nothing_more(self._live_handlers)
         next_time = self._event_loop.next_time()

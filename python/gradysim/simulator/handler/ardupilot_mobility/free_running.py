@@ -16,6 +16,7 @@ from gradysim.simulator.handler.mobility.update_times import UpdateTimes
 from gradysim.simulator.node import Node
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.fleet import Fleet
+from gradysim.sitl.nested_loop import outer_loop_stands
 
 _logger = logging.getLogger(__name__)
 
@@ -119,13 +120,14 @@ class FreeRunning:
 def _run(loop: asyncio.AbstractEventLoop, work: Coroutine[Any, Any, None]) -> None:
     """Run to the end; Ctrl-C, which may have hit any task, leaves none of them half-done."""
     task = loop.create_task(work)
-    try:
-        loop.run_until_complete(task)
-    except KeyboardInterrupt:
-        task.cancel()
-        with contextlib.suppress(KeyboardInterrupt, asyncio.CancelledError, SitlError):
+    with outer_loop_stands():
+        try:
             loop.run_until_complete(task)
-        raise
+        except KeyboardInterrupt:
+            task.cancel()
+            with contextlib.suppress(KeyboardInterrupt, asyncio.CancelledError, SitlError):
+                loop.run_until_complete(task)
+            raise
 
 
 async def _all(steps: Iterable[Coroutine[Any, Any, None]]) -> None:
