@@ -45,11 +45,7 @@ class FlownNodes:
             SitlError: An autopilot does not start, or a step of a flight failed.
         """
         if self._flights is not None:
-            try:
-                self._flights.begin()
-            except BaseException:
-                self._flights.close()
-                raise
+            self._flights.begin()
 
     def steering_of(self, node_id: int) -> Callable[[MobilityCommand], None] | None:
         """Return what takes the mobility commands of a node's protocol; None if the engine does."""

@@ -62,10 +62,19 @@ class Flights:
     def begin(self) -> None:
         """Start all autopilots, take off and fly to the starts, together; simulated time is 0 then.
 
+        If that fails, or is interrupted, they are ended.
+
         Raises:
             SitlError: An autopilot cannot be started, or a step failed.
             ModuleNotFoundError: The extra `sitl` is not installed.
         """
+        try:
+            self._begin()
+        except BaseException:
+            self.close()
+            raise
+
+    def _begin(self) -> None:
         for node in self._nodes:
             check_start(node.name, node.start, self._reference)
         self._loop = VehicleClockLoop()

@@ -184,6 +184,15 @@ def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
     flights.close()
 
 
+def test_those_that_do_not_begin_are_ended(toy_copter, tmp_path):
+    program = toy_copter({1: {"refuse_arming": True}})
+    nodes = [FlownNode(n, f"vehicle {n}", (0.0, 9.0 * n, 10.0), program=program, user=None) for n in range(2)]
+    flights = Flights(nodes, REFERENCE, timeout_s=2.0)
+    with pytest.raises(SitlError, match="vehicle 1: arming"):
+        flights.begin()
+    assert list(tmp_path.glob("gradysim-sitl-*")) == []
+
+
 def test_nothing_is_left_of_them(toy_copter, flights_of, tmp_path, caplog):
     flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
     flights.close()

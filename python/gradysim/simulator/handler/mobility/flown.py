@@ -31,11 +31,7 @@ class FlownMobilityHandler(MasslessMobilityHandler):
 
     def take_off(self) -> None:
         """Start the autopilots; SitlError if one does not start, or a step of its flight failed."""
-        try:
-            self._flights.begin()
-        except BaseException:
-            self._flights.close()
-            raise
+        self._flights.begin()
 
     def initialize(self) -> None:
         """Plan the first flight, after `take_off`: until the first update nodes stay where they were put."""

@@ -125,16 +125,6 @@ def test_an_order_that_means_nothing_is_refused(flights):
         handler.handle_command(GotoCoordsMobilityCommand(float("nan"), 0, 0), node)
 
 
-def test_flights_that_do_not_begin_are_ended(flights):
-    def fail():
-        raise RuntimeError("no wind")
-
-    flights.begin = fail
-    with pytest.raises(RuntimeError, match="no wind"):
-        built(flights)
-    assert flights.diary == ["close"]
-
-
 def test_those_of_a_simulation_that_is_dropped_are_ended(flights):
     simulator = built(flights)
     simulator.run_events(3)
