@@ -1,51 +1,14 @@
 """Vehicles on simulated time, with the toy in ArduCopter's place."""
 
 import gc
-import time
 
 import pytest
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.flights import Flights
-from gradysim.sitl.flown_node import FlownNode
+from python.sitl.on_simulated_time import REFERENCE, failure_of, flown, nodes
 
-REFERENCE = (-15.84, -47.92, 1000.0)
-
-
-@pytest.fixture(autouse=True)
-def _in_a_folder_of_its_own(tmp_path, monkeypatch):
-    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-
-
-@pytest.fixture
-def flights_of():
-    """`flights_of(program, start, ...)`: begun, and ended after the test."""
-    made = []
-
-    def make(program, *starts, timeout_s=20.0, parameters=None, **settings):
-        nodes = [
-            FlownNode(
-                number, f"vehicle {number}", start, program=program, user=None, parameters=parameters or {}
-            )
-            for number, start in enumerate(starts)
-        ]
-        flights = Flights(nodes, REFERENCE, timeout_s=timeout_s, **settings)
-        made.append(flights)
-        flights.begin()
-        return flights
-
-    yield make
-    for flights in made:
-        flights.close()
-
-
-def flown(flights, seconds, begin=0.0, step=0.01):
-    """The places of vehicle 0 at each step."""
-    track = []
-    for number in range(1, round(seconds / step) + 1):
-        flights.advance_to(begin + number * step)
-        track.append(flights.position(0))
-    return track
+pytestmark = pytest.mark.usefixtures("own_folder")
 
 
 def test_all_hover_at_their_starts_when_they_begin(toy_copter, flights_of):
@@ -91,19 +54,6 @@ def test_two_flights_are_the_same_to_the_last_bit(toy_copter, flights_of):
     assert flight() == flight()
 
 
-def test_a_simulation_that_takes_its_time_changes_nothing(toy_copter, flights_of):
-    """Meanwhile the autopilot asks again and again for its next step."""
-
-    def flight(wrongs, pause_s):
-        flights = flights_of(toy_copter(wrongs), (0.0, 0.0, 10.0))
-        flights.pilot(0).go_to((40.0, 10.0, 15.0))
-        track = flown(flights, 0.5)
-        time.sleep(pause_s)
-        return [*track, *flown(flights, 1, begin=0.5)]
-
-    assert flight({0: {"repeats": True}}, 0.4) == flight({}, 0.0)
-
-
 def test_how_often_it_is_asked_where_they_are_makes_no_difference(toy_copter, flights_of):
     def flight(step):
         flights = flights_of(toy_copter(), (0.0, 0.0, 10.0))
@@ -111,21 +61,6 @@ def test_how_often_it_is_asked_where_they_are_makes_no_difference(toy_copter, fl
         return flown(flights, 3, step=step)[-1]
 
     assert flight(0.01) == flight(0.5)
-
-
-def test_the_wind_of_the_parameters_blows(toy_copter, flights_of):
-    """The toy does not know of it, and is off by what its gains leave."""
-    parameters = {"SIM_WIND_SPD": 1.0, "SIM_WIND_DIR": 90.0}
-    flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), parameters=parameters)
-    north, east, _ = flights.position(0)
-    assert abs(north) < 0.02
-    assert east < -0.05
-
-
-def failure_of(flights_of, program, **settings):
-    with pytest.raises(SitlError) as caught:
-        flown(flights_of(program, (0.0, 0.0, 10.0), **settings), 5)
-    return str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -156,29 +91,13 @@ def test_what_goes_wrong_is_told(toy_copter, flights_of, wrong, said):
     assert said in failure_of(flights_of, toy_copter({0: wrong}), timeout_s=3.0)
 
 
-def test_an_autopilot_that_hangs_is_given_up(toy_copter, flights_of, monkeypatch):
-    monkeypatch.setattr("gradysim.sitl.lock_step_group._SILENCE_S", 0.5)
-    said = failure_of(flights_of, toy_copter({0: {"hangs_at": 2}}))
-    assert said.startswith("vehicle 0: no sign of life in 0.5 s of wall time")
-
-
-def test_so_is_one_that_hangs_beside_another_that_waits_for_it(toy_copter, monkeypatch):
-    monkeypatch.setattr("gradysim.sitl.lock_step_group._SILENCE_S", 0.5)
-    program = toy_copter({0: {"repeats": True}, 1: {"hangs_at": 2}})
-    nodes = [FlownNode(n, f"vehicle {n}", (0.0, 9.0 * n, 10.0), program=program, user=None) for n in range(2)]
-    flights = Flights(nodes, REFERENCE)
-    with pytest.raises(SitlError, match="vehicle 1: no sign of life in"):
-        flights.begin()
-    flights.close()
-
-
 def test_one_that_starts_and_does_nothing_is_given_up(toy_copter, flights_of):
     said = failure_of(flights_of, toy_copter({0: {"gives_up": True}}), timeout_s=1.0)
     assert said == "vehicle 0: start: it did not ask for physics in 1 s; it printed last: invalid param"
 
 
 def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
-    flights = Flights([FlownNode(0, "vehicle 0", (0.0, 0.0, -5.0), program=toy_copter())], REFERENCE)
+    flights = Flights(nodes(toy_copter(), (0.0, 0.0, -5.0)), REFERENCE)
     with pytest.raises(SitlError, match="vehicle 0: its initial position is below the ground: z = -5 m"):
         flights.begin()
     flights.close()
@@ -186,8 +105,7 @@ def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
 
 def test_those_that_do_not_begin_are_ended(toy_copter, tmp_path):
     program = toy_copter({1: {"refuse_arming": True}})
-    nodes = [FlownNode(n, f"vehicle {n}", (0.0, 9.0 * n, 10.0), program=program, user=None) for n in range(2)]
-    flights = Flights(nodes, REFERENCE, timeout_s=2.0)
+    flights = Flights(nodes(program, (0.0, 0.0, 10.0), (0.0, 9.0, 10.0)), REFERENCE, timeout_s=2.0)
     with pytest.raises(SitlError, match="vehicle 1: arming"):
         flights.begin()
     assert list(tmp_path.glob("gradysim-sitl-*")) == []
@@ -204,8 +122,7 @@ def test_nothing_is_left_of_them(toy_copter, flights_of, tmp_path, caplog):
 
 def test_of_several_failures_one_is_told_and_the_others_are_not_logged(toy_copter, caplog):
     program = toy_copter({number: {"refuse_arming": True} for number in range(2)})
-    nodes = [FlownNode(n, f"vehicle {n}", (0.0, 9.0 * n, 10.0), program=program, user=None) for n in range(2)]
-    flights = Flights(nodes, REFERENCE, timeout_s=2.0)
+    flights = Flights(nodes(program, (0.0, 0.0, 10.0), (0.0, 9.0, 10.0)), REFERENCE, timeout_s=2.0)
     with pytest.raises(SitlError, match="vehicle 0: arming"):
         flights.begin()
     flights.close()
@@ -223,24 +140,3 @@ def test_a_speed_leaves_before_the_next_step(toy_copter, flights_of):
     flights.pilot(0).set_speed(4.0)
     flights.advance_to(1.0001)
     assert len(sent) == 1
-
-
-def _interrupt(timeout_s):
-    raise KeyboardInterrupt
-
-
-def test_a_step_that_was_interrupted_goes_on_where_it_was(toy_copter, flights_of, monkeypatch):
-    """By Ctrl-C while autopilots are at work: none of them is answered twice."""
-
-    def flight(*, interrupted):
-        flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), (0.0, 20.0, 10.0))
-        flights.pilot(0).go_to((40.0, 10.0, 15.0))
-        track = flown(flights, 1)
-        if interrupted:
-            with monkeypatch.context() as patch:
-                patch.setattr(flights._group._selector, "select", _interrupt)
-                with pytest.raises(KeyboardInterrupt):
-                    flights.advance_to(1.01)
-        return [*track, *flown(flights, 1, begin=1.0)]
-
-    assert flight(interrupted=True) == flight(interrupted=False)

@@ -1,55 +1,12 @@
 """One autopilot in lock-step, here played by the test: what is said and answered by UDP."""
 
-import json
-import socket
 import struct
 from contextlib import closing
 
 import pytest
 
 from gradysim.sitl.error import SitlError
-from gradysim.sitl.link import MavlinkLink
-from gradysim.sitl.lock_step import LockStepAutopilot
-from gradysim.sitl.quadcopter import Quadcopter
-
-SERVOS = "<HHI16H"
-IDLE = [1000] * 16
-
-
-class Process:
-    """Of an autopilot that lives."""
-
-    is_running = True
-
-    def last_words(self):
-        return ""
-
-    def obituary(self):
-        return "it died"
-
-
-class Played:
-    """The autopilot's side, and ours."""
-
-    def __init__(self):
-        self.ours = LockStepAutopilot(MavlinkLink("vehicle 0"), Quadcopter())
-        self.physics = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.physics.connect(("127.0.0.1", self.ours.port))
-        self.physics.settimeout(1.0)
-        self.mavlink = socket.create_connection(("127.0.0.1", self.ours.mavlink_port))
-        self.wish(1)
-        self.ours.meet(Process(), 5.0)
-
-    def wish(self, frame, rate_hz=400, pulses_us=IDLE, magic=18458):
-        self.physics.send(struct.pack(SERVOS, magic, rate_hz, frame, *pulses_us))
-
-    def felt(self):
-        return json.loads(self.physics.recv(4096))
-
-    def close(self):
-        self.ours.close()
-        self.physics.close()
-        self.mavlink.close()
+from python.sitl.played_autopilot import IDLE, SERVOS, Played
 
 
 @pytest.fixture

@@ -1,0 +1,32 @@
+"""What tests of flights on simulated time share."""
+
+import pytest
+
+from gradysim.sitl.error import SitlError
+from gradysim.sitl.flown_node import FlownNode
+
+REFERENCE = (-15.84, -47.92, 1000.0)
+
+
+def nodes(program, *starts, **settings):
+    """Nodes 0, 1, ... that the toy flies, called "vehicle 0" and so on."""
+    return [
+        FlownNode(number, f"vehicle {number}", start, program=program, user=None, **settings)
+        for number, start in enumerate(starts)
+    ]
+
+
+def flown(flights, seconds, begin=0.0, step=0.01):
+    """The places of vehicle 0 at each step."""
+    track = []
+    for number in range(1, round(seconds / step) + 1):
+        flights.advance_to(begin + number * step)
+        track.append(flights.position(0))
+    return track
+
+
+def failure_of(flights_of, program, **settings):
+    """What ends a flight of one vehicle."""
+    with pytest.raises(SitlError) as caught:
+        flown(flights_of(program, (0.0, 0.0, 10.0), **settings), 5)
+    return str(caught.value)

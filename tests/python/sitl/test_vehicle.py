@@ -1,0 +1,150 @@
+"""A vehicle's steps, one by one: those of the toy, and answers that are made up here."""
+
+import asyncio
+
+import pytest
+
+from gradysim.sitl.dialect import COPTER_GUIDED, load_dialect
+from gradysim.sitl.error import SitlError
+from gradysim.sitl.link import MavlinkLink
+from gradysim.sitl.vehicle import Vehicle
+from python.sitl.fleet_flight import HOME, fly, new_fleet, ready
+
+pytestmark = pytest.mark.usefixtures("own_folder")
+
+mavlink = load_dialect()
+
+
+def test_a_flight(toy_copter):
+    async def steps(vehicle):
+        await ready(vehicle)
+        await vehicle.enter_guided(10)
+        await vehicle.arm(10)
+        await vehicle.take_off(10, 10)
+        await vehicle.arrive(HOME[0] + 1e-4, HOME[1], 15, 10)
+        return vehicle.position
+
+    assert fly(new_fleet(toy_copter()), steps) == pytest.approx((HOME[0] + 1e-4, HOME[1], 15), abs=1)
+
+
+def test_a_take_off_without_arming_is_an_error_and_no_progress(toy_copter):
+    async def steps(vehicle):
+        await ready(vehicle)
+        await vehicle.take_off(10, 10)
+
+    with pytest.raises(SitlError, match=r"^vehicle 0: take-off: refused with MAV_RESULT_FAILED"):
+        fly(new_fleet(toy_copter()), steps)
+
+
+def test_a_speed_that_is_refused_is_an_error(toy_copter):
+    with pytest.raises(SitlError, match=r"^vehicle 0: speed -1 m/s: refused with MAV_RESULT_FAILED"):
+        fly(new_fleet(toy_copter()), lambda vehicle: vehicle.set_speed(-1))
+
+
+def test_a_parameter_that_is_not_confirmed_is_an_error(toy_copter, monkeypatch):
+    monkeypatch.setattr("gradysim.sitl.vehicle._ANSWER_S", 0.05)
+    with pytest.raises(SitlError, match=r"^vehicle 0: parameter NONESUCH = 1: not confirmed after 5 tries"):
+        fly(new_fleet(toy_copter()), lambda vehicle: vehicle.set_parameter("NONESUCH", 1))
+
+
+def test_a_message_that_seems_to_be_refused_is_asked_for_again(toy_copter):
+    fly(new_fleet(toy_copter({0: {"refuses_first": True}})), ready)
+
+
+class Played:
+    """An autopilot's side of a link: `says` what it is told to, and keeps what it gets."""
+
+    def __init__(self):
+        self.link = MavlinkLink("vehicle 0")
+        self.link.send_bytes = self._take
+        self.codec = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
+        self.got = []
+        self.answers = []  # one for each message that it gets, as long as there are some
+
+    def says(self, *messages):
+        for message in messages:
+            self.link.feed(message.pack(self.codec))
+
+    def _take(self, data):
+        self.got += mavlink.MAVLink(None).parse_buffer(data)
+        if self.answers:
+            asyncio.get_running_loop().call_soon(self.says, *self.answers.pop(0))
+
+
+def heartbeat(*, armed=True, mode=COPTER_GUIDED):
+    return mavlink.MAVLink_heartbeat_message(2, 3, 1 | 128 * armed, mode, 4, 3)
+
+
+def ack(command, result=mavlink.MAV_RESULT_ACCEPTED):
+    return mavlink.MAVLink_command_ack_message(command, result)
+
+
+@pytest.fixture
+def played():
+    played = Played()
+    played.says(heartbeat())
+    return played
+
+
+@pytest.fixture
+def vehicle(played):
+    return Vehicle(played.link)
+
+
+SPEED = mavlink.MAV_CMD_DO_CHANGE_SPEED
+
+
+def test_neither_the_answer_to_another_command_nor_that_of_one_under_way_is_its_answer(played, vehicle):
+    others = (ack(mavlink.MAV_CMD_NAV_TAKEOFF), ack(SPEED, mavlink.MAV_RESULT_IN_PROGRESS))
+    played.answers = [(*others, ack(SPEED, mavlink.MAV_RESULT_DENIED))]
+    with pytest.raises(SitlError, match=r"^vehicle 0: speed 3 m/s: refused with MAV_RESULT_DENIED"):
+        asyncio.run(vehicle.set_speed(3))
+
+
+def test_commands_that_are_sent_again_count_their_tries(played, vehicle, monkeypatch):
+    """By that the autopilot knows that it may have obeyed before."""
+    monkeypatch.setattr("gradysim.sitl.vehicle._ANSWER_S", 0.01)
+    played.answers = [(), (), (ack(SPEED),)]
+    asyncio.run(vehicle.set_speed(3))
+    assert [message.confirmation for message in played.got] == [0, 1, 2]
+
+
+def test_a_parameter_of_another_value_is_not_confirmed(played, vehicle, monkeypatch):
+    monkeypatch.setattr("gradysim.sitl.vehicle._ANSWER_S", 0.01)
+    played.answers = [(mavlink.MAVLink_param_value_message(b"SIM_WIND_SPD", 4.0, 9, 1, 0),)]
+    with pytest.raises(SitlError, match=r"parameter SIM_WIND_SPD = 5: not confirmed"):
+        asyncio.run(vehicle.set_parameter("SIM_WIND_SPD", 5.0))
+
+
+def test_one_that_flies_already_is_neither_armed_nor_lifted(played, vehicle):
+    played.says(mavlink.MAVLink_extended_sys_state_message(0, mavlink.MAV_LANDED_STATE_IN_AIR))
+    asyncio.run(vehicle.arm(1))
+    asyncio.run(vehicle.take_off(10, 1))
+    assert played.got == []
+
+
+def test_a_flight_ends_when_its_motors_stop(played, vehicle):
+    played.answers = [(heartbeat(armed=False),)]
+    with pytest.raises(SitlError, match=r"^vehicle 0: flight to \(1\.0000000, 2\.0000000, 3 m\): its motors"):
+        asyncio.run(vehicle.arrive(1, 2, 3, 10))
+
+
+def test_up_is_down_in_the_frame_of_a_velocity(played, vehicle):
+    vehicle.set_velocity(1, 2, 3)
+    (order,) = played.got
+    assert (order.coordinate_frame, order.vx, order.vy, order.vz) == (mavlink.MAV_FRAME_LOCAL_NED, 1, 2, -3)
+
+
+def test_a_failure_tells_each_text_once(played, vehicle):
+    for text in (b"no GPS", b"no compass", b"no GPS"):
+        played.says(mavlink.MAVLink_statustext_message(2, text))
+    played.says(heartbeat(armed=False))
+    with pytest.raises(SitlError, match=r'the autopilot said: "no GPS"; "no compass"$'):
+        vehicle.check_flight()
+
+
+@pytest.mark.parametrize(("told", "known"), [(55, 55.0), (0, 0.0), (-1, None)])
+def test_a_battery_of_minus_1_percent_is_unknown(played, vehicle, told, known):
+    assert vehicle.battery_percent is None
+    played.says(mavlink.MAVLink_sys_status_message(0, 0, 0, 0, 12000, 0, told, *([0] * 6)))
+    assert vehicle.battery_percent == known
