@@ -42,6 +42,13 @@ sim-time-limit = 2.05s
 *.uavs[*].mobility.telemetryInterval = 0.5s
 """
 
+FLOWN = (
+    '*.uavs[0].mobility.typename = "ArdupilotMobility"',
+    '*.uavs[0].mobility.autopilotUser = ""',
+    "*.uavs[0].mobility.initialZ = 10m",
+    "sim-time-limit = 12s",
+)
+
 settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("any machine")  # a machine that does other things, too, makes no test fail
 
@@ -80,6 +87,19 @@ def toy_copter(tmp_path: Path) -> Callable[..., Path]:
         return program
 
     return with_wrongs
+
+
+@pytest.fixture
+def flown_scenario(
+    make_scenario: Callable[..., Scenario], toy_copter: Callable[..., Path], monkeypatch: pytest.MonkeyPatch
+) -> Callable[..., Scenario]:
+    """`flown_scenario(python, *settings, wrongs=...)`: as `make_scenario`, with node 0 flown by the toy."""
+
+    def make(python: str, *settings: str, wrongs: dict[int, Any] | None = None) -> Scenario:
+        monkeypatch.setenv("GRADYSIM_ARDUPILOT", str(toy_copter(wrongs)))
+        return make_scenario(python, *settings, *FLOWN)
+
+    return make
 
 
 class WallClock:

@@ -10,42 +10,7 @@ from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, M
 from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
-
-
-class Pilot:
-    def __init__(self):
-        self.orders = []
-
-    def go_to(self, target):
-        self.orders.append(target)
-
-
-class Flights:
-    """Of node 0, whose x is the time up to which it has flown."""
-
-    ids = frozenset({0})
-
-    def __init__(self):
-        self.diary = []
-        self.time_s = 0.0
-        self.pilots = {0: Pilot()}
-
-    def begin(self):
-        self.diary.append("begin")
-
-    def advance_to(self, time_s):
-        self.diary.append(time_s)
-        self.time_s = time_s
-
-    def position(self, node_id):
-        assert node_id == 0
-        return (self.time_s, 0.0, 5.0)
-
-    def pilot(self, node_id):
-        return self.pilots[node_id]
-
-    def close(self):
-        self.diary.append("close")
+from python.played_flights import PlayedFlights
 
 
 class Tested(IProtocol):
@@ -66,7 +31,7 @@ class Tested(IProtocol):
 
 @pytest.fixture
 def flights():
-    return Flights()
+    return PlayedFlights()
 
 
 def built(flights, protocol=Tested):

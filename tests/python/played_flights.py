@@ -1,0 +1,39 @@
+"""Flights without autopilots, which keep a diary."""
+
+
+class PlayedPilot:
+    """Writes down its orders."""
+
+    def __init__(self):
+        self.orders = []
+
+    def go_to(self, target):
+        self.orders.append(target)
+
+
+class PlayedFlights:
+    """In the place of `Flights`: of node 0, whose x is the time up to which it has flown."""
+
+    ids = frozenset({0})
+
+    def __init__(self):
+        self.diary = []
+        self.time_s = 0.0
+        self.pilots = {0: PlayedPilot()}
+
+    def begin(self):
+        self.diary.append("begin")
+
+    def advance_to(self, time_s):
+        self.diary.append(time_s)
+        self.time_s = time_s
+
+    def position(self, node_id):
+        assert node_id == 0
+        return (self.time_s, 0.0, 5.0)
+
+    def pilot(self, node_id):
+        return self.pilots[node_id]
+
+    def close(self):
+        self.diary.append("close")
