@@ -7,9 +7,11 @@ from cyclopts import Parameter
 
 from gradysim.commands.exit_code import MISTAKE, OK
 
+_PATTERN = "Part of a key, of its values or of its meaning; or a key with *."
+
 
 def list_keys(
-    pattern: Annotated[str, Parameter(name="PATTERN", help="Part of a key, or a pattern with *.")] = "",
+    pattern: Annotated[str, Parameter(name="PATTERN", help=_PATTERN)] = "",
     /,
     *,
     markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
@@ -30,7 +32,9 @@ def list_keys(
     sections = matching(everything, pattern)
     if not sections:
         hint = key_meant(everything, pattern)
-        print(f"no key contains {pattern!r}; `gradysim keys` lists all{hint}", file=sys.stderr)
+        print(
+            f"no key, value or meaning contains {pattern!r}; `gradysim keys` lists all{hint}", file=sys.stderr
+        )
         return MISTAKE
     if markdown:
         print(key_table.markdown(sections), end="")

@@ -65,10 +65,11 @@ def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ())
 
 
 def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
-    """The keys that contain `pattern`, in any case, or match it if it has a `*` or `?`.
+    """The keys that match `pattern`, if it has a `*` or `?`; otherwise those of whose texts one contains it.
 
-    Keys are listed for `nodes` and any index, `wlan[*]`: what is asked for one index or a range is found
-    there, and what is asked for another group, `*.uavs[0].mobility.speed`.
+    So a key is found by its values and its meaning, too. Case does not matter. Keys are listed for `nodes`
+    and any index, `wlan[*]`: what is asked for one index or a range is found there, and what is asked for
+    another group, `*.uavs[0].mobility.speed`.
     """
     everything = list(sections)
     return _matching(everything, pattern) or _matching(everything, _group_as_nodes(pattern))
@@ -83,13 +84,15 @@ def key_meant(sections: Iterable[KeySection], pattern: str) -> str:
 
 def _matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
     wanted = _INDEX.sub("[*]", pattern.lower())
-    if not set("*?") & set(wanted.replace("[*]", "")):
-        wanted = f"*{wanted}*"
-    wanted = wanted.replace("[", "[[]")
-    found = [
-        replace(section, rows=tuple(row for row in section.rows if fnmatchcase(row.key.lower(), wanted)))
-        for section in sections
-    ]
+    is_pattern = bool(set("*?") & set(wanted.replace("[*]", "")))
+    glob = wanted.replace("[", "[[]")
+
+    def fits(row: KeyRow) -> bool:
+        if is_pattern:
+            return fnmatchcase(row.key.lower(), glob)
+        return any(wanted in text.lower() for text in (row.key, row.unit, row.default, row.meaning))
+
+    found = [replace(section, rows=tuple(filter(fits, section.rows))) for section in sections]
     return [section for section in found if section.rows]
 
 

@@ -13,7 +13,8 @@ HEADINGS = ("key", "unit or value", "default", "meaning")
 
 INTRODUCTION = """# Keys of .ini files
 
-All that an `.ini` file may say; `gradysim keys` prints this page, `gradysim keys PATTERN` a part of it.
+All that an `.ini` file may say; `gradysim keys` prints this page, `gradysim keys ardupilot` the keys in whose
+name, values or meaning that stands, in any case, and `gradysim keys "*.power"` those whose name ends so.
 `nodes` stands for the name of a group, `*` for any index. Values in other units of the same dimension are
 understood too: a power in `mW` or `dBm`, a time in `ms` or `h`.
 Of two lines that fit, the first one is in force: write `*.uavs[0].mobility.speed` above

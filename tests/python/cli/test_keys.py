@@ -7,9 +7,16 @@ def test_keys_are_plain_lines_when_there_is_no_terminal(gradysim):
     assert [line.split("\t")[0] for line in done.stdout.splitlines()] == ["*.nodes[*].mobility.speed"]
 
 
+def test_a_key_is_found_by_a_value_that_it_may_take(gradysim):
+    done = gradysim("keys", "ardupilotmobility")
+    assert done.returncode == 0
+    assert "*.nodes[*].mobility.typename" in [line.split("\t")[0] for line in done.stdout.splitlines()]
+
+
 def test_a_pattern_that_no_key_matches_is_a_mistake(gradysim):
     done = gradysim("keys", "sensitivty")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.endswith(
-        "no key contains 'sensitivty'; `gradysim keys` lists all; did you mean `sensitivity`?\n"
+        "no key, value or meaning contains 'sensitivty'; `gradysim keys` lists all;"
+        " did you mean `sensitivity`?\n"
     )

@@ -61,6 +61,23 @@ def test_patterns(pattern: str) -> None:
     assert "*.nodes[*].wlan[*].radio.transmitter.power" in keys(pattern)
 
 
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ("stationarymobility", "*.nodes[*].mobility.typename"),  # one of its values
+        ("2.4 ghz", "*.nodes[*].wlan[*].radio.bandName"),  # another one
+        ("60m", "*.communicationMedium.transmissionRange"),  # its default
+        ("ArduPilot", "*.nodes[*].mobility.autopilotPath"),  # its meaning
+    ],
+)
+def test_a_text_is_found_in_values_and_meanings_in_any_case(text: str, key: str) -> None:
+    assert key in keys(text)
+
+
+def test_a_pattern_is_one_of_keys() -> None:
+    assert keys("*ArduPilot*") == []
+
+
 @pytest.mark.parametrize("index", ["0", "1", "12", "1..3", "2..", "..3"])
 def test_what_is_asked_of_one_interface_is_found_for_any(index: str) -> None:
     assert keys(f"wlan[{index}]") == keys("wlan[*]") != []
