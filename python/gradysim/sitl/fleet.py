@@ -98,6 +98,9 @@ class Fleet:
             connection.explain = process.obituary
             link.last_words = process.last_words
             await _connected(connection, process, timeout_s)
+        except BaseException:
+            connection.close()
+            raise
         finally:
             server.close()
         return connection

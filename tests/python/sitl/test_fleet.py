@@ -7,7 +7,8 @@ import os
 import pytest
 
 from gradysim.sitl.error import SitlError
-from python.sitl.fleet_flight import fly, launched, new_fleet, ready
+from gradysim.sitl.link import MavlinkLink
+from python.sitl.fleet_flight import HOME, fly, launched, new_fleet, ready
 
 pytestmark = pytest.mark.usefixtures("own_folder")
 
@@ -59,6 +60,21 @@ def test_the_path_of_its_folder_may_have_a_comma(toy_copter, tmp_path, monkeypat
     folder.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(folder))
     fly(new_fleet(toy_copter()), ready)
+
+
+def test_a_launch_that_is_given_up_closes_its_connection(toy_copter, monkeypatch):
+    """Otherwise it is explained, when it breaks, by files that are gone."""
+    fleet, link = new_fleet(toy_copter()), MavlinkLink("vehicle 0")
+
+    async def fail_once_it_is_made(connection, process, timeout_s):
+        await connection.made.wait()
+        raise SitlError("it is another one's fault")
+
+    monkeypatch.setattr("gradysim.sitl.fleet._connected", fail_once_it_is_made)
+    with pytest.raises(SitlError, match="another one's fault"):
+        asyncio.run(fleet.launch(link, 0, HOME, speedup=50, timeout_s=20))
+    fleet.close()
+    assert link.lost == "the connection was closed"
 
 
 def test_an_autopilot_that_does_not_connect_is_told(tmp_path):
