@@ -1,31 +1,14 @@
 import math
 from dataclasses import replace
-from inspect import signature
-from pathlib import Path
 
 import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.cli import calibrate_power
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.keys.radio import RADIO_KEYS
-from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.integrated.calibration import calibrate
-from gradysim.integrated.network import medium_config, node_config
-from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
 from gradysim.integrated.run import run
-
-ROOT = Path(__file__).parents[3]
-RANGE = "**.wlan[*].radio.transmitter.communicationRange = 150m"
-POWER = "**.wlan[*].radio.transmitter.power = 1mW"
-
-
-def link(*settings: str) -> Scenario:
-    """A sender of 2000 broadcasts, and ten sinks, from 100 m to 1 km."""
-    overrides = [*settings, "*.sender.protocol.interval = 5ms", "**.radio.receiver.sensitivity = -120dBm"]
-    overrides.append("*.receivers[*].protocol.count_from = 0s")
-    return load_scenarios(ROOT / "configs/fading.ini", "FreeSpace", overrides=overrides)[0]
+from python.integrated.fading_link import link
 
 
 def received_at_150_m(*settings: str) -> float:
@@ -66,64 +49,11 @@ def test_the_curve_goes_on_to_twice_the_range_and_falls() -> None:
     assert dict(curve)[150] == pytest.approx(0.5, abs=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("settings", "is_for_range"), [((RANGE, POWER), True), ((POWER, RANGE), False), ((RANGE,), True)]
-)
-def test_of_range_and_power_the_first_line_is_in_force(settings: tuple[str, ...], is_for_range: bool) -> None:
-    scenario = link(*settings)
-    assert scenario.nodes[0].wlan[0].range_sets_power == is_for_range
-    expected_w = calibrate(scenario, 150).tx_power_w if is_for_range else 1e-3
-    power = f"**.wlan[*].radio.transmitter.power = {expected_w * 1000!r}mW"
-    assert run(scenario).fingerprint == run(link(power)).fingerprint
-
-
-def test_the_power_for_a_range_is_that_at_the_nodes_height() -> None:
-    heights = "*.receivers[*].mobility.lineStartZ = 5m", "*.receivers[*].mobility.lineStepZ = 5m"
-    scenario = link(RANGE, TWO_RAYS, *heights)
-    powers = PowersForRanges(medium_config(scenario))
-    powers_w = []
-    for spec in scenario.nodes[1:3]:
-        config = node_config(spec)
-        powers.set_powers(config, spec)
-        powers_w.append(config.wlan[0].radio.tx_power_w)
-    assert powers_w[0] != pytest.approx(powers_w[1], rel=0.1)
-
-
-def test_what_a_range_means_is_the_same_wherever_it_is_said() -> None:
-    defaults = signature(calibrate_power).parameters
-    assert (defaults["ratio"].default, defaults["message"].default) == (RATIO, f"{MESSAGE_BYTES}B")
-    (meaning,) = (key.meaning for key in RADIO_KEYS if key.field == "communication_range_m")
-    assert f"half of the broadcast messages of {MESSAGE_BYTES} B" in meaning
-    assert RATIO == 0.5
-
-
-def test_a_range_alone_sets_no_power_where_the_range_itself_counts() -> None:
-    medium = '*.radioMedium.typename = "UnitDiskRadioMedium"'
-    scenario = link(RANGE, medium)
-    assert node_config(scenario.nodes[0]).wlan[0].radio.communication_range_m == 150
-    sender, nearest = run(scenario).nodes[:2]
-    assert nearest.tracked_variables["received"] == sender.tracked_variables["sent"]
-
-
-def test_a_range_that_no_power_reaches_is_an_error_at_its_line() -> None:
-    deaf = '**.antenna.typename = "ConstantGainAntenna"', "**.antenna.gain = -300dB"
-    with pytest.raises(ConfigError, match="no power reaches 150m: even of 1000GW") as error:
-        run(link(RANGE, *deaf))
-    assert error.value.key == RANGE.partition(" ")[0]
-
-
-ON_THE_GROUND = (
-    "with TwoRayInterference, a node on the ground hears next to nothing, as both rays cancel, and"
-    r" {} at z = 0m; expected a height, such as `\*\.{}\.mobility\.initialZ = 1.5m`"
-)
 TWO_RAYS = '*.radioMedium.pathLoss.typename = "TwoRayInterference"'
 
 
 def test_two_rays_that_cancel_are_why_no_power_reaches_a_range() -> None:
-    hint = "; " + ON_THE_GROUND.format(r"sender starts", "sender")
-    with pytest.raises(ConfigError, match=hint):
-        run(link(RANGE, TWO_RAYS, "*.sender.mobility.initialZ = 0m"))
-    with pytest.raises(ConfigError, match=hint):
+    with pytest.raises(ConfigError, match="; with TwoRayInterference, a node on the ground hears next to"):
         calibrate(link(TWO_RAYS, "*.sender.mobility.initialZ = 0m"), range_m=50.0)
 
 

@@ -1,0 +1,50 @@
+"""Nodes on the ground, where two rays cancel."""
+
+from collections.abc import Callable
+
+import pytest
+
+from gradysim.config import Scenario
+from gradysim.integrated.network import medium_config
+from gradysim.integrated.two_ray_ground import ground_hint
+
+
+@pytest.fixture
+def hint(make_scenario: Callable[..., Scenario]) -> Callable[..., str]:
+    """`hint(*settings)`: that for two nodes with these settings."""
+
+    def of(*settings: str) -> str:
+        scenario = make_scenario("class Tested(Talker): pass", *settings)
+        return ground_hint(medium_config(scenario), scenario.nodes)
+
+    return of
+
+
+def path_loss(name: str) -> str:
+    return f'*.radioMedium.pathLoss.typename="{name}"'
+
+
+@pytest.mark.parametrize("name", ["TwoRayGroundReflection", "TwoRayInterference"])
+def test_all_that_are_on_the_ground_are_told(hint: Callable[..., str], name: str) -> None:
+    assert hint(path_loss(name)) == (
+        f"with {name}, a node on the ground hears next to nothing, as both rays cancel, and uavs[0] and 1"
+        " more start at z = 0m; expected a height, such as `*.uavs[0].mobility.initialZ = 1.5m`"
+    )
+
+
+def test_of_one_that_is_there_alone_no_others_are_told(hint: Callable[..., str]) -> None:
+    text = hint(path_loss("TwoRayInterference"), "*.uavs[0].mobility.initialZ=2m")
+    assert "and uavs[1] starts at z = 0m; expected a height, such as `*.uavs[1].mobility" in text
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        [path_loss("TwoRayInterference"), "*.uavs[*].mobility.initialZ=2m"],
+        [path_loss("FreeSpacePathLoss")],
+        [path_loss("TwoRayInterference"), '*.radioMedium.typename="UnitDiskRadioMedium"'],
+    ],
+    ids=["in the air", "one ray", "no rays"],
+)
+def test_where_nothing_cancels_nothing_is_told(hint: Callable[..., str], settings: list[str]) -> None:
+    assert hint(*settings) == ""
