@@ -13,7 +13,7 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
 from gradysim.config import Scenario, load_scenarios
-from gradysim.config.value.drawing_functions import FUNCTIONS
+from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS
 from gradysim.prototype.run import run
 from gradysim.results.run_result import NodeResult
 
@@ -108,7 +108,7 @@ def test_its_random_places_are_others_in_each_run(code_blocks: CodeBlocks, folde
 def test_its_table_of_functions_has_all_of_them(root: Path) -> None:
     table = (root / GUIDE).read_text().partition("| function |")[2].partition("All values")[0]
     assert re.findall(r"^\| `(.*?)` \|", table, re.MULTILINE) == [
-        function.written for function in FUNCTIONS.values()
+        function.written for function in DRAWING_FUNCTIONS.values()
     ]
 
 

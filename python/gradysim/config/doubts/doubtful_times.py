@@ -15,7 +15,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.parameter_unit import unit_of
 from gradysim.config.value.expression import parse_value
-from gradysim.config.value.parameter_stream import ParameterDraws
+from gradysim.config.value.parameter_context import ParameterContext
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import Dimension, Unit
 
@@ -59,7 +59,9 @@ def _is_named_like_a_time(name: str) -> bool:
 def _unit_of_no_time(text: str) -> str:
     """The name of the unit that the text has, if it is none of times; else ""."""
     try:
-        value = parse_value(text, ParameterDraws(0, ""))  # whatever is drawn, its unit is the same
+        value = parse_value(
+            text, ParameterContext(0, "nodes[0].protocol.x")
+        )  # whichever node's, its unit is the same
     except BadValue:  # with a variable in it, or a list of values
         return "m" if "${" in text and '"' not in text and _METRES_IN_A_LIST.search(text) else ""
     unit: Unit | None = value.unit if isinstance(value, Quantity) else None

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from gradysim.config.file.reader import Entry, Section
 from gradysim.config.matching.lookup import is_ignored, is_option
-from gradysim.config.matching.pattern import Pattern, compile_pattern
+from gradysim.config.value.pattern import Pattern, compile_pattern
 
 _NO_DOT = "\0\0\0"
 """Stands for what a wildcard within one name may be: `*` matches it, a range and a name do not."""

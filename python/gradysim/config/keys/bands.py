@@ -10,8 +10,9 @@ which is meant (channel 36: 5180 MHz).
 
 from dataclasses import replace
 
-from gradysim.config.value.expression import Value, parse_value
+from gradysim.config.value.expression import parse_value
 from gradysim.config.value.kinds import Kind, Scalar, channel_of_2_4_ghz, choice, integer
+from gradysim.config.value.operators import Value
 
 
 def _channel(band: str, start_hz: float, width_hz: float, count: int) -> Kind:

@@ -38,6 +38,13 @@ OPTION_KEYS: tuple[Key, ...] = (
         "Which combinations of values are runs: `$x < $y && $x != 3`; all by default",
         default='""',
     ),
+    Key(
+        "iteration-nesting-order",
+        "option.iteration_nesting_order",
+        text(),
+        "Names of iteration variables, the outermost first: `repetition, *, x`; `*`: the others in order",
+        default="*, repetition",
+    ),
     Key("description", "option.description", text(), "What the configuration is about", default='""'),
 )
 

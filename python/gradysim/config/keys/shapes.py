@@ -5,8 +5,8 @@ from typing import Self
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.keys.key import Key, ReadBy
-from gradysim.config.value.expression import Value
 from gradysim.config.value.kinds import Kind, Scalar, quantity
+from gradysim.config.value.operators import Value
 
 _STRONGEST_W = 1
 

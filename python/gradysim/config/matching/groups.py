@@ -14,7 +14,7 @@ from gradysim.config.keys.interface import NUM_WLAN_INTERFACES
 from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS
 from gradysim.config.keys.options import IGNORED_MODULES
 from gradysim.config.matching.lookup import Found, Lookup
-from gradysim.config.matching.pattern import Pattern, compile_pattern
+from gradysim.config.value.pattern import Pattern, compile_pattern
 from gradysim.config.value.setting import SettingReader
 
 _PROTOCOL_PATHS = frozenset(key.path for key in PROTOCOL_KEYS)

@@ -20,8 +20,8 @@ from gradysim.config.keys.options import OPTIONS, SECTION_OPTIONS
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.config.matching.lookup import Found, Lookup, is_ignored
-from gradysim.config.matching.pattern import Pattern
 from gradysim.config.protocol.parameters import parameters_of
+from gradysim.config.value.pattern import Pattern
 from gradysim.protocol.interface import IProtocol
 
 
@@ -196,7 +196,7 @@ def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
 def _is_beyond_drawn_size(found: Found, groups: list[Group]) -> bool:
     """Whether a key names an index of a group whose size is drawn: runs of other seeds may have it."""
     size = _size_of_indexed_group(found, groups)
-    return size is not None and size.draws
+    return size is not None and size.differs
 
 
 def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:

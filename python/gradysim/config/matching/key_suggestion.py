@@ -9,9 +9,9 @@ from gradysim.config.keys.interface import WLAN, interface_in, written_for
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.lookup import Found
-from gradysim.config.matching.pattern import Pattern, compile_pattern
 from gradysim.config.protocol.parameter_unit import annotations_of
 from gradysim.config.protocol.parameters import parameters_of
+from gradysim.config.value.pattern import Pattern, compile_pattern
 from gradysim.protocol.interface import IProtocol
 
 _PROTOCOL = "protocol."

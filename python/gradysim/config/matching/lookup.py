@@ -13,8 +13,8 @@ from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
 from gradysim.config.keys.options import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
-from gradysim.config.matching.pattern import Pattern, compile_pattern
-from gradysim.config.value.drawing_functions import drawing_function_in
+from gradysim.config.value.parameter_context import differs_between_parameters
+from gradysim.config.value.pattern import Pattern, compile_pattern
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class Found:
         pattern: Its key, compiled.
         parts: The pattern for the network, for the name below it and for the rest (which may be missing), or
             None if `**` makes them uncertain.
-        draws: Whether its value is drawn, so that no two parameters have the same.
+        differs: Whether each parameter has a value of its own: drawn, or by an index.
     """
 
     order: int
@@ -36,7 +36,7 @@ class Found:
     entry: Entry
     pattern: Pattern
     parts: list[Pattern] | None
-    draws: bool
+    differs: bool
 
     @property
     def is_default(self) -> bool:
@@ -162,5 +162,5 @@ def _compile(order: int, rank: int, entry: Entry) -> Found:
     except BadValue as error:
         raise ConfigError(f"{entry.key}: {error}", entry.source) from error
     parts = pattern.split()
-    draws = bool(drawing_function_in(entry.text))
-    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None, draws)
+    differs = differs_between_parameters(entry.text)
+    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None, differs)

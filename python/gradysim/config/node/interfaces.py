@@ -69,8 +69,8 @@ class InterfaceBuilder:
             )
         in_force = [(key, candidates.first(node)) for key, candidates in self._keys[index]]
         found = {key: entry for key, entry in in_force if entry is not None}
-        drawn_for = (node, index) if any(entry.draws for entry in found.values()) else None
-        known = (drawn_for, *((key.path, entry) for key, entry in found.items()))
+        its_own = (node, index) if any(entry.differs for entry in found.values()) else None
+        known = (its_own, *((key.path, entry) for key, entry in found.items()))
         spec = self._known.get(known)
         if spec is None:
             is_802154 = self._is_802154(found)

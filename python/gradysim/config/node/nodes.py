@@ -158,9 +158,9 @@ class _NodeBuilder:
         found_parameters = [candidates.first(name) for _, _, candidates in parameters]
         wlan = self._interfaces.interfaces(name, interface_count)
         in_force = (protocol, *map(id, wlan), *found, *found_parameters)
-        draws = any(entry.draws for entry in (*found, *found_parameters) if entry)
+        differs = any(entry.differs for entry in (*found, *found_parameters) if entry)
         shared = self._shared.get(in_force)
-        if shared is None or draws:  # the same lines give each node other values if they draw
+        if shared is None or differs:  # the same lines give each node other values
             made = self._make(
                 name,
                 {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},

@@ -6,8 +6,8 @@ from functools import cache, lru_cache
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.protocol.parameter_unit import annotations_of, unit_of
-from gradysim.config.value.expression import Value
 from gradysim.config.value.kinds import Kind, Scalar, boolean, integer, number_in, si_number, text
+from gradysim.config.value.operators import Value
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import Dimension
 from gradysim.protocol.interface import IProtocol

@@ -1,29 +1,20 @@
 """The option `constraint`: which combinations of iteration variables are runs, as in `$nodes * $rate < 500`.
 
-Its grammar: comparisons of two values, joined by `&&` and `||`, of which `&&` binds more tightly. Variables
-are written `$x` or `${x}`.
+It is an expression (value/expression.py) that is true or false. Variables are written `$x` or `${x}`, and
+their texts take their places.
 """
 
-import operator
 import re
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Mapping
+from functools import lru_cache
 
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
-from gradysim.config.value.expression import Value, parse_value
-from gradysim.config.value.quantity import Quantity
+from gradysim.config.value.expression import parse_value
+from gradysim.config.value.operators import text_of
+from gradysim.config.value.quoted import QUOTED
 
-_COMPARISONS: dict[str, Callable[[Any, Any], bool]] = {
-    "<=": operator.le,
-    ">=": operator.ge,
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    ">": operator.gt,
-}
-_SIGN = re.compile(r"(<=|>=|==|!=|<|>)")
-_TEXT = re.compile(r'"(?:[^"\\]|\\.)*"')
+_ONE_TEXT = re.compile(QUOTED, re.DOTALL)
 _VARIABLE = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
 
 
@@ -31,7 +22,7 @@ def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
     """Whether a combination of values is wanted.
 
     Raises:
-        ConfigError: The constraint is no comparison, or cannot be decided.
+        ConfigError: The constraint is neither true nor false, or cannot be decided.
     """
 
     def value_of(match: re.Match[str]) -> str:
@@ -42,13 +33,13 @@ def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
         return variables[name]
 
     text = constraint.text
-    if text.startswith('"') and text.endswith('"'):
+    if _ONE_TEXT.fullmatch(text):
         text = text[1:-1].replace('\\"', '"')
     if not text.strip():  # the default
         return True
     text = _VARIABLE.sub(value_of, text)
     try:
-        return any(all(map(_comparison, alternative.split("&&"))) for alternative in text.split("||"))
+        return _truth_of(text)
     except BadValue as error:
         raise ConfigError.at(
             constraint.source,
@@ -57,34 +48,9 @@ def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
         ) from error
 
 
-def _comparison(text: str) -> bool:
-    parts = _SIGN.split(text)
-    if not text.strip():
-        raise BadValue("a comparison is missing")
-    if len(parts) != 3:
-        raise BadValue(f"`{text.strip()}` is not one comparison", _hint(text))
-    bare = [_TEXT.sub("", side) for side in parts]
-    if any(side.count("(") != side.count(")") for side in bare):
-        raise BadValue("a comparison stands in parentheses, which go around values only")
-    left, right = parse_value(parts[0]), parse_value(parts[2])
-    return _COMPARISONS[parts[1]](*_comparable(left, right))
-
-
-def _hint(text: str) -> str:
-    """How other languages write what was meant."""
-    if match := re.search(r"\b(and|or)\b", text):
-        return f"; did you mean `{'&&' if match[1] == 'and' else '||'}`?"
-    return "; did you mean `==`?" if re.search(r"(?<![<>=!])=(?!=)", text) else ""
-
-
-def _comparable(left: Value, right: Value) -> tuple[object, object]:
-    """Both as Python's numbers or texts. Raises BadValue if they are of different kinds."""
-    if isinstance(left, Quantity) and isinstance(right, Quantity):
-        if left.unit is None and right.unit is None:
-            return left.number, right.number
-        if left.unit is not None and right.unit is not None:
-            return left.to(right.unit), float(right.number)
-        raise BadValue(f"`{left}` and `{right}` measure different things")
-    if type(left) is type(right) and isinstance(left, str | bool):
-        return left, right
-    raise BadValue("it compares a number with something else")
+@lru_cache  # for the repetitions of a combination
+def _truth_of(text: str) -> bool:
+    value = parse_value(text)
+    if isinstance(value, bool):
+        return value
+    raise BadValue(f"`{text_of(value)}` is neither true nor false")

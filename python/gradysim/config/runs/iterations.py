@@ -12,12 +12,16 @@ from decimal import Decimal, InvalidOperation, Overflow
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
 from gradysim.config.value.drawing_functions import drawing_function_in
 
-PREDEFINED = ("runnumber", "repetition", "configname", "iterationvars")
+REPETITION = "repetition"
+"""The variable that counts the runs of one combination of values, from 0."""
+
+PREDEFINED = ("runnumber", REPETITION, "configname", "iterationvars")
 """Variables that every run has, whatever its file says."""
 
 MAX_VALUES = 1_000_000
@@ -38,13 +42,13 @@ class IterationVariable:
     Attributes:
         name: As the file says, or a number.
         values: Texts that take its place, in their order.
-        entry: Where it stands.
+        source: Where it stands.
         follows: Name of the variable that it is in lock-step with, or "".
     """
 
     name: str
     values: tuple[str, ...]
-    entry: Entry
+    source: Source
     follows: str = ""
 
 
@@ -105,7 +109,7 @@ def count_combinations(variables: Sequence[IterationVariable]) -> int:
         count *= 1 if variable.follows else len(variable.values)
         if count > MAX_VALUES:
             raise ConfigError.at(
-                variable.entry.source, f"more than {MAX_VALUES} combinations of values; expected fewer"
+                variable.source, f"more than {MAX_VALUES} combinations of values; expected fewer"
             )
     return count
 
@@ -147,14 +151,14 @@ def _define(content: str, entry: Entry, variables: dict[str, IterationVariable])
     if name in PREDEFINED:
         raise ConfigError.at(entry.source, f"`${{{name}}}` is there in every run; expected another name")
     if name in variables:
-        other = variables[name].entry.source
+        other = variables[name].source
         place = f"line {other.line}" if other.line and other.file == entry.source.file else str(other)
         raise ConfigError.at(
             entry.source, f"`{name}` has its values at {place} already; expected `${{{name}}}` here"
         )
     name = name or str(sum(variable.isdigit() for variable in variables))
     values = tuple(value for part in _split(listed) for value in _values(part, entry))
-    variables[name] = IterationVariable(name, values, entry, follows)
+    variables[name] = IterationVariable(name, values, entry.source, follows)
     return name
 
 
@@ -227,7 +231,7 @@ def _check_names(
     variables: Mapping[str, IterationVariable],
     left_out: Sequence[Entry],
 ) -> None:
-    """Raise ConfigError for a name that is no variable, and for a lock-step that cannot be."""
+    """Raise ConfigError for a name that is no variable."""
     known = [*(name for name in variables if not name.isdigit()), *PREDEFINED]
     for _, entry in named:
         if is_ignored(entry):
@@ -236,13 +240,18 @@ def _check_names(
             if match[1] not in (*variables, *PREDEFINED):
                 raise ConfigError.at(entry.source, _unknown(match[1], known, left_out))
     for variable in variables.values():
-        if variable.follows and variable.follows not in variables:
-            raise ConfigError.at(variable.entry.source, _unknown(variable.follows, known, left_out))
-    for variable in variables.values():
-        leader = _leader(variable, variables)
+        if variable.follows and variable.follows not in (*variables, REPETITION):
+            raise ConfigError.at(variable.source, _unknown(variable.follows, known, left_out))
+
+
+def check_lock_step(variables: Sequence[IterationVariable]) -> None:
+    """Raise ConfigError for a lock-step in a circle, or of variables with different numbers of values."""
+    by_name = {variable.name: variable for variable in variables}
+    for variable in variables:
+        leader = _leader(variable, by_name)
         if len(leader.values) != len(variable.values):
             raise ConfigError.at(
-                variable.entry.source,
+                variable.source,
                 f"it has {len(variable.values)} values and is in lock-step with `{leader.name}`, which has"
                 f" {len(leader.values)}; expected as many",
             )
@@ -268,7 +277,7 @@ def _leader(variable: IterationVariable, by_name: Mapping[str, IterationVariable
     while variable.follows:
         if variable.follows in passed:
             raise ConfigError.at(
-                variable.entry.source, f"`{variable.follows}` is in lock-step with itself; expected no circle"
+                variable.source, f"`{variable.follows}` is in lock-step with itself; expected no circle"
             )
         variable = by_name[variable.follows]
         passed.append(variable.name)

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from gradysim.config.errors.config_error import BadValue
-from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.value.operators import Value
 from gradysim.config.value.parameter_stream import ParameterStream
 from gradysim.config.value.quantity import Number, Quantity
+from gradysim.config.value.quoted import QUOTED
 from gradysim.config.value.units import Dimension
 
 _MOST_INTEGERS = 2**64
@@ -34,13 +35,16 @@ class _Function:
         return self.written.count(",") + 1
 
 
-def draw(name: str, values: Sequence[Quantity], stream: ParameterStream) -> Quantity:
+def draw(name: str, given: Sequence[Value], stream: ParameterStream) -> Quantity:
     """The number that the function of that name draws, in the unit of its first value.
 
     Raises:
         BadValue: The values do not go with the function or with each other.
     """
-    function = FUNCTIONS[name]
+    function = DRAWING_FUNCTIONS[name]
+    values = [value for value in given if isinstance(value, Quantity)]
+    if len(values) < len(given):
+        raise BadValue(f"`{name}` takes numbers only")
     if len(values) != function.value_count:
         one_more = len(values) == function.value_count + 1
         hint = "; generators have no numbers here, each parameter has its own" if one_more else ""
@@ -50,14 +54,6 @@ def draw(name: str, values: Sequence[Quantity], stream: ParameterStream) -> Quan
         return Quantity(function.draw(stream, _in_one_unit(values)), values[0].unit)
     except BadValue as error:
         raise BadValue(f"`{name}`: {error.problem}", error.suggestion) from None
-
-
-def check_function(name: str) -> None:
-    """Raise BadValue if there is no function of that name."""
-    if name not in FUNCTIONS:
-        *names, last = FUNCTIONS
-        problem = f"there is no function `{name}`, only {', '.join(names)} and {last}"
-        raise BadValue(problem, did_you_mean(name, FUNCTIONS))
 
 
 def drawing_function_in(text: str) -> str:
@@ -162,7 +158,7 @@ def _not_negative(value: Quantity, what: str) -> float:
     return float(value.number)
 
 
-FUNCTIONS: dict[str, _Function] = {
+DRAWING_FUNCTIONS: dict[str, _Function] = {
     "uniform": _Function("uniform(a, b)", _uniform),
     "intuniform": _Function("intuniform(a, b)", _intuniform),
     "exponential": _Function("exponential(mean)", _exponential),
@@ -171,4 +167,4 @@ FUNCTIONS: dict[str, _Function] = {
 }
 """By name."""
 
-_CALL_OR_TEXT = re.compile(rf'"(?:[^"\\]|\\.)*"|\b({"|".join(FUNCTIONS)})\s*\(', re.ASCII | re.DOTALL)
+_CALL_OR_TEXT = re.compile(rf"{QUOTED}|\b({'|'.join(DRAWING_FUNCTIONS)})\s*\(", re.ASCII | re.DOTALL)

@@ -1,34 +1,41 @@
-"""Reads the text of a value: quantities with units, texts in quotes, true and false, and simple arithmetic.
+"""Reads the text of a value: quantities with units, texts in quotes, true and false, and expressions of them.
 
-Its grammar:
+Its grammar, OMNeT++'s but for operators of bits, and functions of texts, files and units:
 
-- sum = product (("+" | "-") product)*
-- product = signed (("*" | "/") signed)*
-- signed = "-" signed | "+" signed | term ["^" signed]
-- term = quantity+ | text | "true" | "false" | "(" sum ")" | call
-- call = function "(" [sum ("," sum)*] ")", of a function in drawing_functions
+- value = operation ["?" value ":" value]
+- operation = power (operator power)*, by the levels of operators.OPERATORS
+- power = signed ["^" power]
+- signed = ("-" | "+" | "!") signed | term
+- term = quantity+ | text | "true" | "false" | "(" value ")" | call | "index"
+- call = function "(" [value ("," value)*] ")", of functions, drawing_functions and parameter_context
 - quantity = number [unit]; several of different units stand for their sum, as in `1h 5min`
+
+What `?`, `&&` and `||` leave aside has to be well written, but needs no value: `${n} > 0 ? 1s / ${n} : 1s`.
 """
 
 import math
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 
 from gradysim.config.errors.config_error import BadValue
-from gradysim.config.value.drawing_functions import check_function, draw
-from gradysim.config.value.parameter_stream import ParameterDraws
+from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS, draw
+from gradysim.config.value.functions import FUNCTIONS, call
+from gradysim.config.value.operators import OPERATORS, Value, number, power, text_of, truth
+from gradysim.config.value.parameter_context import INDEX, INDEX_FUNCTIONS, ParameterContext
 from gradysim.config.value.quantity import Number, Quantity
-from gradysim.config.value.stray_token import not_understood
+from gradysim.config.value.quoted import QUOTED
+from gradysim.config.value.stray_token import is_operator_of_python, not_understood
 from gradysim.config.value.units import unit_named
 
-Value = Quantity | str | bool
-
 _TOKENS = re.compile(
-    r"""\s*(?:
+    rf"""\s*(?:
       (?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)
-    | (?P<text>"(?:[^"\\]|\\.)*")
-    | (?P<word>[A-Za-z_%]+)
-    | (?P<sign>[-+*/^(),])
+    | (?P<text>{QUOTED})
+    | (?P<word>[A-Za-z_]+(?:\d+(?=\s*\())?)
+    | (?P<sign>&&|\|\||==|!=|<=|>=|=~|[-+*/%^(),?:!<>])
     | (?P<other>\S)
     )""",
     re.VERBOSE | re.ASCII | re.DOTALL,
@@ -39,31 +46,35 @@ _SPEEDS = {"m/s": "mps", "km/h": "kmph", "km/s": "kmps"}
 _WORDS = ("true", "false", "inf", "nan")
 _MAX_DEPTH = 50
 _MAX_DIGITS = 300
+_ANYTHING = Quantity(0)
+"""The value of what is read but left aside."""
 
 
-def parse_value(text: str, draws: ParameterDraws | None = None) -> Value:
+def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
     """The value of a text such as `1h 5min`, `-85dBm`, `2 * 50m`, `"g(mixed)"` or `true`.
 
-    With `draws`, those of the parameter that it is for, it may be drawn: `uniform(0m, 1km)`.
+    With the `parameter` that it is for, it may be drawn and depend on indices: `uniform(0m, 1km)`,
+    `50m * parentIndex()`.
 
     Raises:
         BadValue: It is none.
     """
-    return _Parser(text, draws).parse()
+    return _Parser(text, parameter).parse()
 
 
 class _Parser:
-    def __init__(self, text: str, draws: ParameterDraws | None) -> None:
-        self._draws = draws
+    def __init__(self, text: str, parameter: ParameterContext | None) -> None:
+        self._parameter = parameter
         self._tokens = [
             (match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKENS.finditer(text)
         ]
         self._text = text
         self._position = 0
         self._depth = 0
+        self._leaves_aside = False
 
     def parse(self) -> Value:
-        value = self._sum()
+        value = self._value()
         kind, token = self._peek()
         if kind:
             raise not_understood(token, self._text)
@@ -79,32 +90,69 @@ class _Parser:
             return token
         return ""
 
-    def _sum(self) -> Value:
-        value = self._product()
-        while sign := self._accept("+", "-"):
-            value = _number(value).plus(_number(self._product()), -1 if sign == "-" else 1)
-        return value
-
-    def _product(self) -> Value:
-        value = self._signed()
-        while sign := self._accept("*", "/"):
-            left, right = _number(value), _number(self._signed())
-            value = left.times(right) if sign == "*" else left.over(right)
-        return value
-
-    def _signed(self) -> Value:
+    @contextmanager
+    def _deeper(self) -> Iterator[None]:
         self._depth += 1
         if self._depth > _MAX_DEPTH:
             raise BadValue("the expression is nested too deeply")
-        if sign := self._accept("+", "-"):
-            operand = _number(self._signed())
-            value: Value = Quantity(-operand.number, operand.unit) if sign == "-" else operand
-        else:
-            value = self._term()
-            if self._accept("^"):
-                value = _number(value).power(_number(self._signed()))
+        yield
         self._depth -= 1
-        return value
+
+    @contextmanager
+    def _aside(self, condition: bool) -> Iterator[None]:
+        """What is read meanwhile gives nothing of use if the condition holds."""
+        before = self._leaves_aside
+        self._leaves_aside |= condition
+        yield
+        self._leaves_aside = before
+
+    def _result(self, apply: Callable[..., Value], *operands: object) -> Value:
+        return _ANYTHING if self._leaves_aside else apply(*operands)
+
+    def _value(self) -> Value:
+        condition = self._operation()
+        if not self._accept("?"):
+            return condition
+        holds = self._leaves_aside or truth(condition, "?")
+        with self._aside(not holds), self._deeper():
+            chosen = self._value()
+        if not self._accept(":"):
+            raise BadValue("`?` is without its `:`")
+        with self._aside(holds), self._deeper():
+            other = self._value()
+        return chosen if holds else other
+
+    def _operation(self, least_level: int = 0) -> Value:
+        left = self._power()
+        while True:
+            kind, sign = self._peek()
+            operator = OPERATORS.get(sign) if kind == "sign" else None
+            if operator is None or operator.level < least_level:
+                return left
+            self._position += 1
+            is_decided = (
+                operator.decided_by is not None
+                and not self._leaves_aside
+                and truth(left, sign) is operator.decided_by
+            )
+            with self._aside(is_decided):
+                right = self._operation(operator.level + 1)
+            if not is_decided:
+                left = self._result(operator.apply, left, right)
+
+    def _power(self) -> Value:
+        base = self._signed()
+        if not self._accept("^"):
+            return base
+        with self._deeper():
+            return self._result(power, base, self._power())
+
+    def _signed(self) -> Value:
+        sign = self._accept("+", "-", "!")
+        if not sign:
+            return self._term()
+        with self._deeper():
+            return self._result(_with_sign, sign, self._signed())
 
     def _term(self) -> Value:
         kind, token = self._peek()
@@ -118,38 +166,65 @@ class _Parser:
             return self._quantities()
         if token in ("true", "false"):
             return token == "true"
-        if token == "(":
-            value = self._sum()
-            if not self._accept(")"):
-                raise BadValue("`(` is not closed")
+        if kind == "sign" and token == "(":
+            with self._deeper():
+                value = self._value()
+            self._close()
             return value
         if kind == "word":
             if self._accept("("):
                 return self._call(token)
+            if is_operator_of_python(token):
+                raise not_understood(token, self._text)
+            if token == INDEX:
+                return self._result(lambda: self._index(0))
             raise BadValue(f"`{token}` is no value (a text stands in quotes)", self._hint_at(token))
-        raise not_understood(token, self._text) if kind else BadValue("the value ends too early")
+        if kind:
+            raise not_understood(token, self._text)
+        is_share = self._text.rstrip().endswith("%")
+        raise BadValue("the value ends too early", "; 50% is written `0.5`" if is_share else "")
 
-    def _call(self, name: str) -> Quantity:
-        """What the function draws; its `(` has been read."""
-        check_function(name)
-        if self._draws is None:
+    def _close(self) -> None:
+        if not self._accept(")"):
+            raise BadValue("`(` is not closed")
+
+    def _call(self, name: str) -> Value:
+        """What the function gives; its `(` has been read."""
+        draws = name in DRAWING_FUNCTIONS
+        if not (draws or name in FUNCTIONS or name in INDEX_FUNCTIONS):
+            names = [*FUNCTIONS, *DRAWING_FUNCTIONS, *INDEX_FUNCTIONS]
+            hint = did_you_mean(name, names) or f"; there are {', '.join(sorted(names))}"
+            raise BadValue(f"there is no function `{name}`", hint)
+        if draws and self._parameter is None:
             raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
-        stream = self._draws.next_stream()
-        values: list[Quantity] = []
-        while not self._accept(")"):
-            if values and not self._accept(","):
-                raise BadValue("`(` is not closed")
-            value = self._sum()
-            if not isinstance(value, Quantity):
-                raise BadValue(f"`{name}` takes numbers only")
-            values.append(value)
-        return draw(name, values, stream)
+        stream = self._parameter.next_stream() if draws and self._parameter else None
+        with self._deeper():
+            values = self._arguments()
+        if stream is not None:
+            return self._result(draw, name, values, stream)
+        if name in INDEX_FUNCTIONS:
+            return self._result(lambda: self._index(_levels(name, values)))
+        return self._result(call, name, values)
+
+    def _arguments(self) -> list[Value]:
+        if self._accept(")"):
+            return []
+        values = [self._value()]
+        while self._accept(","):
+            values.append(self._value())
+        self._close()
+        return values
+
+    def _index(self, levels: int) -> Value:
+        if self._parameter is None:
+            raise BadValue("it asks for the index of a parameter's module, which this has not")
+        return Quantity(self._parameter.index_of_ancestor(levels))
 
     def _hint_at(self, word: str) -> str:
         if word.lower() in _WORDS:
             return f"; did you mean `{word.lower()}`?"
-        if word == "index":
-            return "; no value knows the index of a node: `lineStepX = 3m` sets nodes in a line"
+        if word in INDEX_FUNCTIONS:
+            return f"; did you mean `{INDEX_FUNCTIONS[word]}`?"
         unit = "".join(token for _, token in self._tokens[max(0, self._position - 3) : self._position])
         return f"; did you mean `{_SPEEDS[unit]}`?" if unit in _SPEEDS else ""
 
@@ -181,14 +256,30 @@ class _Parser:
         kind, token = self._peek()
         if kind != "word":
             return Quantity(number)
+        if is_operator_of_python(token):
+            raise not_understood(token, self._text)
         self._position += 1
         return Quantity(number, unit_named(token))
 
 
-def _number(value: Value) -> Quantity:
-    if not isinstance(value, Quantity):
-        raise BadValue("arithmetic is for numbers only")
-    return value
+def _with_sign(sign: str, operand: Value) -> Value:
+    if sign == "!":
+        return not truth(operand, sign)
+    quantity = number(operand)
+    return Quantity(-quantity.number, quantity.unit) if sign == "-" else quantity
+
+
+def _levels(name: str, values: list[Value]) -> int:
+    """How far up a function of INDEX_FUNCTIONS looks."""
+    written = INDEX_FUNCTIONS[name]
+    if len(values) != (name == "ancestorIndex"):
+        raise BadValue(f"`{written}` does not take {len(values)} values")
+    if not values:
+        return 1
+    (levels,) = values
+    if not (isinstance(levels, Quantity) and levels.unit is None and isinstance(levels.number, int)):
+        raise BadValue(f"`{written}`: `{text_of(levels)}` is no whole number")
+    return levels.number
 
 
 def _parse_number(token: str) -> Number:

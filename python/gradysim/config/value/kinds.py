@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.errors.nearest import did_you_mean
-from gradysim.config.value.expression import Value
+from gradysim.config.value.operators import Value
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import UNITS, Dimension
 from gradysim.protocol.position import LARGEST_COORDINATE_M

@@ -48,26 +48,6 @@ class ParameterStream:
                 return number
 
 
-class ParameterDraws:
-    """The streams of one parameter, handed out in the order in which its value, read from the left, draws.
-
-    Attributes:
-        path: Of the parameter, without the network.
-        count: How many streams have been handed out.
-    """
-
-    def __init__(self, seed: int, path: str) -> None:
-        """For one reading of the value."""
-        self.path = path
-        self.count = 0
-        self._seed = seed
-
-    def next_stream(self) -> ParameterStream:
-        """Return the stream of the next draw."""
-        self.count += 1
-        return ParameterStream(self._seed, self.path, self.count - 1)
-
-
 def _uniform(high: int, low: int) -> float:
     """As RandomStream.random makes a number of two words."""
     return (high >> 5 << 26 | low >> 6) * 2.0**-53

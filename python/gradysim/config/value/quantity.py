@@ -65,6 +65,18 @@ class Quantity:
         exact: Fraction = self.number * scale
         return exact
 
+    def number_in_unit_of(self, other: "Quantity") -> Number:
+        """The number in the unit of another quantity, to be compared with that one's.
+
+        Raises:
+            BadValue: The two measure different things.
+        """
+        if self.unit == other.unit:
+            return self.number
+        if self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension:
+            raise BadValue(f"`{other}` and `{self}` measure different things and cannot be compared")
+        return self._to(other.unit)
+
     def plus(self, other: "Quantity", sign: int = 1) -> "Quantity":
         """The sum, in the unit of this one (the difference for sign = -1)."""
         number = other.number
@@ -103,6 +115,18 @@ class Quantity:
         else:
             quotient = Fraction(self.number) / divisor
         return Quantity(quotient, self.unit if other.unit is None else None)
+
+    def modulo(self, other: "Quantity") -> "Quantity":
+        """The remainder of two plain whole numbers, with the sign of this one, as in C."""
+        left, right = self.number, other.number
+        if self.unit or other.unit or not (isinstance(left, int) and isinstance(right, int)):
+            raise BadValue(
+                f"`{self}` % `{other}`: it is for plain whole numbers", "; for others there is `fmod(a, b)`"
+            )
+        if right == 0:
+            raise BadValue(f"`{self}` is divided by zero")
+        remainder = abs(left) % abs(right)
+        return Quantity(-remainder if left < 0 else remainder)
 
     def power(self, other: "Quantity") -> "Quantity":
         """A plain number to the power of a plain number."""

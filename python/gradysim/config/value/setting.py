@@ -6,10 +6,10 @@ from pathlib import Path
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
-from gradysim.config.value.drawing_functions import drawing_function_in
-from gradysim.config.value.expression import Value, parse_value
+from gradysim.config.value.expression import parse_value
 from gradysim.config.value.kinds import Kind, Scalar
-from gradysim.config.value.parameter_stream import ParameterDraws
+from gradysim.config.value.operators import Value
+from gradysim.config.value.parameter_context import ParameterContext, differs_between_parameters
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Setting:
 
 
 class SettingReader:
-    """Reads values; each entry once for each kind, however many nodes it is in force for, unless it draws."""
+    """Reads values; each entry once for each kind, unless it is another value for each parameter."""
 
     def __init__(self, seed: int = 0) -> None:
         """For the run with that seed."""
@@ -31,14 +31,14 @@ class SettingReader:
     def setting(self, entry: Entry, kind: Kind, path: str = "") -> Setting:
         """The value of an entry. Raises ConfigError with its place if it is not of that kind.
 
-        `path` is the parameter that it is for, from below the network; without one nothing is drawn.
+        `path` is the parameter that it is for, from below the network; without one its value is nobody's own.
         """
         key = (id(entry), id(kind))
         known = self._settings.get(key)
         if known is None:
-            if path and drawing_function_in(entry.text):
-                drawn = read_scalar(entry, kind, path, ParameterDraws(self._seed, path))
-                return Setting(drawn, entry.source)
+            if path and differs_between_parameters(entry.text):
+                own = read_scalar(entry, kind, path, ParameterContext(self._seed, path))
+                return Setting(own, entry.source)
             # Entry and kind are kept beside the value, so that their ids are not given to others.
             setting = Setting(read_scalar(entry, kind, path), entry.source)
             known = self._settings[key] = (entry, kind, setting)
@@ -57,21 +57,23 @@ class SettingReader:
         return self.setting(entry, kind, path).value
 
 
-def read_scalar(entry: Entry, kind: Kind, path: str = "", draws: ParameterDraws | None = None) -> Scalar:
+def read_scalar(
+    entry: Entry, kind: Kind, path: str = "", parameter: ParameterContext | None = None
+) -> Scalar:
     """The value of an entry. Raises ConfigError with its place if it is not of that kind.
 
-    `path` is the parameter that it is for, which the error tells if the key does not. It may draw if `draws`
-    are given.
+    `path` is the parameter that it is for, which the error tells if the key does not. With `parameter` its
+    value may be that parameter's own.
     """
     written: Value | None = None
     try:
-        written = _value_of(entry, kind, draws)
+        written = _value_of(entry, kind, parameter)
         value = kind.convert(written)
         return str(entry.source.file.parent / str(value)) if kind.is_file and value else value
     except BadValue as error:
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
         this = f"that is {entry.text}: " if is_of_one_run else ""
-        if draws is not None and written is not None:
+        if parameter is not None and written is not None:
             this += f"that is {written} for {path}: "
         elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
             this += f"for {path}: "
@@ -79,8 +81,8 @@ def read_scalar(entry: Entry, kind: Kind, path: str = "", draws: ParameterDraws 
         raise ConfigError.at(entry.source, text) from error
 
 
-def _value_of(entry: Entry, kind: Kind, draws: ParameterDraws | None) -> Value:
+def _value_of(entry: Entry, kind: Kind, parameter: ParameterContext | None) -> Value:
     """The value; where a text is meant, an override needs no quotes, which a shell takes away."""
     if kind.is_text and entry.source.is_override and not entry.text.startswith('"'):
         return entry.text
-    return parse_value(entry.text, draws)
+    return parse_value(entry.text, parameter)

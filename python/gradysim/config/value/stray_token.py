@@ -10,7 +10,13 @@ import unicodedata
 from gradysim.config.errors.config_error import BadValue
 
 _LIST = "; a list of values is written `${1ms, 2ms}`"
+_SPELT = {"and": "&&", "or": "||", "not": "!"}
 _MICRO = ("\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}")
+
+
+def is_operator_of_python(token: str) -> bool:
+    """Whether it is a word that other languages join truths with."""
+    return token in _SPELT
 
 
 def not_understood(token: str, text: str) -> BadValue:
@@ -32,6 +38,12 @@ def _hint(token: str, text: str) -> str:
         return "; a comment begins with `#`"
     if token == "$" and (name := re.search(r"\$(\w+)", text, re.ASCII)):
         return f"; did you mean `${{{name[1]}}}`?"
+    if token in _SPELT:
+        return f"; did you mean `{_SPELT[token]}`?"
+    if token == "=":
+        return "; did you mean `==`?"
+    if token in ("&", "|"):
+        return f"; did you mean `{token * 2}`?"
     if token == "." and ".." in text:
         return "; a range of values is written `${1..5}ms`"
     if token == "," and re.search(r"\d,\d", text):

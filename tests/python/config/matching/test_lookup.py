@@ -9,7 +9,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import Lookup
-from gradysim.config.matching.pattern import compile_pattern
+from gradysim.config.value.pattern import compile_pattern
 
 
 def entries(*keys: str) -> list[Ranked]:

@@ -9,6 +9,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.runs.iterations import (
     IterationVariable,
+    check_lock_step,
     combinations,
     count_combinations,
     name_iterations,
@@ -34,7 +35,7 @@ def values_of(text: str) -> tuple[str, ...]:
 
 def error_of(*texts: str) -> str:
     with pytest.raises(ConfigError) as caught:
-        named(*texts)
+        check_lock_step(named(*texts)[1])
     return str(caught.value)
 
 

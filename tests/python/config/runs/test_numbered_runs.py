@@ -44,3 +44,67 @@ def test_a_run_beyond_all_combinations_says_how_many_there_are(folder: Any) -> N
     folder.load("repeat = 3\n**.speed = ${1, 2}mps\n")
     with pytest.raises(ConfigError, match=r"runs 0 to 5 \(2 combinations of values, `repeat = 3`\)$"):
         load_scenarios(folder.ini, runs=[6])
+
+
+def values_of(folder: Any, added: str) -> list[tuple[tuple[str, ...], int]]:
+    """The values of the iteration variables, and the repetition, run by run."""
+    folder.load(added)
+    return [(tuple(each.iterations.values()), each.repetition) for each in load_scenarios(folder.ini)]
+
+
+SPEED_AND_N = (
+    "*.uavs[*].mobility.speed = ${speed=1,2}mps\n*.uavs[*].protocol.retries = ${n=3,4}\nrepeat = 2\n"
+)
+
+
+def test_the_first_variable_is_the_outermost_and_repetitions_are_the_innermost(folder: Any) -> None:
+    assert values_of(folder, SPEED_AND_N)[:4] == [
+        (("1", "3"), 0),
+        (("1", "3"), 1),
+        (("1", "4"), 0),
+        (("1", "4"), 1),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("order", "runs"),
+    [
+        ("repetition, n", [(("3", "1"), 0), (("3", "2"), 0), (("4", "1"), 0)]),
+        ("*, speed", [(("3", "1"), 0), (("3", "2"), 0), (("3", "1"), 1)]),
+        ("n", [(("3", "1"), 0), (("3", "1"), 1), (("3", "2"), 0)]),
+        ("repetition, *", [(("1", "3"), 0), (("1", "4"), 0), (("2", "3"), 0)]),
+        ('"n,*,repetition"', [(("3", "1"), 0), (("3", "1"), 1), (("3", "2"), 0)]),
+    ],
+)
+def test_another_nesting_order(folder: Any, order: str, runs: list[tuple[tuple[str, str], int]]) -> None:
+    assert values_of(folder, f"{SPEED_AND_N}iteration-nesting-order = {order}\n")[:3] == runs
+
+
+@pytest.mark.parametrize(
+    ("order", "message"),
+    [
+        ("m", "there is no variable `m`; expected some of speed, n, repetition, * for the others"),
+        ("speeed", "there is no variable `speeed`; expected some of speed, n, repetition, * for the others;"),
+        ("n, n", "`n` stands there twice; expected each once"),
+        ("*, n, *", "`*` stands there twice; expected each once"),
+    ],
+)
+def test_a_wrong_nesting_order(folder: Any, order: str, message: str) -> None:
+    assert message in folder.error(f"{SPEED_AND_N}iteration-nesting-order = {order}\n")
+
+
+def test_a_variable_may_be_in_lock_step_with_the_repetitions(folder: Any) -> None:
+    added = "*.uavs[*].mobility.speed = ${speed=5, 6, 7 ! repetition}mps\nrepeat = 3\n"
+    assert values_of(folder, added) == [(("5",), 0), (("6",), 1), (("7",), 2)]
+
+
+def test_a_constraint_may_ask_for_the_repetition(folder: Any) -> None:
+    added = f"{SPEED_AND_N}constraint = $repetition < $speed\n"
+    assert [repetition for _, repetition in values_of(folder, added)] == [0, 0, 0, 1, 0, 1]
+
+
+def test_a_run_beyond_what_the_constraint_leaves(folder: Any) -> None:
+    folder.load(f"{SPEED_AND_N}constraint = $n == 3\n")
+    leaves = r"what the constraint leaves of 4 combinations of values, `repeat = 2`"
+    with pytest.raises(ConfigError, match=rf"runs 0 to 3 \({leaves}\)$"):
+        load_scenarios(folder.ini, runs=[4])

@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.value.expression import parse_value
-from gradysim.config.value.parameter_stream import ParameterDraws
+from gradysim.config.value.parameter_context import ParameterContext
 from gradysim.config.value.quantity import Quantity
+from gradysim.config.value.units import unit_named
 
 
 def number_and_unit(text: str) -> tuple[float, str | None]:
@@ -39,7 +40,22 @@ def number_and_unit(text: str) -> tuple[float, str | None]:
         ("1 + 2 * 3", (7, None)),
         ("(1 + 2) * 3", (9, None)),
         ("8 - 4 - 2", (2, None)),
-        ("-2 ^ 2", (-4, None)),
+        ("-2 ^ 2", (4, None)),
+        ("0 - 2 ^ 2", (-4, None)),
+        ("2 ^ 3 ^ 2", (512, None)),
+        ("7 % 4 * 2", (6, None)),
+        ("7 - 5 % 3", (5, None)),
+        ("-7 % 3", (-1, None)),
+        ("7 % -3", (1, None)),
+        ("2 > 1 ? 5s : 3m", (5, "s")),
+        ("1 > 2 ? 5s : 3m", (3, "m")),
+        ("false ? 1 : true ? 2 : 3", (2, None)),
+        ("(true ? false : true) ? 1 : 2", (2, None)),
+        ("true ? 1 : 1 / 0", (1, None)),
+        ("false ? 1s + 1m : 2", (2, None)),
+        ("max(1s, 200ms) + 1s", (2, "s")),
+        ("int(log10(100))", (2, None)),
+        ("(10 - 3) * 1dBm", (7, "dBm")),
         ("2 ^ -1", (0.5, None)),
         ("2 ^ 10", (1024, None)),
         ("-(3m)", (-3, "m")),
@@ -92,9 +108,64 @@ def test_any_text_can_be_written(text: str) -> None:
     assert parse_value(f'"{escaped}"') == text
 
 
-def test_truth_values() -> None:
-    assert parse_value("true") is True
-    assert parse_value("false") is False
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("true", True),
+        ("false", False),
+        ("!true == false", True),
+        ("true || false && false", True),
+        ("1 + 2 == 3 && 2 < 3", True),
+        ("1 < 2 == true", True),
+        ('"a" + "b" =~ "a?"', True),
+        ("true || 1", True),
+        ("false && 1", False),
+        ("true || 1s < 1m", True),
+    ],
+)
+def test_truth_values(text: str, expected: bool) -> None:
+    assert parse_value(text) is expected
+
+
+def test_texts_are_joined() -> None:
+    assert parse_value('"node " + string(3) + "!"') == "node 3!"
+
+
+def test_a_value_that_is_left_aside_takes_its_draw_all_the_same() -> None:
+    def drawn(text: str) -> object:
+        return parse_value(text, ParameterContext(1, "uavs[0].protocol.start"))
+
+    assert drawn("false ? uniform(0, 1) : uniform(0, 1)") == drawn("uniform(0, 0) + uniform(0, 1)")
+
+
+def test_a_value_knows_the_indices_in_the_path_of_its_parameter() -> None:
+    value = parse_value(
+        "50m * parentIndex() + 1m * ancestorIndex(0 + 1)", ParameterContext(1, "uavs[3].mobility.x")
+    )
+    assert value == Quantity(153, unit_named("m"))
+    assert parse_value("index", ParameterContext(1, "uavs[3].wlan[2].bitrate")) == Quantity(2)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("parentIndex(1)", "`parentIndex()` does not take 1 values"),
+        ("ancestorIndex()", "`ancestorIndex(levels)` does not take 0 values"),
+        ("ancestorIndex(1.5)", "`ancestorIndex(levels)`: `1.5` is no whole number"),
+        ("ancestorIndex(1m)", "`ancestorIndex(levels)`: `1m` is no whole number"),
+    ],
+)
+def test_wrong_calls_for_indices(text: str, message: str) -> None:
+    with pytest.raises(BadValue, match=f"^{re.escape(message)}$"):
+        parse_value(text, ParameterContext(1, "uavs[3].mobility.x"))
+
+
+@pytest.mark.parametrize("sign", ["+", "*", "&&", "||", "<", "^", "?"])
+def test_chains_of_any_length_end(sign: str) -> None:
+    parts = [f" {sign} ".join(["1"] * 5000), f" {sign} ".join(["true"] * 5000)]
+    for text in parts:
+        with contextlib.suppress(BadValue):
+            parse_value(text)
 
 
 @pytest.mark.parametrize(
@@ -105,11 +176,7 @@ def test_truth_values() -> None:
         ("fast", "`fast` is no value (a text stands in quotes)"),
         ("True", "`True` is no value (a text stands in quotes); did you mean `true`?"),
         ("10m/s", "`s` is no value (a text stands in quotes); did you mean `mps`?"),
-        (
-            "index * 3m",
-            "`index` is no value (a text stands in quotes); no value knows the index of a node:"
-            " `lineStepX = 3m` sets nodes in a line",
-        ),
+        ("index * 3m", "it asks for the index of a parameter's module, which this has not"),
         ("36 km/h", "`h` is no value (a text stands in quotes); did you mean `kmph`?"),
         ("3 4", "`4` follows `3`; only quantities with units may be strung together"),
         ("5s 3", "`3` follows `5s`; only quantities with units may be strung together"),
@@ -129,7 +196,27 @@ def test_truth_values() -> None:
         ("(-1) ^ 0.5", "`-1` ^ `0.5` is no number"),
         ("10 ^ 999", "`10` ^ `999` is no number"),
         ("2m ^ 2", "`2m` ^ `2`: powers are for plain numbers"),
-        ('"a" + "b"', "arithmetic is for numbers only"),
+        ('"a" - "b"', 'arithmetic is for numbers only, and `"a"` is none'),
+        ("true + 1", "arithmetic is for numbers only, and `true` is none"),
+        ("7.5 % 2", "`7.5` % `2`: it is for plain whole numbers; for others there is `fmod(a, b)`"),
+        ("50%", "the value ends too early; 50% is written `0.5`"),
+        ("1 ? 2 : 3", "`?` is for true and false, and `1` is neither"),
+        ("true ? 2", "`?` is without its `:`"),
+        ("true ? 1 : fast", "`fast` is no value (a text stands in quotes)"),
+        ("!1", "`!` is for true and false, and `1` is neither"),
+        ("1 && true", "`&&` is for true and false, and `1` is neither"),
+        ("true and false", "`and` is not understood there; did you mean `&&`?"),
+        ("1 < 2 and true", "`and` is not understood there; did you mean `&&`?"),
+        ("not true", "`not` is not understood there; did you mean `!`?"),
+        ("1 = 2", "`=` is not understood there; did you mean `==`?"),
+        ("true & false", "`&` is not understood there; did you mean `&&`?"),
+        (
+            "parentIndex * 3m",
+            "`parentIndex` is no value (a text stands in quotes); did you mean `parentIndex()`?",
+        ),
+        ("parentIndex() * 3m", "it asks for the index of a parameter's module, which this has not"),
+        ("sqrt(4", "`(` is not closed"),
+        ("swrt(4)", "there is no function `swrt`; did you mean `sqrt`?"),
         (
             "uniform(0m, 100m)",
             "`uniform` draws the value of a parameter, which this is not",
@@ -169,4 +256,4 @@ def test_no_text_fails_in_any_other_way(text: str) -> None:
 )
 def test_no_call_fails_in_any_other_way(parts: list[str]) -> None:
     with contextlib.suppress(BadValue):
-        parse_value("".join(parts), ParameterDraws(1, "uavs[0].protocol.start"))
+        parse_value("".join(parts), ParameterContext(1, "uavs[0].protocol.start"))

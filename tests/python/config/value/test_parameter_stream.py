@@ -1,6 +1,6 @@
 """Streams of parameters: each a part of the generator's numbers that nobody else has."""
 
-from gradysim.config.value.parameter_stream import ParameterDraws, ParameterStream
+from gradysim.config.value.parameter_stream import ParameterStream
 from gradysim.encapsulator.random_stream import Purpose, philox4x32
 
 PATH = "uavs[3].mobility.initialX"
@@ -56,10 +56,3 @@ def test_one_whole_number_is_0_and_the_largest_count_is_understood() -> None:
     stream = ParameterStream(1, PATH, 0)
     assert stream.uniform_int(1) == 0
     assert any(stream.uniform_int(2**64) >= 2**63 for _ in range(20))
-
-
-def test_draws_are_counted_from_the_left() -> None:
-    draws = ParameterDraws(1, PATH)
-    numbers = [draws.next_stream().uniform() for _ in range(2)]
-    assert numbers == [first(place=0), first(place=1)]
-    assert draws.path == PATH

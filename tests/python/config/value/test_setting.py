@@ -7,7 +7,7 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.value.kinds import choice, file_name, integer, number, quantity
-from gradysim.config.value.parameter_stream import ParameterDraws
+from gradysim.config.value.parameter_context import ParameterContext
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
 
 SPEED = quantity("mps", at_least=0)
@@ -104,7 +104,7 @@ def test_without_a_parameter_nothing_is_drawn() -> None:
 
 def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> None:
     with pytest.raises(ConfigError) as caught:
-        read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, "x.y", ParameterDraws(1, "x.y"))
+        read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, "x.y", ParameterContext(1, "x.y"))
     text = str(caught.value)
     assert text.startswith("a.ini:7: *.x.y = -exponential(2mps) - 3mps: that is -")
     assert text.endswith("mps for x.y: it is out of range; expected a speed such as 10mps, at least 0mps")

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.config.errors.config_error import BadValue
-from gradysim.config.matching.pattern import compile_pattern
+from gradysim.config.value.pattern import compile_pattern
 
 
 def matches(pattern: str, path: str) -> bool:

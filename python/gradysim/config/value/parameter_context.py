@@ -1,0 +1,74 @@
+"""What a value may know of the parameter that it is for: the indices in its path, and draws of its own.
+
+`parentIndex()`, `ancestorIndex(2)` and `index` are OMNeT++'s. Modules are the parts of a path before the last
+one: in `uavs[3].mobility.speed` the module is `mobility`, its parent `uavs[3]`, so `parentIndex()` is 3.
+"""
+
+import re
+
+from gradysim.config.errors.config_error import BadValue
+from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS
+from gradysim.config.value.parameter_stream import ParameterStream
+from gradysim.config.value.quoted import QUOTED
+
+INDEX_FUNCTIONS = {"parentIndex": "parentIndex()", "ancestorIndex": "ancestorIndex(levels)"}
+"""How they are written, by name."""
+
+INDEX = "index"
+"""The index of the module itself, which is no function."""
+
+_OWN = re.compile(
+    rf"{QUOTED}|\b({'|'.join([*DRAWING_FUNCTIONS, *INDEX_FUNCTIONS])})\s*\(|\b({INDEX})\b",
+    re.ASCII | re.DOTALL,
+)
+_INDEX_IN_PATH = re.compile(r"\[(\d+)\]$", re.ASCII)
+
+
+class ParameterContext:
+    """One parameter, for one reading of its value.
+
+    Attributes:
+        path: Of the parameter, without the network.
+        draw_count: How many streams have been handed out.
+    """
+
+    def __init__(self, seed: int, path: str) -> None:
+        """For the run with that seed."""
+        self.path = path
+        self.draw_count = 0
+        self._seed = seed
+
+    def next_stream(self) -> ParameterStream:
+        """Return the stream of the next draw, in the order in which the value, read from the left, draws."""
+        self.draw_count += 1
+        return ParameterStream(self._seed, self.path, self.draw_count - 1)
+
+    def index_of_ancestor(self, levels: int) -> int:
+        """The index of the module so many levels above that of the parameter.
+
+        Raises:
+            BadValue: There is none, or it has no index.
+        """
+        *modules, _ = self.path.split(".")
+        if not 0 <= levels < len(modules):
+            raise BadValue(
+                f"there is no module {levels} levels above `{'.'.join(modules)}`", self._hint(modules)
+            )
+        module = modules[len(modules) - 1 - levels]
+        match = _INDEX_IN_PATH.search(module)
+        if match is None:
+            raise BadValue(f"`{module}` in `{self.path}` has no index", self._hint(modules))
+        return int(match[1])
+
+    def _hint(self, modules: list[str]) -> str:
+        """How the index of the node is written there, if it has one."""
+        if not modules or not _INDEX_IN_PATH.search(modules[0]):
+            return ""
+        levels = len(modules) - 1
+        written = (INDEX, "parentIndex()")[levels] if levels < 2 else f"ancestorIndex({levels})"
+        return f"; that of `{modules[0]}` is `{written}`"
+
+
+def differs_between_parameters(text: str) -> bool:
+    """Whether a value draws or asks for an index, so that it is another one for each parameter."""
+    return any(match[1] or match[2] for match in _OWN.finditer(text))
