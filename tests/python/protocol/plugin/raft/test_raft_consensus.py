@@ -13,30 +13,7 @@ from gradysim.protocol.plugin.raft.raft_message import (
     DiscoveryHeartbeatResponse,
     RequestVoteResponse,
 )
-
-
-class Provider:
-    """Has what the plugin asks for, and no more."""
-
-    def __init__(self, node_id=3):
-        self.node_id = node_id
-        self.sent = []
-        self.timers = {}
-
-    def send_communication_command(self, command):
-        self.sent.append(command)
-
-    def schedule_timer(self, timer, timestamp):
-        self.timers[timer] = timestamp
-
-    def cancel_timer(self, timer):
-        self.timers.pop(timer, None)
-
-    def current_time(self):
-        return 7.0
-
-    def get_id(self):
-        return self.node_id
+from python.protocol.plugin.raft.bare_provider import BareProvider
 
 
 class Recorder(IProtocol):
@@ -61,7 +38,7 @@ class Recorder(IProtocol):
 
 @pytest.fixture
 def provider():
-    return Provider()
+    return BareProvider()
 
 
 @pytest.fixture
@@ -128,7 +105,7 @@ def test_a_provider_must_have_what_is_needed(config, protocol, provider):
 @pytest.mark.parametrize("node_id", [-1, "3", True, None])
 def test_a_node_must_have_a_proper_id(config, node_id):
     with pytest.raises(ValueError, match="integer id >= 0"):
-        RaftConsensusPlugin(config, Recorder.instantiate(Provider(node_id)))
+        RaftConsensusPlugin(config, Recorder.instantiate(BareProvider(node_id)))
 
 
 def test_timers_have_the_prefix_and_absolute_times(plugin, provider):

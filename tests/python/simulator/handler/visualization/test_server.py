@@ -1,11 +1,7 @@
-import functools
-import random
 import subprocess
 import sys
-import time
 
 import pytest
-import websockets.asyncio.server
 from websockets.sync.client import connect
 
 from gradysim.simulator.handler.visualization import VisualizationConfiguration
@@ -75,23 +71,6 @@ def test_the_last_news_and_commands_arrive_before_the_end(server, commands):
         server.publish("the end")
         server.stop()
         assert set(viewer) == {"the end", '{"command": "resize_nodes", "payload": {"size": 1}}'}
-
-
-def test_looking_for_lost_viewers_draws_no_random_number_of_the_run(commands, monkeypatch):
-    impatient = functools.partial(websockets.asyncio.server.serve, ping_interval=0.001)
-    monkeypatch.setattr(websockets.asyncio.server, "serve", impatient)
-    server = VisualizationServer(VisualizationConfiguration(host="127.0.0.1", port=0), "hello", commands)
-    server.start()
-    state = random.getstate()
-    with connect(url(server)) as viewer:
-        viewer.recv(timeout=30)
-        (connection,) = [viewer.connection for viewer in server._viewers]
-        deadline = time.monotonic() + 30
-        while connection.latency == 0 and time.monotonic() < deadline:
-            time.sleep(0.001)
-        assert connection.latency > 0  # It has answered.
-    server.stop()
-    assert random.getstate() == state
 
 
 def test_a_slow_viewer_misses_snapshots_but_no_command(server, commands):
