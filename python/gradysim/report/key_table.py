@@ -20,10 +20,10 @@ understood too: a power in `mW` or `dBm`, a time in `ms` or `h`.
 Of two lines that fit, the first one is in force: write `*.uavs[0].mobility.speed` above
 `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that another one above it in the same section of
 the same file deprives of any effect. A list of values, `${10ms, 50ms}`, makes runs of each
-(docs/guides/results.md). `uniform(0m, 1km)` draws a number for each node, as do `intuniform`, `exponential`,
-`normal` and `truncnormal` (docs/guides/results.md#random-values). A section may also say `extends = NAME`
-and `abstract = true`, and `include FILE` puts another file in the place of that line. What only OMNeT++ needs
-is ignored: `network`, `result-dir`, `experiment-label`, `cmdenv-*`, `qtenv-*`, `*.visualizer.**`.
+(docs/guides/results.md). Values may be worked out, `50m * parentIndex()`, and drawn, `uniform(0m, 1km)`, for
+each node its own (docs/guides/values.md). A section may also say `extends = NAME` and `abstract = true`, and
+`include FILE` puts another file in the place of that line. What only OMNeT++ needs is
+ignored: `network`, `result-dir`, `experiment-label`, `cmdenv-*`, `qtenv-*`, `*.visualizer.**`.
 
 A key that matches no parameter is an error. A line for a model that is not chosen (`pathLoss.sigma` with
 `FreeSpacePathLoss`) is none, but `gradysim run` says on the error output that nothing reads it, and what

@@ -13,7 +13,6 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
 from gradysim.config import Scenario, load_scenarios
-from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS
 from gradysim.prototype.run import run
 from gradysim.results.run_result import NodeResult
 
@@ -86,30 +85,13 @@ def test_the_means_of_the_study_are_those_that_are_shown(
         ("*.nodes[*].protocol.jitter = ${10ms, 50ms}", 2),
         ("*.nodes[*].mobility.lineStepX = ${10..60 step 10}m", 6),
         ("seed-set = ${repetition}", 1),
+        ("iteration-nesting-order = repetition, *", 1),
     ],
 )
 def test_lines_of_studies_are_understood(root: Path, folder: Path, line: str, runs: int) -> None:
     assert f"| `{line}` |" in (root / GUIDE).read_text()
     scenarios = load_scenarios(folder / "hello.ini", overrides=[line])
     assert len(scenarios) == runs
-
-
-def test_its_random_places_are_others_in_each_run(code_blocks: CodeBlocks, folder: Path) -> None:
-    with (folder / "hello.ini").open("a") as file:
-        file.write(code_blocks(GUIDE, "ini")[1])
-    scenarios = load_scenarios(folder / "hello.ini", "Scattered")
-    places = [node.initial_position for scenario in scenarios for node in scenario.nodes]
-    assert len(set(places)) == len(places) == 10 * 4
-    assert all(0 <= x < 500 and 0 <= y < 500 and z >= 5 for x, y, z in places)
-    heard = [node.tracked_variables["heard"] for node in gradysim.integrated.run.run(scenarios[0]).nodes]
-    assert any(heard)
-
-
-def test_its_table_of_functions_has_all_of_them(root: Path) -> None:
-    table = (root / GUIDE).read_text().partition("| function |")[2].partition("All values")[0]
-    assert re.findall(r"^\| `(.*?)` \|", table, re.MULTILINE) == [
-        function.written for function in DRAWING_FUNCTIONS.values()
-    ]
 
 
 def test_its_table_has_all_fields(root: Path, make_scenario: Callable[..., Scenario]) -> None:
