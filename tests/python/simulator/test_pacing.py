@@ -1,9 +1,11 @@
+"""Simulations that keep to the wall clock, and what is written of it."""
+
 import csv
 
 import pytest
-from simulated import build, timers
 
 from gradysim.simulator import simulation
+from python.simulator.simulation.simulated import build, timers
 
 
 @pytest.mark.parametrize(("real_time", "wall_s"), [(False, 0), (0, 0), (True, 10), (4.0, 2.5)])
