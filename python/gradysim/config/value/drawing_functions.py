@@ -1,7 +1,10 @@
 """Functions that draw the value of a parameter: `uniform(0m, 1km)`, by OMNeT++'s names and arguments.
 
 The distributions are our own, so that results agree on every platform. All values of a call measure the same,
-and so does the number that is drawn.
+and so does the number that is drawn, but for a plain number that comes first: the shape of `erlang_k(3, 1s)`.
+
+Continuous ones of which nothing else is said are drawn by the inverse of their distribution function.
+Source: L. Devroye, "Non-Uniform Random Variate Generation", 1986, II.2.
 """
 
 import math
@@ -18,6 +21,8 @@ from gradysim.config.value.quoted import QUOTED
 from gradysim.config.value.units import Dimension
 
 _MOST_INTEGERS = 2**64
+_MOST_TO_ADD = 10_000
+"""Random numbers that one draw adds up."""
 _FARTHEST = 3.0
 """Standard deviations by which the mean of `truncnormal` may be negative: from there on fewer than one in a
 thousand numbers would be left."""
@@ -25,10 +30,17 @@ thousand numbers would be left."""
 
 @dataclass(frozen=True)
 class _Function:
-    """One function: how it is written, with the names of its values, and what draws."""
+    """One function.
+
+    Attributes:
+        written: How it is written, with the names of its values.
+        draw: What draws, for values in one unit.
+        has_shape: Whether its first value is a plain number, whatever the others measure.
+    """
 
     written: str
     draw: Callable[[ParameterStream, Sequence[Quantity]], Number]
+    has_shape: bool = False
 
     @property
     def value_count(self) -> int:
@@ -51,9 +63,14 @@ def draw(name: str, given: Sequence[Value], stream: ParameterStream) -> Quantity
         takes = f"{function.value_count} value{'' if function.value_count == 1 else 's'}"
         raise BadValue(f"`{function.written}` takes {takes}, not {len(values)}", hint)
     try:
-        return Quantity(function.draw(stream, _in_one_unit(values)), values[0].unit)
+        shape, others = (values[:1], values[1:]) if function.has_shape else ([], values)
+        if shape and shape[0].unit is not None:
+            raise BadValue(f"`{shape[0]}` is no plain number")
+        return Quantity(function.draw(stream, [*shape, *_in_one_unit(others)]), others[0].unit)
     except BadValue as error:
         raise BadValue(f"`{name}`: {error.problem}", error.suggestion) from None
+    except (OverflowError, ZeroDivisionError):
+        raise BadValue(f"`{name}`: it has drawn a number that is too large") from None
 
 
 def drawing_function_in(text: str) -> str:
@@ -107,12 +124,12 @@ def _intuniform(stream: ParameterStream, values: Sequence[Quantity]) -> int:
 
 
 def _exponential(stream: ParameterStream, values: Sequence[Quantity]) -> float:
-    """-mean ln(1 - u): the inverse of the distribution function.
+    """-mean ln(1 - u)."""
+    return _not_negative(values[0], "mean") * _exponential_of_mean_1(stream)
 
-    Source: L. Devroye, "Non-Uniform Random Variate Generation", 1986, II.2.
-    """
-    mean = _not_negative(values[0], "mean")
-    return mean * -math.log(1.0 - stream.uniform())
+
+def _exponential_of_mean_1(stream: ParameterStream) -> float:
+    return -math.log(1.0 - stream.uniform())
 
 
 def _normal(stream: ParameterStream, values: Sequence[Quantity]) -> float:
@@ -137,6 +154,78 @@ def _truncnormal(stream: ParameterStream, values: Sequence[Quantity]) -> float:
     return number
 
 
+def _lognormal(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """Exp of a normally distributed number."""
+    if values[0].unit is not None:
+        raise BadValue(f"`{values[0]}` is no plain number")
+    return math.exp(_normal(stream, values))
+
+
+def _triang(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """Density that rises from a to its peak at b and falls to c, in straight lines."""
+    low, peak, high = values
+    _ordered((low, peak))
+    _ordered((peak, high))
+    start, middle, end = (float(value.number) for value in values)
+    u = stream.uniform()
+    if end == start:
+        return start
+    if u * (end - start) < middle - start:
+        return start + math.sqrt(u * (end - start) * (middle - start))
+    return end - math.sqrt((1 - u) * (end - start) * (end - middle))
+
+
+def _weibull(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """A (-ln(1 - u))^(1 / b): scale a, shape b, which as in OMNeT++ has the same unit as the scale."""
+    scale, shape = _positive(values[0], "scale"), _positive(values[1], "shape")
+    return scale * math.pow(_exponential_of_mean_1(stream), 1 / shape)
+
+
+def _pareto_shifted(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """B / (1 - u)^(1 / a) - c: shape a, scale b, shifted down by c."""
+    shape, scale = _positive(values[0], "shape"), _positive(values[1], "scale")
+    return scale / math.pow(1.0 - stream.uniform(), 1 / shape) - float(values[2].number)
+
+
+def _cauchy(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """A + b tan(pi (u - 1/2)): median a, half width b at half of the peak."""
+    width = _positive(values[1], "width")
+    return float(values[0].number) + width * math.tan(math.pi * (stream.uniform() - 0.5))
+
+
+def _erlang_k(stream: ParameterStream, values: Sequence[Quantity]) -> float:
+    """The sum of k exponentially distributed numbers, with that mean together."""
+    count = _count(values[0], "k")
+    mean = _not_negative(values[1], "mean")
+    return mean / count * sum(_exponential_of_mean_1(stream) for _ in range(count))
+
+
+def _bernoulli(stream: ParameterStream, values: Sequence[Quantity]) -> int:
+    """1 with probability p, else 0."""
+    return int(stream.uniform() < _probability(values[0]))
+
+
+def _geometric(stream: ParameterStream, values: Sequence[Quantity]) -> int:
+    """How often something of probability p fails before it succeeds."""
+    p = _probability(values[0])
+    if p == 0:
+        raise BadValue("with the probability `0` it would never end")
+    return 0 if p == 1 else math.floor(_exponential_of_mean_1(stream) / -math.log1p(-p))
+
+
+def _poisson(stream: ParameterStream, values: Sequence[Quantity]) -> int:
+    """How many exponentially distributed intervals of mean 1 end within lambda."""
+    if values[0].unit is not None:
+        raise BadValue(f"`{values[0]}` is no plain number")
+    rest = _not_negative(values[0], "mean")
+    if rest > _MOST_TO_ADD:
+        raise BadValue(f"the mean `{values[0]}` is too large; expected at most {_MOST_TO_ADD}")
+    count = 0
+    while (rest := rest - _exponential_of_mean_1(stream)) > 0:
+        count += 1
+    return count
+
+
 def _ordered(values: Sequence[Quantity]) -> tuple[Quantity, Quantity]:
     low, high = values
     if low.number > high.number:
@@ -158,12 +247,40 @@ def _not_negative(value: Quantity, what: str) -> float:
     return float(value.number)
 
 
+def _positive(value: Quantity, what: str) -> float:
+    if not value.number > 0:
+        raise BadValue(f"the {what} `{value}` is not positive")
+    return float(value.number)
+
+
+def _probability(value: Quantity) -> float:
+    if value.unit is not None or not 0 <= value.number <= 1:
+        raise BadValue(f"`{value}` is no probability; expected 0 to 1")
+    return float(value.number)
+
+
+def _count(value: Quantity, name: str) -> int:
+    count = _whole(value)
+    if not 1 <= count <= _MOST_TO_ADD:
+        raise BadValue(f"{name} = `{value}` is out of range; expected 1 to {_MOST_TO_ADD}")
+    return count
+
+
 DRAWING_FUNCTIONS: dict[str, _Function] = {
     "uniform": _Function("uniform(a, b)", _uniform),
     "intuniform": _Function("intuniform(a, b)", _intuniform),
     "exponential": _Function("exponential(mean)", _exponential),
     "normal": _Function("normal(mean, stddev)", _normal),
     "truncnormal": _Function("truncnormal(mean, stddev)", _truncnormal),
+    "lognormal": _Function("lognormal(m, w)", _lognormal),
+    "triang": _Function("triang(a, b, c)", _triang),
+    "weibull": _Function("weibull(a, b)", _weibull),
+    "cauchy": _Function("cauchy(a, b)", _cauchy),
+    "pareto_shifted": _Function("pareto_shifted(a, b, c)", _pareto_shifted, has_shape=True),
+    "erlang_k": _Function("erlang_k(k, mean)", _erlang_k, has_shape=True),
+    "bernoulli": _Function("bernoulli(p)", _bernoulli),
+    "geometric": _Function("geometric(p)", _geometric),
+    "poisson": _Function("poisson(mean)", _poisson),
 }
 """By name."""
 

@@ -87,11 +87,37 @@ def test_truncnormal_is_not_negative(mean_in_deviations: float, deviation: float
             "truncnormal(1s, 2s)",
             lambda x: (NormalDist(1, 2).cdf(x) - NormalDist(1, 2).cdf(0)) / (1 - NormalDist(1, 2).cdf(0)),
         ),
+        ("lognormal(1, 0.5)", lambda x: NormalDist(1, 0.5).cdf(math.log(x))),
+        ("triang(1s, 2s, 4s)", lambda x: (x - 1) ** 2 / 3 if x < 2 else 1 - (4 - x) ** 2 / 6),
+        ("weibull(2s, 3s)", lambda x: 1 - math.exp(-((x / 2) ** 3))),
+        ("cauchy(1s, 2s)", lambda x: 0.5 + math.atan((x - 1) / 2) / math.pi),
+        ("pareto_shifted(3, 2s, 1s)", lambda x: 1 - (2 / (x + 1)) ** 3),
+        (
+            "erlang_k(3, 6s)",
+            lambda x: 1 - math.exp(-x / 2) * sum((x / 2) ** n / math.factorial(n) for n in range(3)),
+        ),
     ],
-    ids=["uniform", "exponential", "normal", "truncnormal"],
+    ids=lambda value: value if isinstance(value, str) else "",
 )
 def test_distributions(text: str, distribution: Callable[[float], float]) -> None:
     assert distance(text, distribution) < KOLMOGOROV_99
+
+
+@pytest.mark.parametrize(
+    ("text", "probability"),
+    [
+        ("bernoulli(0.3)", lambda k: (0.7, 0.3)[k] if k < 2 else 0),
+        ("geometric(0.3)", lambda k: 0.3 * 0.7**k),
+        ("poisson(3.5)", lambda k: math.exp(-3.5) * 3.5**k / math.factorial(k)),
+    ],
+    ids=["bernoulli", "geometric", "poisson"],
+)
+def test_whole_numbers(text: str, probability: Callable[[int], float]) -> None:
+    values = sample(text)
+    for k in range(9):
+        expected = probability(k)
+        deviation = math.sqrt(expected * (1 - expected) / COUNT)
+        assert values.count(k) / COUNT == pytest.approx(expected, abs=3.3 * deviation)
 
 
 def test_mean_and_deviation_of_normal() -> None:
@@ -108,6 +134,12 @@ def test_mean_and_deviation_of_normal() -> None:
         ("exponential(0s)", 0),
         ("normal(4s, 0s)", 4),
         ("truncnormal(4s, 0s)", 4),
+        ("triang(4s, 4s, 4s)", 4),
+        ("erlang_k(2, 0s)", 0),
+        ("bernoulli(1) + bernoulli(0)", 1),
+        ("geometric(1)", 0),
+        ("poisson(0)", 0),
+        ("lognormal(0, 0)", 1),
         ("2 * uniform(1s, 1s) + 1s", 3),
         ("uniform(uniform(2, 2), intuniform(2, 2))", 2),
         ("intuniform(5m, 5m) / 1m", 5),
@@ -194,6 +226,25 @@ def test_spaces_and_constants_change_no_draw() -> None:
             "`truncnormal`: with a mean of `-4s` and a standard deviation of `1s` not one number in a"
             " thousand is positive",
         ),
+        ("lognormal(1s, 1s)", "`lognormal`: `1s` is no plain number"),
+        ("lognormal(1000, 1)", "`lognormal`: it has drawn a number that is too large"),
+        ("pareto_shifted(1e-6, 2s, 1s)", "`pareto_shifted`: it has drawn a number that is too large"),
+        ("triang(2, 1, 3)", "`triang`: `2` is more than `1`; the smaller one comes first"),
+        ("triang(1, 3, 2)", "`triang`: `3` is more than `2`; the smaller one comes first"),
+        ("weibull(0s, 1s)", "`weibull`: the scale `0s` is not positive"),
+        ("weibull(1, 0)", "`weibull`: the shape `0` is not positive"),
+        ("weibull(2s, 3)", "`weibull`: `2s` and `3` measure different things"),
+        ("cauchy(1s, 0s)", "`cauchy`: the width `0s` is not positive"),
+        ("pareto_shifted(3s, 2s, 1s)", "`pareto_shifted`: `3s` is no plain number"),
+        ("pareto_shifted(0, 2s, 1s)", "`pareto_shifted`: the shape `0` is not positive"),
+        ("pareto_shifted(3, 2s, 1)", "`pareto_shifted`: `2s` and `1` measure different things"),
+        ("erlang_k(0, 1s)", "`erlang_k`: k = `0` is out of range; expected 1 to 10000"),
+        ("erlang_k(1.5, 1s)", "`erlang_k`: `1.5` is no whole number"),
+        ("bernoulli(1.1)", "`bernoulli`: `1.1` is no probability; expected 0 to 1"),
+        ("geometric(0)", "`geometric`: with the probability `0` it would never end"),
+        ("poisson(-1)", "`poisson`: the mean `-1` is negative"),
+        ("poisson(1s)", "`poisson`: `1s` is no plain number"),
+        ("poisson(10001)", "`poisson`: the mean `10001` is too large; expected at most 10000"),
         ('uniform("a", 1)', "`uniform` takes numbers only"),
         ("uniform(1, true)", "`uniform` takes numbers only"),
         ("uniform(1, 2", "`(` is not closed"),
