@@ -32,9 +32,7 @@ def is_equal(ours: Value, theirs: str) -> bool:
         return theirs == (f'"{ours}"' if isinstance(ours, str) else str(ours).lower())
     written = parse_value(theirs)
     assert isinstance(written, Quantity)
-    return math.isclose(
-        float(written.number), float(ours.number_in_unit_of(written)), rel_tol=SIX_DIGITS, abs_tol=1e-12
-    )
+    return math.isclose(*written.numbers_beside(ours), rel_tol=SIX_DIGITS, abs_tol=1e-12)
 
 
 def test_expressions_have_omnetpps_values(report: Callable[[Finding], None]) -> None:

@@ -80,7 +80,7 @@ class Scenario:
         repetition: 0 to repeat-1.
         iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
         settings_hash: Of all that the file and the overrides say of this run, a seed given with them apart.
-            It is the same for all repetitions.
+            It is the same for all repetitions, unless a variable is in lock-step with them.
         file_hashes: {name, seen from the folder of the .ini file: hash} of the files that settings name:
             protocols with what they import from their folder, obstacles, error rates.
         run_count: How many runs the configuration has, this one and those that were not asked for included.

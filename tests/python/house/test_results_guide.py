@@ -79,13 +79,21 @@ def test_the_means_of_the_study_are_those_that_are_shown(
     assert [line.rstrip() for line in printed] == table.splitlines()
 
 
+def test_its_other_order_of_runs(root: Path, folder: Path) -> None:
+    line = "iteration-nesting-order = repetition, *"
+    assert f"| `{line}` |" in (root / GUIDE).read_text()
+    values = ["*.nodes[*].protocol.jitter = ${1ms, 2ms}", "repeat = 2"]
+    scenarios = load_scenarios(folder / "hello.ini", overrides=[*values, line])
+    runs = [(scenario.repetition, scenario.iterations["0"]) for scenario in scenarios]
+    assert runs == [(0, "1ms"), (0, "2ms"), (1, "1ms"), (1, "2ms")]
+
+
 @pytest.mark.parametrize(
     ("line", "runs"),
     [
         ("*.nodes[*].protocol.jitter = ${10ms, 50ms}", 2),
         ("*.nodes[*].mobility.lineStepX = ${10..60 step 10}m", 6),
         ("seed-set = ${repetition}", 1),
-        ("iteration-nesting-order = repetition, *", 1),
     ],
 )
 def test_lines_of_studies_are_understood(root: Path, folder: Path, line: str, runs: int) -> None:

@@ -15,7 +15,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.parameter_unit import unit_of
 from gradysim.config.value.expression import parse_value
-from gradysim.config.value.parameter_context import ParameterContext
+from gradysim.config.value.parameter_context import ParameterContext, differs_between_parameters
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import Dimension, Unit
 
@@ -34,13 +34,14 @@ def doubtful_times(nodes: Iterable[NodeSpec]) -> Iterator[str]:
     seen: set[int] = set()  # nodes with the same lines in force share their sources
     told: set[Source] = set()
     for spec in nodes:
-        if id(spec.protocol_sources) in seen:
-            continue
+        is_like_one_before = id(spec.protocol_sources) in seen
         seen.add(id(spec.protocol_sources))
         for name, source in spec.protocol_sources.items():
+            if is_like_one_before and not differs_between_parameters(source.value):
+                continue
             if not _is_named_like_a_time(name) or unit_of(spec.protocol, name) is not None:
                 continue
-            unit = _unit_of_no_time(source.value)
+            unit = _unit_of_no_time(source.value, f"{spec.name}.protocol.{name}")
             if source not in told and unit:
                 told.add(source)
                 hint = "; a minute is `min`" if unit == "m" else ""
@@ -56,12 +57,13 @@ def _is_named_like_a_time(name: str) -> bool:
     return folded in _WHOLE_NAMES or folded.endswith(_ENDS)
 
 
-def _unit_of_no_time(text: str) -> str:
-    """The name of the unit that the text has, if it is none of times; else ""."""
+def _unit_of_no_time(text: str, path: str) -> str:
+    """The name of the unit that the text has for that parameter, if it is none of times; else "".
+
+    What is drawn is drawn anew: the unit hardly ever depends on it.
+    """
     try:
-        value = parse_value(
-            text, ParameterContext(0, "nodes[0].protocol.x")
-        )  # whichever node's, its unit is the same
+        value = parse_value(text, ParameterContext(0, path))
     except BadValue:  # with a variable in it, or a list of values
         return "m" if "${" in text and '"' not in text and _METRES_IN_A_LIST.search(text) else ""
     unit: Unit | None = value.unit if isinstance(value, Quantity) else None

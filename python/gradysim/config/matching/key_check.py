@@ -21,6 +21,7 @@ from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.config.matching.lookup import Found, Lookup, is_ignored
 from gradysim.config.protocol.parameters import parameters_of
+from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.pattern import Pattern
 from gradysim.protocol.interface import IProtocol
 
@@ -196,7 +197,7 @@ def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
 def _is_beyond_drawn_size(found: Found, groups: list[Group]) -> bool:
     """Whether a key names an index of a group whose size is drawn: runs of other seeds may have it."""
     size = _size_of_indexed_group(found, groups)
-    return size is not None and size.differs
+    return size is not None and bool(drawing_function_in(size.entry.text))
 
 
 def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:

@@ -233,7 +233,7 @@ class _NodeBuilder:
 
 
 def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
-    """The same for a node with the same entries in force, sharing what no draw has made another."""
+    """The same for a node with the same entries in force, sharing what is equal in both."""
     return replace(
         made,
         protocol_sources=other.protocol_sources,

@@ -6,7 +6,6 @@ their texts take their places.
 
 import re
 from collections.abc import Mapping
-from functools import lru_cache
 
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
@@ -18,39 +17,43 @@ _ONE_TEXT = re.compile(QUOTED, re.DOTALL)
 _VARIABLE = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
 
 
-def holds(constraint: Entry, variables: Mapping[str, str]) -> bool:
-    """Whether a combination of values is wanted.
+class Constraint:
+    """One constraint. What it says of equal values is worked out once: repetitions ask for it again."""
 
-    Raises:
-        ConfigError: The constraint is neither true nor false, or cannot be decided.
-    """
+    def __init__(self, entry: Entry) -> None:
+        self.source = entry.source
+        text = entry.text
+        if _ONE_TEXT.fullmatch(text):
+            text = text[1:-1].replace('\\"', '"')
+        self._text = text.strip()
+        self._known: dict[str, bool] = {"": True}  # that is the default
 
-    def value_of(match: re.Match[str]) -> str:
-        name = match[1] or match[2]
+    def holds(self, variables: Mapping[str, str]) -> bool:
+        """Whether a combination of values is wanted.
+
+        Raises:
+            ConfigError: The constraint is neither true nor false, or cannot be decided.
+        """
+        text = _VARIABLE.sub(lambda match: self._value(match[1] or match[2], variables), self._text)
+        if text not in self._known:
+            self._known[text] = self._decide(text)
+        return self._known[text]
+
+    def _value(self, name: str, variables: Mapping[str, str]) -> str:
         if name not in variables:
             known = " or ".join(f"`${other}`" for other in variables) or "a configuration with `${x=1, 2}`"
-            raise ConfigError.at(constraint.source, f"there is no variable `{name}`; expected {known}")
+            raise ConfigError.at(self.source, f"there is no variable `{name}`; expected {known}")
         return variables[name]
 
-    text = constraint.text
-    if _ONE_TEXT.fullmatch(text):
-        text = text[1:-1].replace('\\"', '"')
-    if not text.strip():  # the default
-        return True
-    text = _VARIABLE.sub(value_of, text)
-    try:
-        return _truth_of(text)
-    except BadValue as error:
-        raise ConfigError.at(
-            constraint.source,
-            f"{error.problem} in `{text}`; expected comparisons such as `$x < $y && $y != 3`"
-            f"{error.suggestion}",
-        ) from error
-
-
-@lru_cache  # for the repetitions of a combination
-def _truth_of(text: str) -> bool:
-    value = parse_value(text)
-    if isinstance(value, bool):
-        return value
-    raise BadValue(f"`{text_of(value)}` is neither true nor false")
+    def _decide(self, text: str) -> bool:
+        try:
+            value = parse_value(text)
+            if isinstance(value, bool):
+                return value
+            raise BadValue(f"`{text_of(value)}` is neither true nor false")
+        except BadValue as error:
+            raise ConfigError.at(
+                self.source,
+                f"{error.problem} in `{text}`; expected comparisons such as `$x < $y && $y != 3`"
+                f"{error.suggestion}",
+            ) from error

@@ -240,6 +240,11 @@ def _check_names(
             if match[1] not in (*variables, *PREDEFINED):
                 raise ConfigError.at(entry.source, _unknown(match[1], known, left_out))
     for variable in variables.values():
+        if variable.follows in PREDEFINED and variable.follows != REPETITION:
+            raise ConfigError.at(
+                variable.source,
+                f"`{variable.follows}` has no list of values; expected `{REPETITION}` or one that has",
+            )
         if variable.follows and variable.follows not in (*variables, REPETITION):
             raise ConfigError.at(variable.source, _unknown(variable.follows, known, left_out))
 

@@ -13,7 +13,7 @@ from gradysim.config.errors.nearest import did_you_mean
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.keys.options import OPTIONS
-from gradysim.config.runs.constraint import holds
+from gradysim.config.runs.constraint import Constraint
 from gradysim.config.runs.iterations import (
     MAX_VALUES,
     REPETITION,
@@ -61,7 +61,8 @@ def numbered_runs(
             repetitions.source,
         )
     made_of = f"{combined} combinations of values, `repeat = {repeat}`" if variables else ""
-    constraint = options.get("constraint")
+    entry = options.get("constraint")
+    constraint = Constraint(entry) if entry else None
     if constraint is not None:
         count = sum(1 for _ in _allowed(nested, constraint))
         made_of = f"what the constraint leaves of {made_of}" if made_of else ""
@@ -104,9 +105,11 @@ def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | Non
     return [by_name[name] for name in [*named[:at], *others, *named[at + 1 :]]]
 
 
-def _allowed(variables: Sequence[IterationVariable], constraint: Entry | None) -> Iterator[dict[str, str]]:
+def _allowed(
+    variables: Sequence[IterationVariable], constraint: Constraint | None
+) -> Iterator[dict[str, str]]:
     every = combinations(variables)
-    return every if constraint is None else (values for values in every if holds(constraint, values))
+    return every if constraint is None else filter(constraint.holds, every)
 
 
 def _repetitions(repeat: Entry | None, source: Source) -> IterationVariable:

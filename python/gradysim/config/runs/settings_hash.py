@@ -6,7 +6,14 @@ from collections.abc import Iterable
 from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
 
-_OF_NO_RUN = ("repeat", "constraint", "description", "extends", "abstract")
+_OF_NO_RUN = (
+    "repeat",
+    "constraint",
+    "iteration-nesting-order",
+    "description",
+    "extends",
+    "abstract",
+)
 """Options that say which runs there are, or nothing of what happens in them."""
 
 SAME_IN_ALL_RUNS = {"runnumber": "${runnumber}", "repetition": "${repetition}"}

@@ -48,7 +48,7 @@ class _Function:
 
 
 def draw(name: str, given: Sequence[Value], stream: ParameterStream) -> Quantity:
-    """The number that the function of that name draws, in the unit of its first value.
+    """The number that the function of that name draws, in the unit of its values.
 
     Raises:
         BadValue: The values do not go with the function or with each other.
@@ -66,11 +66,14 @@ def draw(name: str, given: Sequence[Value], stream: ParameterStream) -> Quantity
         shape, others = (values[:1], values[1:]) if function.has_shape else ([], values)
         if shape and shape[0].unit is not None:
             raise BadValue(f"`{shape[0]}` is no plain number")
-        return Quantity(function.draw(stream, [*shape, *_in_one_unit(others)]), others[0].unit)
+        number = function.draw(stream, [*_in_one_unit(shape), *_in_one_unit(others)])
+        if not math.isfinite(number):
+            raise OverflowError
     except BadValue as error:
-        raise BadValue(f"`{name}`: {error.problem}", error.suggestion) from None
+        raise BadValue(f"`{name}`: {error.problem}", error.suggestion, expected=error.expected) from None
     except (OverflowError, ZeroDivisionError):
         raise BadValue(f"`{name}`: it has drawn a number that is too large") from None
+    return Quantity(number, others[0].unit)
 
 
 def drawing_function_in(text: str) -> str:
@@ -80,11 +83,10 @@ def drawing_function_in(text: str) -> str:
 
 def _in_one_unit(values: Sequence[Quantity]) -> list[Quantity]:
     """The values in the unit of the first one; all are finite."""
-    first = values[0]
     for value in values:
         if not math.isfinite(value.number):
             raise BadValue(f"`{value}` is not finite")
-    return [value if value.unit == first.unit else _converted(value, first) for value in values]
+    return [value if value.unit == values[0].unit else _converted(value, values[0]) for value in values]
 
 
 def _converted(value: Quantity, first: Quantity) -> Quantity:
@@ -171,8 +173,8 @@ def _triang(stream: ParameterStream, values: Sequence[Quantity]) -> float:
     if end == start:
         return start
     if u * (end - start) < middle - start:
-        return start + math.sqrt(u * (end - start) * (middle - start))
-    return end - math.sqrt((1 - u) * (end - start) * (end - middle))
+        return start + math.sqrt(u * (end - start)) * math.sqrt(middle - start)
+    return end - math.sqrt((1 - u) * (end - start)) * math.sqrt(end - middle)
 
 
 def _weibull(stream: ParameterStream, values: Sequence[Quantity]) -> float:
@@ -219,7 +221,7 @@ def _poisson(stream: ParameterStream, values: Sequence[Quantity]) -> int:
         raise BadValue(f"`{values[0]}` is no plain number")
     rest = _not_negative(values[0], "mean")
     if rest > _MOST_TO_ADD:
-        raise BadValue(f"the mean `{values[0]}` is too large; expected at most {_MOST_TO_ADD}")
+        raise BadValue(f"the mean `{values[0]}` is too large", expected=f"at most {_MOST_TO_ADD}")
     count = 0
     while (rest := rest - _exponential_of_mean_1(stream)) > 0:
         count += 1
@@ -255,14 +257,14 @@ def _positive(value: Quantity, what: str) -> float:
 
 def _probability(value: Quantity) -> float:
     if value.unit is not None or not 0 <= value.number <= 1:
-        raise BadValue(f"`{value}` is no probability; expected 0 to 1")
+        raise BadValue(f"`{value}` is no probability", expected="0 to 1")
     return float(value.number)
 
 
 def _count(value: Quantity, name: str) -> int:
     count = _whole(value)
     if not 1 <= count <= _MOST_TO_ADD:
-        raise BadValue(f"{name} = `{value}` is out of range; expected 1 to {_MOST_TO_ADD}")
+        raise BadValue(f"{name} = `{value}` is out of range", expected=f"1 to {_MOST_TO_ADD}")
     return count
 
 

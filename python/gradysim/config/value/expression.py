@@ -194,6 +194,8 @@ class _Parser:
         if not (draws or name in FUNCTIONS or name in INDEX_FUNCTIONS):
             names = [*FUNCTIONS, *DRAWING_FUNCTIONS, *INDEX_FUNCTIONS]
             hint = did_you_mean(name, names) or f"; there are {', '.join(sorted(names))}"
+            if name == INDEX:
+                hint = f"; did you mean `{INDEX}`?"
             raise BadValue(f"there is no function `{name}`", hint)
         if draws and self._parameter is None:
             raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
@@ -217,7 +219,7 @@ class _Parser:
 
     def _index(self, levels: int) -> Value:
         if self._parameter is None:
-            raise BadValue("it asks for the index of a parameter's module, which this has not")
+            raise BadValue("this value is the same for all nodes of the line, and knows no index")
         return Quantity(self._parameter.index_of_ancestor(levels))
 
     def _hint_at(self, word: str) -> str:

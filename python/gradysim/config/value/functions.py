@@ -80,7 +80,8 @@ def _rounded(rounding: Callable[[Number], int]) -> Callable[[Sequence[Value]], V
 def _extreme(is_better: Callable[[Number, Number], bool]) -> Callable[[Sequence[Value]], Value]:
     def apply(values: Sequence[Value]) -> Value:
         first, second = (number(value) for value in values)
-        return second if is_better(second.number_in_unit_of(first), first.number) else first
+        here, other = first.numbers_beside(second)
+        return second if is_better(other, here) else first
 
     return apply
 
@@ -93,10 +94,10 @@ def _fabs(values: Sequence[Value]) -> Value:
 def _fmod(values: Sequence[Value]) -> Value:
     """The remainder with the sign of the first value, in its unit."""
     dividend, divisor = (number(value) for value in values)
-    left, right = dividend.number, divisor.number_in_unit_of(dividend)
-    if right == 0 or not math.isfinite(left):
+    left, right = dividend.numbers_beside(divisor)
+    if right == 0 or math.isnan(right) or not math.isfinite(left):
         raise BadValue(f"it has no value for `{dividend}`, `{divisor}`")
-    if not math.isfinite(right):
+    if math.isinf(right):
         return dividend
     remainder = abs(Fraction(left)) % abs(Fraction(right))
     return Quantity(-remainder if left < 0 else remainder, dividend.unit)

@@ -65,11 +65,11 @@ def _sum(left: Value, right: Value) -> Value:
 
 
 def _comparison(compare: Callable[[Any, Any], bool]) -> Callable[[Value, Value], Value]:
-    """Of two numbers, exactly and whatever their units, of two texts by their characters, or of truths."""
+    """Of two numbers, whatever their units, of two texts by their characters, or of truths."""
 
     def apply(left: Value, right: Value) -> Value:
         if isinstance(left, Quantity) and isinstance(right, Quantity):
-            return compare(left.number, right.number_in_unit_of(left))
+            return compare(*left.numbers_beside(right))
         if type(left) is type(right):
             return compare(left, right)
         is_chain = isinstance(left, bool)

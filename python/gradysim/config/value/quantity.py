@@ -65,17 +65,22 @@ class Quantity:
         exact: Fraction = self.number * scale
         return exact
 
-    def number_in_unit_of(self, other: "Quantity") -> Number:
-        """The number in the unit of another quantity, to be compared with that one's.
+    def numbers_beside(self, other: "Quantity") -> tuple[Number, Number]:
+        """This number and that of another quantity, in the unit of this one, to be compared.
+
+        If one of them is rounded, both are.
 
         Raises:
             BadValue: The two measure different things.
         """
-        if self.unit == other.unit:
-            return self.number
-        if self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension:
-            raise BadValue(f"`{other}` and `{self}` measure different things and cannot be compared")
-        return self._to(other.unit)
+        here, there = self.number, other.number
+        if self.unit != other.unit:
+            if self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension:
+                raise BadValue(f"`{self}` and `{other}` measure different things and cannot be compared")
+            there = other._to(self.unit)
+        if isinstance(here, float) or isinstance(there, float):
+            return float(here), float(there)
+        return here, there
 
     def plus(self, other: "Quantity", sign: int = 1) -> "Quantity":
         """The sum, in the unit of this one (the difference for sign = -1)."""
@@ -88,13 +93,13 @@ class Quantity:
             number = other._to(self.unit)
         elif self.unit is not None and self.unit.logarithmic:
             raise BadValue(f"`{self}` and `{other}` cannot be added, they are logarithms")
-        return Quantity(self.number + sign * number, self.unit)
+        return Quantity(self._finite(self.number + sign * number, number), self.unit)
 
     def times(self, other: "Quantity") -> "Quantity":
         """The product; one of the two is a plain number."""
         if self.unit is not None and other.unit is not None:
             raise BadValue(f"`{self}` times `{other}` has no unit here")
-        return Quantity(self.number * other.number, self.unit or other.unit)
+        return Quantity(self._finite(self.number * other.number, other.number), self.unit or other.unit)
 
     def over(self, other: "Quantity") -> "Quantity":
         """The quotient; by a plain number, or of two quantities of one dimension."""
@@ -114,7 +119,13 @@ class Quantity:
             quotient: Number = float(self.number) / float(divisor)
         else:
             quotient = Fraction(self.number) / divisor
-        return Quantity(quotient, self.unit if other.unit is None else None)
+        return Quantity(self._finite(quotient, divisor), self.unit if other.unit is None else None)
+
+    def _finite(self, result: Number, operand: Number) -> Number:
+        """The result of arithmetic. BadValue if it is not finite, though its operands are."""
+        if not _is_finite(result) and _is_finite(self.number) and _is_finite(operand):
+            raise BadValue("the result is too large for a number")
+        return result
 
     def modulo(self, other: "Quantity") -> "Quantity":
         """The remainder of two plain whole numbers, with the sign of this one, as in C."""
@@ -133,12 +144,27 @@ class Quantity:
         if self.unit is not None or other.unit is not None:
             raise BadValue(f"`{self}` ^ `{other}`: powers are for plain numbers")
         base, exponent = self.number, other.number
-        if isinstance(base, int) and isinstance(exponent, int) and abs(base) < 2**32 and 0 <= exponent <= 64:
-            return Quantity(int(base**exponent))
+        result: Number
         try:
-            return Quantity(math.pow(base, exponent))
-        except (ValueError, OverflowError):
+            if isinstance(exponent, int) and abs(exponent) <= 64 and _is_short(base):
+                exact = Fraction(base) ** exponent
+                result = int(exact) if isinstance(base, int) and exponent >= 0 else exact
+            else:
+                result = math.pow(base, exponent)
+        except OverflowError:
+            raise BadValue("the result is too large for a number") from None
+        except (ValueError, ZeroDivisionError):
             raise BadValue(f"`{self}` ^ `{other}` is no number") from None
+        return Quantity(result)
+
+
+def _is_finite(number: Number) -> bool:
+    return not isinstance(number, float) or math.isfinite(number)
+
+
+def _is_short(number: Number) -> bool:
+    """Whether powers of an exact number stay of a reasonable length."""
+    return not isinstance(number, float) and max(abs(number.numerator), number.denominator) < 2**64
 
 
 def _plain_name(dimension: Dimension) -> str:

@@ -8,7 +8,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.value.expression import parse_value
 from gradysim.config.value.kinds import Kind, Scalar
-from gradysim.config.value.operators import Value
+from gradysim.config.value.operators import Value, text_of
 from gradysim.config.value.parameter_context import ParameterContext, differs_between_parameters
 
 
@@ -27,6 +27,7 @@ class SettingReader:
         """For the run with that seed."""
         self._seed = seed
         self._settings: dict[tuple[int, int], tuple[Entry, Kind, Setting]] = {}
+        self._files: dict[str, None] = {}  # in their order, each once
 
     def setting(self, entry: Entry, kind: Kind, path: str = "") -> Setting:
         """The value of an entry. Raises ConfigError with its place if it is not of that kind.
@@ -38,19 +39,20 @@ class SettingReader:
         if known is None:
             if path and differs_between_parameters(entry.text):
                 own = read_scalar(entry, kind, path, ParameterContext(self._seed, path))
-                return Setting(own, entry.source)
+                return self._noted(Setting(own, entry.source), kind)
             # Entry and kind are kept beside the value, so that their ids are not given to others.
-            setting = Setting(read_scalar(entry, kind, path), entry.source)
+            setting = self._noted(Setting(read_scalar(entry, kind, path), entry.source), kind)
             known = self._settings[key] = (entry, kind, setting)
         return known[2]
 
     def files(self) -> list[Path]:
         """The files that the values read up to now name."""
-        return [
-            Path(str(setting.value))
-            for _, kind, setting in self._settings.values()
-            if kind.is_file and setting.value
-        ]
+        return [Path(file) for file in self._files]
+
+    def _noted(self, setting: Setting, kind: Kind) -> Setting:
+        if kind.is_file and setting.value:
+            self._files[str(setting.value)] = None
+        return setting
 
     def scalar(self, entry: Entry, kind: Kind, path: str = "") -> Scalar:
         """Only the value."""
@@ -74,7 +76,7 @@ def read_scalar(
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
         this = f"that is {entry.text}: " if is_of_one_run else ""
         if parameter is not None and written is not None:
-            this += f"that is {written} for {path}: "
+            this += f"that is {text_of(written)} for {path}: "
         elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
             this += f"for {path}: "
         text = f"{this}{error.problem}; expected {error.expected or kind.expected}{error.suggestion}"
@@ -83,6 +85,10 @@ def read_scalar(
 
 def _value_of(entry: Entry, kind: Kind, parameter: ParameterContext | None) -> Value:
     """The value; where a text is meant, an override needs no quotes, which a shell takes away."""
-    if kind.is_text and entry.source.is_override and not entry.text.startswith('"'):
+    if not (kind.is_text and entry.source.is_override) or entry.text.startswith('"'):
+        return parse_value(entry.text, parameter)
+    try:
+        value = parse_value(entry.text, parameter)  # such as `string(parentIndex())`
+    except BadValue:
         return entry.text
-    return parse_value(entry.text, parameter)
+    return value if isinstance(value, str) else entry.text

@@ -49,6 +49,12 @@ def test_a_time_in_another_unit_is_told_too(folder: Any, value: str, unit: str) 
     )
 
 
+@pytest.mark.parametrize("value", ["parentIndex() == 1 ? 5m : 5s", "select(parentIndex(), 5s, 5m)"])
+def test_a_time_of_one_node_alone_is_told(folder: Any, value: str) -> None:
+    (text,) = told(folder, f"*.uavs[*].protocol.interval = {value}")
+    assert "warning: `interval` is given in `m`" in text
+
+
 @pytest.mark.parametrize("name", ["jitter", "Spread", "offset"])
 def test_a_word_that_alone_is_a_time_is_told_too(folder: Any, name: str) -> None:
     (text,) = told(folder, f"*.uavs[*].protocol.{name} = 1m")

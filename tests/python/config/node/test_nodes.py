@@ -359,3 +359,35 @@ def test_a_line_that_leads_too_far_is_an_error_at_its_step(folder: Any) -> None:
         "test.ini:7: *.uavs[*].mobility.lineStepY = 10000km: "
         "uavs[1] starts at y = 10000001m; expected at most 10000000m from 0m"
     )
+
+
+def test_a_value_may_depend_on_the_index_of_the_node(folder: Any) -> None:
+    scenario = folder.load(
+        "*.uavs[*].mobility.initialX = 50m * parentIndex()\n"
+        "*.uavs[*].protocol.retries = 3 + parentIndex()\n"
+        '*.uavs[*].protocol.label = "uav " + string(parentIndex())\n'
+        "*.uavs[*].numWlanInterfaces = index + 1\n"
+        "*.uavs[*].wlan[*].bitrate = select(parentIndex(), 6Mbps, 12Mbps)\n"
+        "*.uavs[*].wlan[*].radio.transmitter.power = (ancestorIndex(3) + 1) * (ancestorIndex(2) + 1) * 1mW\n"
+    )
+    uavs = [node for node in scenario.nodes if node.group == "uavs"]
+    assert [node.initial_position[0] for node in uavs] == [0, 50]
+    assert [node.protocol_parameters["retries"] for node in uavs] == [3, 4]
+    assert [node.protocol_parameters["label"] for node in uavs] == ["uav 0", "uav 1"]
+    assert [len(node.wlan) for node in uavs] == [1, 2]
+    assert [node.wlan[0].mac["bitrate_bps"].value for node in uavs] == [6e6, 12e6]
+    powers = [[wlan.radio["tx_power_w"].value for wlan in node.wlan] for node in uavs]
+    assert powers == [[0.001], [0.002, 0.004]]
+
+
+def test_the_value_of_one_node_that_is_wrong_is_named(folder: Any) -> None:
+    assert folder.error("*.uavs[*].mobility.speed = 3mps - 5mps * parentIndex()\n") == (
+        "test.ini:6: *.uavs[*].mobility.speed = 3mps - 5mps * parentIndex():"
+        " that is -2mps for uavs[1].mobility.speed: it is out of range;"
+        " expected a speed such as 10mps, at least 0mps"
+    )
+
+
+def test_the_class_of_a_protocol_knows_no_index(folder: Any) -> None:
+    added = '*.others.count = 2\n*.others[*].protocol.class = choose(parentIndex(), "a b")\n'
+    assert "this value is the same for all nodes of the line, and knows no index" in folder.error(added)

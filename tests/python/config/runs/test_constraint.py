@@ -5,7 +5,7 @@ import pytest
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
-from gradysim.config.runs.constraint import holds
+from gradysim.config.runs.constraint import Constraint
 
 VALUES = {"x": "3", "y": "4", "t": "10ms", "p": "-80dBm", "name": '"a"', "0": "7"}
 
@@ -42,7 +42,7 @@ def entry(text: str) -> Entry:
     ],
 )
 def test_constraints(text: str, expected: bool) -> None:
-    assert holds(entry(text), VALUES) is expected
+    assert Constraint(entry(text)).holds(VALUES) is expected
 
 
 @pytest.mark.parametrize(
@@ -66,6 +66,6 @@ def test_constraints(text: str, expected: bool) -> None:
 )
 def test_mistakes(text: str, message: str) -> None:
     with pytest.raises(ConfigError) as caught:
-        holds(entry(text), VALUES)
+        Constraint(entry(text)).holds(VALUES)
     assert str(caught.value).startswith(f"a.ini:7: constraint = {text}: ")
     assert message in str(caught.value)

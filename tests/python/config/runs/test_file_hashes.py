@@ -55,6 +55,13 @@ def load(folder: Path, *lines: str) -> Scenario:
     return scenario
 
 
+def test_files_whose_names_depend_on_an_index_count(tmp_path: Path) -> None:
+    errors = "*.node.wlan[*].radio.receiver.errorModel"
+    model = f'{errors}.typename = "Ieee80211BerTableErrorModel"'
+    file = f'{errors}.berTableFile = choose(ancestorIndex(3), "rates.csv others.csv")'
+    assert load(tmp_path, model, file).file_hashes.keys() == {"a.py", "helper.py", "rates.csv"}
+
+
 def test_protocols_count_with_what_they_import(tmp_path: Path) -> None:
     assert load(tmp_path).file_hashes.keys() == {"a.py", "helper.py"}
 

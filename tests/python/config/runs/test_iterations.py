@@ -139,6 +139,10 @@ def test_what_is_ignored_iterates_over_nothing() -> None:
             ["${x=1,2}", "${3,4,5 ! x}"],
             "it has 3 values and is in lock-step with `x`, which has 2; expected as many",
         ),
+        (
+            ["${x=1,2 ! runnumber}"],
+            "`runnumber` has no list of values; expected `repetition` or one that has",
+        ),
         (["${x=1,2 ! x}"], "`x` is in lock-step with itself; expected no circle"),
     ],
 )

@@ -22,7 +22,14 @@ def test_other_settings_have_another(folder: Any, other: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    "added", ["repeat = 3\n", "description = again\n", "*.visualizer.x = 3\n", "constraint = 1 < 2\n"]
+    "added",
+    [
+        "repeat = 3\n",
+        "description = again\n",
+        "*.visualizer.x = 3\n",
+        "constraint = 1 < 2\n",
+        "iteration-nesting-order = *\n",
+    ],
 )
 def test_what_no_run_depends_on_does_not_count(folder: Any, added: str) -> None:
     assert hash_of(folder, added) == hash_of(folder)
@@ -36,6 +43,11 @@ def test_runs_of_different_values_have_different_ones(folder: Any) -> None:
     folder.load("repeat = 2\n**.speed = ${3, 4}mps\n")
     first, again, other, _ = (scenario.settings_hash for scenario in load_scenarios(folder.ini))
     assert first == again != other
+
+
+def test_repetitions_with_values_of_their_own_have_different_ones(folder: Any) -> None:
+    folder.load("repeat = 2\n**.speed = ${3, 4 ! repetition}mps\n")
+    assert len({scenario.settings_hash for scenario in load_scenarios(folder.ini)}) == 2
 
 
 def test_repetitions_have_the_same_whatever_depends_on_their_number(folder: Any) -> None:

@@ -108,3 +108,22 @@ def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> Non
     text = str(caught.value)
     assert text.startswith("a.ini:7: *.x.y = -exponential(2mps) - 3mps: that is -")
     assert text.endswith("mps for x.y: it is out of range; expected a speed such as 10mps, at least 0mps")
+
+
+@pytest.mark.parametrize(
+    ("written", "value"),
+    [
+        ("b", "b"),
+        ('"b"', "b"),
+        ('choose(parentIndex(), "b a")', "a"),
+        ('parentIndex() > 0 ? "a" : "b"', "a"),
+    ],
+)
+def test_an_override_of_a_text_is_an_expression_or_a_text_without_quotes(written: str, value: str) -> None:
+    override = entry(written, option="--set")
+    assert read_scalar(override, MODE, "x[1].mac.y", ParameterContext(1, "x[1].mac.y")) == value
+
+
+def test_a_truth_in_the_place_of_a_number_is_named_as_it_is_written() -> None:
+    with pytest.raises(ConfigError, match=r"that is true for x\[1\]\.mac\.y: "):
+        read_scalar(entry("index == 1"), SPEED, "x[1].mac.y", ParameterContext(1, "x[1].y"))
