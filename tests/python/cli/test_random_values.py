@@ -44,10 +44,14 @@ def test_runs_that_draw_can_be_resumed_and_have_means(gradysim):
     ("value", "problem", "hint"),
     [
         ("unifrom(0m, 1m)", "there is no function `unifrom`", "did you mean `uniform`?"),
-        ("uniform(0m, 1s)", "`uniform`: `0m` and `1s` measure different things", ""),
+        (
+            "uniform(0m, 1s)",
+            "for uavs[0].mobility.initialX with seed 0: `uniform`: `0m` and `1s` measure different things",
+            "",
+        ),
         (
             "intuniform(5, 5) * 1e9m",
-            "that is 5000000000.0m for uavs[0].mobility.initialX: it is out of range",
+            "that is 5000000000.0m for uavs[0].mobility.initialX with seed 0: it is out of range",
             "",
         ),
     ],

@@ -267,7 +267,7 @@ def _unknown(name: str, known: Sequence[str], left_out: Sequence[Entry]) -> str:
         if re.search(rf"\$\{{\s*{name}\s*=", entry.text):
             return (
                 f"`{name}` has its values at {entry.source}, which another value of `{entry.key}` overrides;"
-                " expected a value here that does without it"
+                f" expected a value here that does without it, or `${{{name}=...}}` there"
             )
     listed = " or ".join(f"`${{{other}}}`" for other in known)
     return (

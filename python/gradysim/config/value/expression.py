@@ -94,7 +94,7 @@ class _Parser:
     def _deeper(self) -> Iterator[None]:
         self._depth += 1
         if self._depth > _MAX_DEPTH:
-            raise BadValue("the expression is nested too deeply")
+            raise BadValue(f"the expression is nested too deeply; expected at most {_MAX_DEPTH} levels")
         yield
         self._depth -= 1
 
@@ -110,17 +110,19 @@ class _Parser:
         return _ANYTHING if self._leaves_aside else apply(*operands)
 
     def _value(self) -> Value:
-        condition = self._operation()
-        if not self._accept("?"):
-            return condition
-        holds = self._leaves_aside or truth(condition, "?")
-        with self._aside(not holds), self._deeper():
-            chosen = self._value()
-        if not self._accept(":"):
-            raise BadValue("`?` is without its `:`")
-        with self._aside(holds), self._deeper():
-            other = self._value()
-        return chosen if holds else other
+        chosen: Value | None = None
+        while True:  # along `a ? b : c ? d : e`
+            with self._aside(chosen is not None):
+                condition = self._operation()
+                if not self._accept("?"):
+                    return condition if chosen is None else chosen
+                holds = self._leaves_aside or truth(condition, "?")
+            with self._aside(not holds or chosen is not None), self._deeper():
+                value = self._value()
+            if not self._accept(":"):
+                raise BadValue("`?` is without its `:`")
+            if holds and chosen is None:
+                chosen = value
 
     def _operation(self, least_level: int = 0) -> Value:
         left = self._power()

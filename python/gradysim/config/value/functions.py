@@ -147,7 +147,7 @@ def _item(index: Value, items: Sequence[Value]) -> Value:
     if place.unit is not None or not isinstance(place.number, int):
         raise BadValue(f"`{place}` is no whole number")
     if not 0 <= place.number < len(items):
-        raise BadValue(f"there is no item {place}, only {len(items)}, counted from 0")
+        raise BadValue(f"there is no item {place}, only 0 to {len(items) - 1}")
     return items[place.number]
 
 

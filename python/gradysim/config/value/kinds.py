@@ -27,6 +27,7 @@ class Kind:
         expected: How messages name it, after "expected".
         convert: Checks a value and gives what is to be stored; raises BadValue.
         is_text: Whether a text is meant: an override needs no quotes.
+        names: Those of which the text is one, if it is.
         is_file: Whether that text is the name of a file, seen from the .ini file.
         unit: For a list of keys: the unit, or what it is instead ("whole number").
         show: Writes what is stored as it would stand in a file, in `unit`.
@@ -35,6 +36,7 @@ class Kind:
     expected: str
     convert: Callable[[Value], Scalar]
     is_text: bool = False
+    names: tuple[str, ...] = ()
     is_file: bool = False
     unit: str = ""
     show: Callable[[Scalar], str] = str
@@ -98,7 +100,8 @@ def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> K
         result = _plain(_quantity_of(value)).number
         if not isinstance(result, int):
             if math.isfinite(result) and result == int(result):
-                raise BadValue("it is a floating-point number", f"; did you mean `{int(result)}`?")
+                hint = f"; did you mean `{int(result)}`, or `int(...)` of an expression?"
+                raise BadValue("it is a floating-point number", hint)
             raise BadValue(f"`{value}` is no whole number")
         _check_range(result, value, at_least, None, at_most, None)
         return result
@@ -196,7 +199,7 @@ def choice(*names: str) -> Kind:
 
     quoted = [_quoted(name) for name in names]
     expected = f"one of {', '.join(quoted)}" if len(quoted) > 1 else quoted[0]
-    return Kind(expected, convert, is_text=True, unit=expected, show=_quoted)
+    return Kind(expected, convert, is_text=True, names=names, unit=expected, show=_quoted)
 
 
 def si_number() -> Kind:

@@ -28,20 +28,21 @@ class ParameterContext:
     """One parameter, for one reading of its value.
 
     Attributes:
+        seed: Of the run.
         path: Of the parameter, without the network.
         draw_count: How many streams have been handed out.
     """
 
     def __init__(self, seed: int, path: str) -> None:
         """For the run with that seed."""
+        self.seed = seed
         self.path = path
         self.draw_count = 0
-        self._seed = seed
 
     def next_stream(self) -> ParameterStream:
         """Return the stream of the next draw, in the order in which the value, read from the left, draws."""
         self.draw_count += 1
-        return ParameterStream(self._seed, self.path, self.draw_count - 1)
+        return ParameterStream(self.seed, self.path, self.draw_count - 1)
 
     def index_of_ancestor(self, levels: int) -> int:
         """The index of the module so many levels above that of the parameter.
@@ -61,12 +62,13 @@ class ParameterContext:
         return int(match[1])
 
     def _hint(self, modules: list[str]) -> str:
-        """How the index of the node is written there, if it has one."""
-        if not modules or not _INDEX_IN_PATH.search(modules[0]):
-            return ""
-        levels = len(modules) - 1
-        written = (INDEX, "parentIndex()")[levels] if levels < 2 else f"ancestorIndex({levels})"
-        return f"; that of `{modules[0]}` is `{written}`"
+        """How the indices that there are, of the node and of its interface, are written there."""
+        hints = []
+        for levels, module in zip(reversed(range(len(modules))), modules, strict=True):
+            if _INDEX_IN_PATH.search(module):
+                written = (INDEX, "parentIndex()")[levels] if levels < 2 else f"ancestorIndex({levels})"
+                hints.append(f"that of `{module}` is `{written}`")
+        return f"; {', '.join(hints)}" if hints else ""
 
 
 def differs_between_parameters(text: str) -> bool:

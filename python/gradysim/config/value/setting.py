@@ -1,5 +1,6 @@
 """Reads the value of an entry as what its key wants it to be."""
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,9 @@ from gradysim.config.value.expression import parse_value
 from gradysim.config.value.kinds import Kind, Scalar
 from gradysim.config.value.operators import Value, text_of
 from gradysim.config.value.parameter_context import ParameterContext, differs_between_parameters
+
+_LIKE_AN_EXPRESSION = re.compile(r'"|\?|\w\s*\(')
+"""What no text without quotes has: texts in quotes, conditions and calls."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +79,9 @@ def read_scalar(
     except BadValue as error:
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
         this = f"that is {entry.text}: " if is_of_one_run else ""
-        if parameter is not None and written is not None:
-            this += f"that is {text_of(written)} for {path}: "
+        if parameter is not None:
+            seed = f" with seed {parameter.seed}" if parameter.draw_count else ""
+            this += f"{f'that is {text_of(written)} ' if written is not None else ''}for {path}{seed}: "
         elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
             this += f"for {path}: "
         text = f"{this}{error.problem}; expected {error.expected or kind.expected}{error.suggestion}"
@@ -85,10 +90,7 @@ def read_scalar(
 
 def _value_of(entry: Entry, kind: Kind, parameter: ParameterContext | None) -> Value:
     """The value; where a text is meant, an override needs no quotes, which a shell takes away."""
-    if not (kind.is_text and entry.source.is_override) or entry.text.startswith('"'):
-        return parse_value(entry.text, parameter)
-    try:
-        value = parse_value(entry.text, parameter)  # such as `string(parentIndex())`
-    except BadValue:
+    needs_no_quotes = kind.is_text and entry.source.is_override
+    if needs_no_quotes and (entry.text in kind.names or not _LIKE_AN_EXPRESSION.search(entry.text)):
         return entry.text
-    return value if isinstance(value, str) else entry.text
+    return parse_value(entry.text, parameter)

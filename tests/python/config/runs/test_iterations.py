@@ -86,7 +86,7 @@ def test_who_needs_the_variable_of_an_overridden_line_is_told_where_it_is() -> N
         name_iterations(ranked)
     assert str(caught.value) == (
         "a.ini:10: **.other = ${x}: `x` has its values at a.ini:9, which another value of `*.x.label`"
-        " overrides; expected a value here that does without it"
+        " overrides; expected a value here that does without it, or `${x=...}` there"
     )
 
 

@@ -260,7 +260,7 @@ def test_spaces_and_constants_change_no_draw() -> None:
         ("uniform(1, true)", "`uniform` takes numbers only"),
         ("uniform(1, 2", "`(` is not closed"),
         ("uniform(1, 2) 3", "`3` is not understood there"),
-        ("uniform(" * 60, "the expression is nested too deeply"),
+        ("uniform(" * 60, "the expression is nested too deeply; expected at most 50 levels"),
     ],
 )
 def test_refused(text: str, message: str) -> None:

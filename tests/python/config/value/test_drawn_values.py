@@ -70,7 +70,8 @@ def test_a_drawn_value_that_is_out_of_range_names_the_node_and_the_number(folder
     error = folder.error("*.uavs[*].mobility.speed = -intuniform(2, 2) * 1mps\n")
     assert error == (
         "test.ini:6: *.uavs[*].mobility.speed = -intuniform(2, 2) * 1mps: that is -2mps for"
-        " uavs[0].mobility.speed: it is out of range; expected a speed such as 10mps, at least 0mps"
+        " uavs[0].mobility.speed with seed 0: it is out of range;"
+        " expected a speed such as 10mps, at least 0mps"
     )
 
 

@@ -51,6 +51,9 @@ def number_and_unit(text: str) -> tuple[float, str | None]:
         ("1 > 2 ? 5s : 3m", (3, "m")),
         ("false ? 1 : true ? 2 : 3", (2, None)),
         ("(true ? false : true) ? 1 : 2", (2, None)),
+        ("true ? 1 : 1 / 0 > 2 ? 1 / 0 : 1 / 0", (1, None)),
+        ("false ? 1 / 0 : true ? 2 : 1 / 0", (2, None)),
+        (" ".join(["false ? 1 :"] * 200) + " 3", (3, None)),
         ("true ? 1 : 1 / 0", (1, None)),
         ("false ? 1s + 1m : 2", (2, None)),
         ("max(1s, 200ms) + 1s", (2, "s")),
@@ -236,8 +239,8 @@ def test_chains_of_any_length_end(sign: str) -> None:
         ("1e308kW + 1e308GW", "the result is too large for a number"),
         ("100000^64", "the result is too large for a number"),
         ("9" * 5000, "`99999999999999999999...` is too large a number"),
-        ("(" * 5000, "the expression is nested too deeply"),
-        ("-" * 5000 + "1", "the expression is nested too deeply"),
+        ("(" * 5000, "the expression is nested too deeply; expected at most 50 levels"),
+        ("-" * 5000 + "1", "the expression is nested too deeply; expected at most 50 levels"),
     ],
 )
 def test_errors(text: str, message: str) -> None:

@@ -74,8 +74,16 @@ def test_converts(kind: Kind, written: str, expected: object) -> None:
         (quantity("deg", at_most=90), "91deg", "it is out of range"),
         (number(), "nan", "`nan` is not finite"),
         (number(), "2m", "it has the unit `m`"),
-        (integer(), "2.0", "it is a floating-point number; did you mean `2`?"),
-        (integer(), "1e3", "it is a floating-point number; did you mean `1000`?"),
+        (
+            integer(),
+            "2.0",
+            "it is a floating-point number; did you mean `2`, or `int(...)` of an expression?",
+        ),
+        (
+            integer(),
+            "1e3",
+            "it is a floating-point number; did you mean `1000`, or `int(...)` of an expression?",
+        ),
         (integer(), "2.5", "`2.5` is no whole number"),
         (integer(), "inf", "`inf` is no whole number"),
         (integer(), "2147483648", "it is out of range"),
@@ -133,7 +141,7 @@ def test_says_what_it_expects(kind: Kind, expected: str) -> None:
         ("177", "; channel 177 of the 5 GHz band is `radio.centerFrequency = 5885MHz`"),
         ("35", ""),
         ("178", ""),
-        ("36.0", "; did you mean `36`?"),
+        ("36.0", "; did you mean `36`, or `int(...)` of an expression?"),
         ("40s", ""),
     ],
 )

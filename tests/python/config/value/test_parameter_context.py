@@ -31,6 +31,11 @@ def test_levels_are_counted_from_the_module_of_the_parameter() -> None:
         (PATH, -1, "there is no module -1 levels above `uavs[3].wlan[1].radio.transmitter`"),
         ("uavs[3].mobility.speed", 0, "that of `uavs[3]` is `parentIndex()`"),
         ("uavs[3].numWlanInterfaces", 1, "that of `uavs[3]` is `index`"),
+        (
+            "uavs[3].wlan[0].radio.channelNumber",
+            0,
+            "is `ancestorIndex(2)`, that of `wlan[0]` is `parentIndex()`",
+        ),
         ("groundStation.mobility.speed", 1, "`groundStation` in `groundStation.mobility.speed` has no index"),
     ],
 )

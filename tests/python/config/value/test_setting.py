@@ -6,7 +6,7 @@ import pytest
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
-from gradysim.config.value.kinds import choice, file_name, integer, number, quantity
+from gradysim.config.value.kinds import choice, file_name, integer, number, quantity, text
 from gradysim.config.value.parameter_context import ParameterContext
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
 
@@ -107,7 +107,9 @@ def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> Non
         read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, "x.y", ParameterContext(1, "x.y"))
     text = str(caught.value)
     assert text.startswith("a.ini:7: *.x.y = -exponential(2mps) - 3mps: that is -")
-    assert text.endswith("mps for x.y: it is out of range; expected a speed such as 10mps, at least 0mps")
+    assert text.endswith(
+        "mps for x.y with seed 1: it is out of range; expected a speed such as 10mps, at least 0mps"
+    )
 
 
 @pytest.mark.parametrize(
@@ -116,12 +118,30 @@ def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> Non
         ("b", "b"),
         ('"b"', "b"),
         ('choose(parentIndex(), "b a")', "a"),
+        ('"a"', "a"),
         ('parentIndex() > 0 ? "a" : "b"', "a"),
     ],
 )
 def test_an_override_of_a_text_is_an_expression_or_a_text_without_quotes(written: str, value: str) -> None:
     override = entry(written, option="--set")
     assert read_scalar(override, MODE, "x[1].mac.y", ParameterContext(1, "x[1].mac.y")) == value
+
+
+@pytest.mark.parametrize("written", ["g(mixed)", "p.py:P", "1/0", "5", "a b"])
+def test_an_override_that_is_no_expression_is_the_text_itself(written: str) -> None:
+    kind = choice("g(mixed)") if "(" in written else text()
+    assert read_scalar(entry(written, option="--set"), kind) == written
+
+
+@pytest.mark.parametrize("written", ["parentIndx()", 'select(parentIndex(), "a")', 'false ? "a" : 1/0'])
+def test_an_override_of_a_text_that_is_a_wrong_expression_is_refused(written: str) -> None:
+    with pytest.raises(ConfigError, match=r"for x\[1\]\.label: "):
+        read_scalar(entry(written, option="--set"), text(), "x[1].label", ParameterContext(1, "x[1].mac.y"))
+
+
+def test_what_was_drawn_is_told_with_the_seed() -> None:
+    with pytest.raises(ConfigError, match=r"that is -3.0mps for x\[1\]\.y with seed 7: it is out of range"):
+        read_scalar(entry("uniform(-3mps, -3mps)"), SPEED, "x[1].y", ParameterContext(7, "x[1].y"))
 
 
 def test_a_truth_in_the_place_of_a_number_is_named_as_it_is_written() -> None:
