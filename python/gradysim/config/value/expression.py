@@ -10,21 +10,24 @@ Its grammar, OMNeT++'s but for operators of bits, and functions of texts, files 
 - call = function "(" [value ("," value)*] ")", of functions, drawing_functions and parameter_context
 - quantity = number [unit]; several of different units stand for their sum, as in `1h 5min`
 
-What `?`, `&&` and `||` leave aside has to be well written, but needs no value: `${n} > 0 ? 1s / ${n} : 1s`.
+A text is read once, into a function of the parameter that it is for, and worked out for each of them. What
+`?`, `&&`, `||` and `select` leave aside has to be well written, but needs no value: `${n} > 0 ? 1s / ${n} : 1s`.
 """
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
+from functools import lru_cache
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.errors.nearest import did_you_mean
 from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS, draw
-from gradysim.config.value.functions import FUNCTIONS, call
+from gradysim.config.value.functions import FUNCTIONS, SELECT, SELECT_WRITTEN, call, place_of
 from gradysim.config.value.operators import OPERATORS, Value, number, power, text_of, truth
 from gradysim.config.value.parameter_context import INDEX, INDEX_FUNCTIONS, ParameterContext
+from gradysim.config.value.parameter_stream import ParameterStream
 from gradysim.config.value.quantity import Number, Quantity
 from gradysim.config.value.quoted import QUOTED
 from gradysim.config.value.stray_token import is_operator_of_python, not_understood
@@ -44,10 +47,12 @@ _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
 _SPEEDS = {"m/s": "mps", "km/h": "kmph", "km/s": "kmps"}
 """Units as people write them, and their names here."""
 _WORDS = ("true", "false", "inf", "nan")
+_FUNCTION_NAMES = (*FUNCTIONS, SELECT, *DRAWING_FUNCTIONS, *INDEX_FUNCTIONS)
 _MAX_DEPTH = 50
 _MAX_DIGITS = 300
-_ANYTHING = Quantity(0)
-"""The value of what is read but left aside."""
+
+_Node = Callable[[ParameterContext | None], Value]
+"""A part of an expression: its value, for the parameter that it is for."""
 
 
 def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
@@ -59,26 +64,30 @@ def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
     Raises:
         BadValue: It is none.
     """
-    return _Parser(text, parameter).parse()
+    return _read(text)(parameter)
+
+
+@lru_cache(maxsize=1024)
+def _read(text: str) -> _Node:
+    return _Parser(text).parse()
 
 
 class _Parser:
-    def __init__(self, text: str, parameter: ParameterContext | None) -> None:
-        self._parameter = parameter
+    def __init__(self, text: str) -> None:
         self._tokens = [
             (match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKENS.finditer(text)
         ]
         self._text = text
         self._position = 0
         self._depth = 0
-        self._leaves_aside = False
+        self._draws = 0
 
-    def parse(self) -> Value:
-        value = self._value()
+    def parse(self) -> _Node:
+        node = self._value()
         kind, token = self._peek()
         if kind:
             raise not_understood(token, self._text)
-        return value
+        return node
 
     def _peek(self) -> tuple[str, str]:
         return self._tokens[self._position] if self._position < len(self._tokens) else ("", "")
@@ -98,88 +107,67 @@ class _Parser:
         yield
         self._depth -= 1
 
-    @contextmanager
-    def _aside(self, condition: bool) -> Iterator[None]:
-        """What is read meanwhile gives nothing of use if the condition holds."""
-        before = self._leaves_aside
-        self._leaves_aside |= condition
-        yield
-        self._leaves_aside = before
-
-    def _result(self, apply: Callable[..., Value], *operands: object) -> Value:
-        return _ANYTHING if self._leaves_aside else apply(*operands)
-
-    def _value(self) -> Value:
-        chosen: Value | None = None
-        while True:  # along `a ? b : c ? d : e`
-            with self._aside(chosen is not None):
-                condition = self._operation()
-                if not self._accept("?"):
-                    return condition if chosen is None else chosen
-                holds = self._leaves_aside or truth(condition, "?")
-            with self._aside(not holds or chosen is not None), self._deeper():
-                value = self._value()
+    def _value(self) -> _Node:
+        choices: list[tuple[_Node, _Node]] = []  # along `a ? b : c ? d : e`
+        while True:
+            node = self._operation()
+            if not self._accept("?"):
+                return _choice(choices, node) if choices else node
+            with self._deeper():
+                choices.append((node, self._value()))
             if not self._accept(":"):
                 raise BadValue("`?` is without its `:`")
-            if holds and chosen is None:
-                chosen = value
 
-    def _operation(self, least_level: int = 0) -> Value:
-        left = self._power()
+    def _operation(self, least_level: int = 0) -> _Node:
+        first = self._power()
+        rest: list[tuple[str, _Node]] = []
         while True:
             kind, sign = self._peek()
-            operator = OPERATORS.get(sign) if kind == "sign" else None
-            if operator is None or operator.level < least_level:
-                return left
+            if kind != "sign" or sign not in OPERATORS or OPERATORS[sign].level < least_level:
+                return _chain(first, rest) if rest else first
             self._position += 1
-            is_decided = (
-                operator.decided_by is not None
-                and not self._leaves_aside
-                and truth(left, sign) is operator.decided_by
-            )
-            with self._aside(is_decided):
-                right = self._operation(operator.level + 1)
-            if not is_decided:
-                left = self._result(operator.apply, left, right)
+            rest.append((sign, self._operation(OPERATORS[sign].level + 1)))
 
-    def _power(self) -> Value:
+    def _power(self) -> _Node:
         base = self._signed()
         if not self._accept("^"):
             return base
         with self._deeper():
-            return self._result(power, base, self._power())
+            exponent = self._power()
+        return lambda parameter: power(base(parameter), exponent(parameter))
 
-    def _signed(self) -> Value:
+    def _signed(self) -> _Node:
         sign = self._accept("+", "-", "!")
         if not sign:
             return self._term()
         with self._deeper():
-            return self._result(_with_sign, sign, self._signed())
+            operand = self._signed()
+        return lambda parameter: _with_sign(sign, operand(parameter))
 
-    def _term(self) -> Value:
+    def _term(self) -> _Node:
         kind, token = self._peek()
         self._position += 1
         if kind == "text":
-            return re.sub(
-                r"\\(.)", lambda match: _ESCAPES.get(match[1], match[1]), token[1:-1], flags=re.DOTALL
+            return _constant(
+                re.sub(r"\\(.)", lambda match: _ESCAPES.get(match[1], match[1]), token[1:-1], flags=re.DOTALL)
             )
         if kind == "number" or token in ("inf", "nan"):
             self._position -= 1
-            return self._quantities()
+            return _constant(self._quantities())
         if token in ("true", "false"):
-            return token == "true"
+            return _constant(token == "true")
         if kind == "sign" and token == "(":
             with self._deeper():
-                value = self._value()
+                node = self._value()
             self._close()
-            return value
+            return node
         if kind == "word":
             if self._accept("("):
                 return self._call(token)
             if is_operator_of_python(token):
                 raise not_understood(token, self._text)
             if token == INDEX:
-                return self._result(lambda: self._index(0))
+                return lambda parameter: _index(parameter, 0)
             raise BadValue(f"`{token}` is no value (a text stands in quotes)", self._hint_at(token))
         if kind:
             raise not_understood(token, self._text)
@@ -190,39 +178,36 @@ class _Parser:
         if not self._accept(")"):
             raise BadValue("`(` is not closed")
 
-    def _call(self, name: str) -> Value:
-        """What the function gives; its `(` has been read."""
-        draws = name in DRAWING_FUNCTIONS
-        if not (draws or name in FUNCTIONS or name in INDEX_FUNCTIONS):
-            names = [*FUNCTIONS, *DRAWING_FUNCTIONS, *INDEX_FUNCTIONS]
-            hint = did_you_mean(name, names) or f"; there are {', '.join(sorted(names))}"
-            if name == INDEX:
-                hint = f"; did you mean `{INDEX}`?"
+    def _call(self, name: str) -> _Node:
+        """The call of a function; its `(` has been read."""
+        if name == INDEX:
+            raise BadValue(f"`{name}` is no function", f"; did you mean `{name}`, without parentheses?")
+        if name not in _FUNCTION_NAMES:
+            hint = did_you_mean(name, _FUNCTION_NAMES) or f"; there are {', '.join(sorted(_FUNCTION_NAMES))}"
             raise BadValue(f"there is no function `{name}`", hint)
-        if draws and self._parameter is None:
-            raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
-        stream = self._parameter.next_stream() if draws and self._parameter else None
+        if name in DRAWING_FUNCTIONS:  # counted from the left, whether or not they draw
+            place = self._draws
+            self._draws += 1
         with self._deeper():
-            values = self._arguments()
-        if stream is not None:
-            return self._result(draw, name, values, stream)
+            nodes = self._arguments()
+        if name in DRAWING_FUNCTIONS:
+            return lambda parameter: draw(
+                name, [node(parameter) for node in nodes], _stream(name, parameter, place)
+            )
         if name in INDEX_FUNCTIONS:
-            return self._result(lambda: self._index(_levels(name, values)))
-        return self._result(call, name, values)
+            return lambda parameter: _index(parameter, _levels(name, [node(parameter) for node in nodes]))
+        if name == SELECT:
+            return _selection(nodes)
+        return lambda parameter: call(name, [node(parameter) for node in nodes])
 
-    def _arguments(self) -> list[Value]:
+    def _arguments(self) -> list[_Node]:
         if self._accept(")"):
             return []
-        values = [self._value()]
+        nodes = [self._value()]
         while self._accept(","):
-            values.append(self._value())
+            nodes.append(self._value())
         self._close()
-        return values
-
-    def _index(self, levels: int) -> Value:
-        if self._parameter is None:
-            raise BadValue("this value is the same for all nodes of the line, and knows no index")
-        return Quantity(self._parameter.index_of_ancestor(levels))
+        return nodes
 
     def _hint_at(self, word: str) -> str:
         if word.lower() in _WORDS:
@@ -264,6 +249,64 @@ class _Parser:
             raise not_understood(token, self._text)
         self._position += 1
         return Quantity(number, unit_named(token))
+
+
+def _constant(value: Value) -> _Node:
+    return lambda parameter: value
+
+
+def _choice(choices: Sequence[tuple[_Node, _Node]], otherwise: _Node) -> _Node:
+    """The value of the first condition that holds."""
+
+    def node(parameter: ParameterContext | None) -> Value:
+        for condition, value in choices:
+            if truth(condition(parameter), "?"):
+                return value(parameter)
+        return otherwise(parameter)
+
+    return node
+
+
+def _chain(first: _Node, rest: Sequence[tuple[str, _Node]]) -> _Node:
+    """Operators one after the other, each with what those before it gave as its left operand."""
+
+    def node(parameter: ParameterContext | None) -> Value:
+        value = first(parameter)
+        for sign, right in rest:
+            operator = OPERATORS[sign]
+            if operator.decided_by is None or truth(value, sign) is not operator.decided_by:
+                value = operator.apply(value, right(parameter))
+        return value
+
+    return node
+
+
+def _selection(nodes: Sequence[_Node]) -> _Node:
+    """The function `select`, which works out nothing but the item at its place."""
+    if len(nodes) < 2:
+        raise BadValue(f"`{SELECT_WRITTEN}` does not take {len(nodes)} values")
+    index, *items = nodes
+
+    def node(parameter: ParameterContext | None) -> Value:
+        try:
+            place = place_of(index(parameter), len(items))
+        except BadValue as error:
+            raise BadValue(f"`{SELECT}`: {error.problem}", error.suggestion) from None
+        return items[place](parameter)
+
+    return node
+
+
+def _stream(name: str, parameter: ParameterContext | None, place: int) -> ParameterStream:
+    if parameter is None:
+        raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
+    return parameter.stream(place)
+
+
+def _index(parameter: ParameterContext | None, levels: int) -> Quantity:
+    if parameter is None:
+        raise BadValue("this value is the same for all nodes of the line, and knows no index")
+    return Quantity(parameter.index_of_ancestor(levels))
 
 
 def _with_sign(sign: str, operand: Value) -> Value:

@@ -23,7 +23,7 @@ class _Function:
 
     def takes(self, count: int) -> bool:
         """Whether it can be called with so many values."""
-        return count >= 2 if "..." in self.written else count == self.written.count(",") + 1
+        return count == self.written.count(",") + 1
 
 
 def call(name: str, values: Sequence[Value]) -> Value:
@@ -131,25 +131,26 @@ def _string(values: Sequence[Value]) -> Value:
     return text_of(value)
 
 
-def _select(values: Sequence[Value]) -> Value:
-    return _item(values[0], values[1:])
-
-
 def _choose(values: Sequence[Value]) -> Value:
     index, listed = values
     if not isinstance(listed, str):
         raise BadValue(f"`{text_of(listed)}` is no text")
-    return _item(index, listed.split())
+    words = listed.split()
+    return words[place_of(index, len(words))]
 
 
-def _item(index: Value, items: Sequence[Value]) -> Value:
+def place_of(index: Value, count: int) -> int:
+    """The place of one of `count` items. Raises BadValue if the index is none of theirs."""
     place = number(index)
     if place.unit is not None or not isinstance(place.number, int):
         raise BadValue(f"`{place}` is no whole number")
-    if not 0 <= place.number < len(items):
-        raise BadValue(f"there is no item {place}, only 0 to {len(items) - 1}")
-    return items[place.number]
+    if not 0 <= place.number < count:
+        raise BadValue(f"there is no item {place}, only 0 to {count - 1}")
+    return place.number
 
+
+SELECT, SELECT_WRITTEN = "select", "select(index, a, b, ...)"
+"""The function that does not need the values of all that stands in it: `expression` has it."""
 
 FUNCTIONS: dict[str, _Function] = {
     **{
@@ -168,7 +169,6 @@ FUNCTIONS: dict[str, _Function] = {
     "int": _Function("int(x)", _int),
     "double": _Function("double(x)", _double),
     "string": _Function("string(x)", _string),
-    "select": _Function("select(index, a, b, ...)", _select),
     "choose": _Function('choose(index, "a b c")', _choose),
 }
 """By name."""

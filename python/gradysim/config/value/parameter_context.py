@@ -30,19 +30,19 @@ class ParameterContext:
     Attributes:
         seed: Of the run.
         path: Of the parameter, without the network.
-        draw_count: How many streams have been handed out.
+        has_drawn: Whether a stream has been handed out.
     """
 
     def __init__(self, seed: int, path: str) -> None:
         """For the run with that seed."""
         self.seed = seed
         self.path = path
-        self.draw_count = 0
+        self.has_drawn = False
 
-    def next_stream(self) -> ParameterStream:
-        """Return the stream of the next draw, in the order in which the value, read from the left, draws."""
-        self.draw_count += 1
-        return ParameterStream(self.seed, self.path, self.draw_count - 1)
+    def stream(self, place: int) -> ParameterStream:
+        """Return the stream of one of the draws that stand in the value, counted from the left, from 0."""
+        self.has_drawn = True
+        return ParameterStream(self.seed, self.path, place)
 
     def index_of_ancestor(self, levels: int) -> int:
         """The index of the module so many levels above that of the parameter.

@@ -80,7 +80,7 @@ def read_scalar(
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
         this = f"that is {entry.text}: " if is_of_one_run else ""
         if parameter is not None:
-            seed = f" with seed {parameter.seed}" if parameter.draw_count else ""
+            seed = f" with seed {parameter.seed}" if parameter.has_drawn else ""
             this += f"{f'that is {text_of(written)} ' if written is not None else ''}for {path}{seed}: "
         elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
             this += f"for {path}: "

@@ -10,11 +10,12 @@ from gradysim.config.value.parameter_stream import ParameterStream
 PATH = "uavs[3].wlan[1].radio.transmitter.power"
 
 
-def test_draws_are_counted_from_the_left() -> None:
+def test_each_draw_has_a_stream_of_its_own() -> None:
     context = ParameterContext(1, PATH)
-    numbers = [context.next_stream().uniform() for _ in range(2)]
+    assert not context.has_drawn
+    numbers = [context.stream(place).uniform() for place in range(2)]
     assert numbers == [ParameterStream(1, PATH, place).uniform() for place in range(2)]
-    assert context.draw_count == 2
+    assert context.has_drawn
 
 
 def test_levels_are_counted_from_the_module_of_the_parameter() -> None:
