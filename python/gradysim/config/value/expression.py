@@ -11,7 +11,7 @@ Its grammar, OMNeT++'s but for operators of bits, and functions of texts, files 
 - quantity = number [unit]; several of different units stand for their sum, as in `1h 5min`
 
 A text is read once, into a function of the parameter that it is for, and worked out for each of them. What
-`?`, `&&`, `||` and `select` leave aside has to be well written, but needs no value: `${n} > 0 ? 1s / ${n} : 1s`.
+`?`, `&&`, `||` and `select` leave aside has to be well written but needs no value: `${n} > 0 ? 1 / ${n} : 1`.
 """
 
 import math
