@@ -16,18 +16,30 @@ A text is read once, into a function of the parameter that it is for, and worked
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from fractions import Fraction
 from functools import lru_cache
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.errors.nearest import did_you_mean
-from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS, draw
-from gradysim.config.value.functions import FUNCTIONS, SELECT, SELECT_WRITTEN, call, place_of
-from gradysim.config.value.operators import OPERATORS, Value, number, power, text_of, truth
+from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS
+from gradysim.config.value.expression_tree import (
+    Node,
+    called,
+    chain,
+    choice,
+    constant,
+    drawn,
+    index,
+    index_above,
+    raised,
+    selection,
+    signed,
+)
+from gradysim.config.value.functions import FUNCTIONS, SELECT
+from gradysim.config.value.operators import OPERATORS, Value
 from gradysim.config.value.parameter_context import INDEX, INDEX_FUNCTIONS, ParameterContext
-from gradysim.config.value.parameter_stream import ParameterStream
 from gradysim.config.value.quantity import Number, Quantity
 from gradysim.config.value.quoted import QUOTED
 from gradysim.config.value.stray_token import is_operator_of_python, not_understood
@@ -51,9 +63,6 @@ _FUNCTION_NAMES = (*FUNCTIONS, SELECT, *DRAWING_FUNCTIONS, *INDEX_FUNCTIONS)
 _MAX_DEPTH = 50
 _MAX_DIGITS = 300
 
-_Node = Callable[[ParameterContext | None], Value]
-"""A part of an expression: its value, for the parameter that it is for."""
-
 
 def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
     """The value of a text such as `1h 5min`, `-85dBm`, `2 * 50m`, `"g(mixed)"` or `true`.
@@ -68,7 +77,7 @@ def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
 
 
 @lru_cache(maxsize=1024)
-def _read(text: str) -> _Node:
+def _read(text: str) -> Node:
     return _Parser(text).parse()
 
 
@@ -82,7 +91,7 @@ class _Parser:
         self._depth = 0
         self._draws = 0
 
-    def parse(self) -> _Node:
+    def parse(self) -> Node:
         node = self._value()
         kind, token = self._peek()
         if kind:
@@ -107,55 +116,55 @@ class _Parser:
         yield
         self._depth -= 1
 
-    def _value(self) -> _Node:
-        choices: list[tuple[_Node, _Node]] = []  # along `a ? b : c ? d : e`
+    def _value(self) -> Node:
+        choices: list[tuple[Node, Node]] = []  # along `a ? b : c ? d : e`
         while True:
             node = self._operation()
             if not self._accept("?"):
-                return _choice(choices, node) if choices else node
+                return choice(choices, node) if choices else node
             with self._deeper():
                 choices.append((node, self._value()))
             if not self._accept(":"):
                 raise BadValue("`?` is without its `:`")
 
-    def _operation(self, least_level: int = 0) -> _Node:
+    def _operation(self, least_level: int = 0) -> Node:
         first = self._power()
-        rest: list[tuple[str, _Node]] = []
+        rest: list[tuple[str, Node]] = []
         while True:
             kind, sign = self._peek()
             if kind != "sign" or sign not in OPERATORS or OPERATORS[sign].level < least_level:
-                return _chain(first, rest) if rest else first
+                return chain(first, rest) if rest else first
             self._position += 1
             rest.append((sign, self._operation(OPERATORS[sign].level + 1)))
 
-    def _power(self) -> _Node:
+    def _power(self) -> Node:
         base = self._signed()
         if not self._accept("^"):
             return base
         with self._deeper():
             exponent = self._power()
-        return lambda parameter: power(base(parameter), exponent(parameter))
+        return raised(base, exponent)
 
-    def _signed(self) -> _Node:
+    def _signed(self) -> Node:
         sign = self._accept("+", "-", "!")
         if not sign:
             return self._term()
         with self._deeper():
             operand = self._signed()
-        return lambda parameter: _with_sign(sign, operand(parameter))
+        return signed(sign, operand)
 
-    def _term(self) -> _Node:
+    def _term(self) -> Node:
         kind, token = self._peek()
         self._position += 1
         if kind == "text":
-            return _constant(
+            return constant(
                 re.sub(r"\\(.)", lambda match: _ESCAPES.get(match[1], match[1]), token[1:-1], flags=re.DOTALL)
             )
         if kind == "number" or token in ("inf", "nan"):
             self._position -= 1
-            return _constant(self._quantities())
+            return constant(self._quantities())
         if token in ("true", "false"):
-            return _constant(token == "true")
+            return constant(token == "true")
         if kind == "sign" and token == "(":
             with self._deeper():
                 node = self._value()
@@ -167,7 +176,7 @@ class _Parser:
             if is_operator_of_python(token):
                 raise not_understood(token, self._text)
             if token == INDEX:
-                return lambda parameter: _index(parameter, 0)
+                return index
             raise BadValue(f"`{token}` is no value (a text stands in quotes)", self._hint_at(token))
         if kind:
             raise not_understood(token, self._text)
@@ -178,7 +187,7 @@ class _Parser:
         if not self._accept(")"):
             raise BadValue("`(` is not closed")
 
-    def _call(self, name: str) -> _Node:
+    def _call(self, name: str) -> Node:
         """The call of a function; its `(` has been read."""
         if name == INDEX:
             raise BadValue(f"`{name}` is no function", f"; did you mean `{name}`, without parentheses?")
@@ -191,16 +200,14 @@ class _Parser:
         with self._deeper():
             nodes = self._arguments()
         if name in DRAWING_FUNCTIONS:
-            return lambda parameter: draw(
-                name, [node(parameter) for node in nodes], _stream(name, parameter, place)
-            )
+            return drawn(name, nodes, place)
         if name in INDEX_FUNCTIONS:
-            return lambda parameter: _index(parameter, _levels(name, [node(parameter) for node in nodes]))
+            return index_above(name, nodes)
         if name == SELECT:
-            return _selection(nodes)
-        return lambda parameter: call(name, [node(parameter) for node in nodes])
+            return selection(nodes)
+        return called(name, nodes)
 
-    def _arguments(self) -> list[_Node]:
+    def _arguments(self) -> list[Node]:
         if self._accept(")"):
             return []
         nodes = [self._value()]
@@ -249,84 +256,6 @@ class _Parser:
             raise not_understood(token, self._text)
         self._position += 1
         return Quantity(number, unit_named(token))
-
-
-def _constant(value: Value) -> _Node:
-    return lambda parameter: value
-
-
-def _choice(choices: Sequence[tuple[_Node, _Node]], otherwise: _Node) -> _Node:
-    """The value of the first condition that holds."""
-
-    def node(parameter: ParameterContext | None) -> Value:
-        for condition, value in choices:
-            if truth(condition(parameter), "?"):
-                return value(parameter)
-        return otherwise(parameter)
-
-    return node
-
-
-def _chain(first: _Node, rest: Sequence[tuple[str, _Node]]) -> _Node:
-    """Operators one after the other, each with what those before it gave as its left operand."""
-
-    def node(parameter: ParameterContext | None) -> Value:
-        value = first(parameter)
-        for sign, right in rest:
-            operator = OPERATORS[sign]
-            if operator.decided_by is None or truth(value, sign) is not operator.decided_by:
-                value = operator.apply(value, right(parameter))
-        return value
-
-    return node
-
-
-def _selection(nodes: Sequence[_Node]) -> _Node:
-    """The function `select`, which works out nothing but the item at its place."""
-    if len(nodes) < 2:
-        raise BadValue(f"`{SELECT_WRITTEN}` does not take {len(nodes)} values")
-    index, *items = nodes
-
-    def node(parameter: ParameterContext | None) -> Value:
-        try:
-            place = place_of(index(parameter), len(items))
-        except BadValue as error:
-            raise BadValue(f"`{SELECT}`: {error.problem}", error.suggestion) from None
-        return items[place](parameter)
-
-    return node
-
-
-def _stream(name: str, parameter: ParameterContext | None, place: int) -> ParameterStream:
-    if parameter is None:
-        raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
-    return parameter.stream(place)
-
-
-def _index(parameter: ParameterContext | None, levels: int) -> Quantity:
-    if parameter is None:
-        raise BadValue("this value is the same for all nodes of the line, and knows no index")
-    return Quantity(parameter.index_of_ancestor(levels))
-
-
-def _with_sign(sign: str, operand: Value) -> Value:
-    if sign == "!":
-        return not truth(operand, sign)
-    quantity = number(operand)
-    return Quantity(-quantity.number, quantity.unit) if sign == "-" else quantity
-
-
-def _levels(name: str, values: list[Value]) -> int:
-    """How far up a function of INDEX_FUNCTIONS looks."""
-    written = INDEX_FUNCTIONS[name]
-    if len(values) != (name == "ancestorIndex"):
-        raise BadValue(f"`{written}` does not take {len(values)} values")
-    if not values:
-        return 1
-    (levels,) = values
-    if not (isinstance(levels, Quantity) and levels.unit is None and isinstance(levels.number, int)):
-        raise BadValue(f"`{written}`: `{text_of(levels)}` is no whole number")
-    return levels.number
 
 
 def _parse_number(token: str) -> Number:
