@@ -178,19 +178,19 @@ def _triang(stream: ParameterStream, values: Sequence[Quantity]) -> float:
 
 
 def _weibull(stream: ParameterStream, values: Sequence[Quantity]) -> float:
-    """A (-ln(1 - u))^(1 / b): scale a, shape b, which as in OMNeT++ has the same unit as the scale."""
+    """The number a (-ln(1 - u))^(1 / b): scale a, shape b, which as in OMNeT++ has the unit of the scale."""
     scale, shape = _positive(values[0], "scale"), _positive(values[1], "shape")
     return scale * math.pow(_exponential_of_mean_1(stream), 1 / shape)
 
 
 def _pareto_shifted(stream: ParameterStream, values: Sequence[Quantity]) -> float:
-    """B / (1 - u)^(1 / a) - c: shape a, scale b, shifted down by c."""
+    """The number b / (1 - u)^(1 / a) - c: shape a, scale b, shifted down by c."""
     shape, scale = _positive(values[0], "shape"), _positive(values[1], "scale")
     return scale / math.pow(1.0 - stream.uniform(), 1 / shape) - float(values[2].number)
 
 
 def _cauchy(stream: ParameterStream, values: Sequence[Quantity]) -> float:
-    """A + b tan(pi (u - 1/2)): median a, half width b at half of the peak."""
+    """The number a + b tan(pi (u - 1/2)): median a, half width b at half of the peak."""
     width = _positive(values[1], "width")
     return float(values[0].number) + width * math.tan(math.pi * (stream.uniform() - 0.5))
 
@@ -216,7 +216,7 @@ def _geometric(stream: ParameterStream, values: Sequence[Quantity]) -> int:
 
 
 def _poisson(stream: ParameterStream, values: Sequence[Quantity]) -> int:
-    """How many exponentially distributed intervals of mean 1 end within lambda."""
+    """How many exponentially distributed intervals of mean 1 end within the mean."""
     if values[0].unit is not None:
         raise BadValue(f"`{values[0]}` is no plain number")
     rest = _not_negative(values[0], "mean")

@@ -7,7 +7,7 @@ one: in `uavs[3].mobility.speed` the module is `mobility`, its parent `uavs[3]`,
 import re
 
 from gradysim.config.errors.config_error import BadValue
-from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS
+from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.parameter_stream import ParameterStream
 from gradysim.config.value.quoted import QUOTED
 
@@ -17,9 +17,8 @@ INDEX_FUNCTIONS = {"parentIndex": "parentIndex()", "ancestorIndex": "ancestorInd
 INDEX = "index"
 """The index of the module itself, which is no function."""
 
-_OWN = re.compile(
-    rf"{QUOTED}|\b({'|'.join([*DRAWING_FUNCTIONS, *INDEX_FUNCTIONS])})\s*\(|\b({INDEX})\b",
-    re.ASCII | re.DOTALL,
+_INDEX_OR_TEXT = re.compile(
+    rf"{QUOTED}|(\b(?:{'|'.join(INDEX_FUNCTIONS)})\s*\(|\b{INDEX}\b)", re.ASCII | re.DOTALL
 )
 _INDEX_IN_PATH = re.compile(r"\[(\d+)\]$", re.ASCII)
 
@@ -73,4 +72,4 @@ class ParameterContext:
 
 def differs_between_parameters(text: str) -> bool:
     """Whether a value draws or asks for an index, so that it is another one for each parameter."""
-    return any(match[1] or match[2] for match in _OWN.finditer(text))
+    return bool(drawing_function_in(text)) or any(match[1] for match in _INDEX_OR_TEXT.finditer(text))
