@@ -362,6 +362,11 @@ class LockStepCopter(Copter):
         return (math.sqrt((1 - e) ** 2 + 4 * e * share) - (1 - e)) / (2 * e)
 
 
+def end_once(number, frame):
+    signal.signal(number, signal.SIG_IGN)
+    sys.exit()
+
+
 def main():
     if sys.argv[1:] == ["--help"]:
         print(
@@ -382,17 +387,21 @@ def main():
     if wrongs.get("stubborn"):
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
     else:
-        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit())
+        signal.signal(signal.SIGTERM, end_once)
     kind = LockStepCopter if options["--model"].startswith("JSON") else Copter
     copter = kind(options, wrongs)
     if wrongs.get("gives_up"):
         print("invalid param", flush=True)
         while True:
             time.sleep(60)
+    final = Path(__file__).with_name(f"final_{Path.cwd().name}.json")
     try:
         copter.run()
     finally:
-        Path(__file__).with_name(f"final_{Path.cwd().name}.json").write_text(json.dumps(copter.state()))
+        try:
+            final.write_text(json.dumps(copter.state()))
+        finally:  # again: the signal may come between the end of the connection and that of the writing
+            final.write_text(json.dumps(copter.state()))
 
 
 if __name__ == "__main__":
