@@ -79,7 +79,7 @@ def runs_of(file: Path, config: str) -> tuple[list[set[str]], set[str]]:
     )
     options = {entry.key: entry for _, entry in reversed(ranked) if is_option(entry)}
     numbered, _ = numbered_runs(options, variables, config, None, sections[0].source, "runs")
-    last = run_variables(config, *numbered[-1])
+    last = run_variables(file, "Network", config, *numbered[-1])
     return (
         [
             variables_in(text_of_iterations({**run.iterations, "repetition": run.repetition}))

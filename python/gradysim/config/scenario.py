@@ -21,7 +21,7 @@ from gradysim.config.matching.key_check import (
     check_option,
     check_parameters,
 )
-from gradysim.config.matching.lookup import Lookup, is_ignored, is_option
+from gradysim.config.matching.lookup import Lookup, is_ignored, is_option, network_name
 from gradysim.config.matching.struct_reader import read_struct
 from gradysim.config.node.interfaces import interface_counts
 from gradysim.config.node.node_spec import NodeSpec
@@ -31,6 +31,7 @@ from gradysim.config.obstacle.obstacles import obstacle_count, obstacle_files, r
 from gradysim.config.protocol.loader import ProtocolLoader
 from gradysim.config.runs.file_hashes import FileHashes
 from gradysim.config.runs.iterations import name_iterations
+from gradysim.config.runs.labels import free_text, with_labels
 from gradysim.config.runs.numbered_runs import numbered_runs
 from gradysim.config.runs.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
 from gradysim.config.runs.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash, settings_hash
@@ -84,6 +85,9 @@ class Scenario:
         file_hashes: {name, seen from the folder of the .ini file: hash} of the files that settings name:
             protocols with what they import from their folder, obstacles, error rates.
         run_count: How many runs the configuration has, this one and those that were not asked for included.
+        network: What paths of parameters and results begin with.
+        variables: Value of each variable that `${...}` may name in this run, the predefined ones included.
+        entries: All of these sections and, before them, the overrides, with the values of this run.
     """
 
     file: Path
@@ -103,6 +107,9 @@ class Scenario:
     settings_hash: str = ""
     file_hashes: Mapping[str, str] = field(default_factory=dict)
     run_count: int = 1
+    network: str = "Network"
+    variables: Mapping[str, str] = field(default_factory=dict, repr=False)
+    entries: tuple[Entry, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         """Check what scripts replace. Raises TypeError and ValueError, which name the field."""
@@ -188,7 +195,9 @@ def load_scenarios(
     source = sections[0].source
     ranked, variables = name_iterations(ranked)
     only_options = [each for each in ranked if is_option(each.entry)]
-    numbered, run_count = numbered_runs(_options(only_options), variables, config, runs, source, names.runs)
+    as_written = _options(only_options)
+    network_of_file = network_name(next((each for _, each in only_options if each.key == "network"), None))
+    numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
     if seed is not None:
         check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
 
@@ -203,10 +212,11 @@ def load_scenarios(
     network: _Network | None = None  # that of the run before, kept while what it is made of stays the same
     made_of: tuple[str | int, ...] = ()
     for number, repetition, iterations in numbered:
-        values = run_variables(config, number, repetition, iterations)
-        options = _options(_substituted(only_options, values))
-        of_file = seed_of_file(options, number)
+        values = run_variables(file, network_of_file, config, number, repetition, iterations)
+        of_file = seed_of_file(as_written, number, values)
         seed_of_run = of_file if seed is None else seed + number
+        values = with_labels(values, seed_of_run, as_written)
+        options = _options(_substituted(only_options, values))
         texts = [substitute(entry, values).text for entry in varying]
         draws = always_draws or any(map(drawing_function_in, texts))
         alike = (*texts, *([seed_of_run] if draws else ()))
@@ -223,6 +233,9 @@ def load_scenarios(
                 iterations=iterations,
                 settings_hash=settings_hash(_substituted(in_force, {**values, **SAME_IN_ALL_RUNS})),
                 run_count=run_count,
+                network=network_of_file,
+                variables=values,
+                entries=tuple(entry for _, entry in _substituted(ranked, values)),
             )
         )
     if len(numbered) == run_count:  # or the others may have those nodes
@@ -274,7 +287,7 @@ def _scenario(
         config=config,
         run_number=number,
         seed=seed,
-        description=_description(description) if description else "",
+        description=free_text(description) if description else "",
         sim_time_limit_s=float(read_scalar(sim_time_limit, OPTIONS["sim-time-limit"])),
         nodes=network.nodes,
         medium=network.medium,
@@ -299,11 +312,6 @@ def _options(ranked: list[Ranked]) -> dict[str, Entry]:
         if entry.key in OPTIONS:
             options.setdefault(entry.key, entry)
     return {key: entry for key, entry in options.items() if entry.text != "default"}
-
-
-def _description(entry: Entry) -> str:
-    """The text; as in OMNeT++ it needs no quotes."""
-    return str(read_scalar(entry, OPTIONS["description"])) if entry.text.startswith('"') else entry.text
 
 
 def _network(

@@ -45,6 +45,27 @@ OPTION_KEYS: tuple[Key, ...] = (
         "Names of iteration variables, the outermost first: `repetition, *, x`; `*`: the others in order",
         default="*, repetition",
     ),
+    Key(
+        "experiment-label",
+        "option.experiment_label",
+        text(),
+        "What `--scalars` and `--vectors` call the runs of a configuration",
+        default="${configname}",
+    ),
+    Key(
+        "measurement-label",
+        "option.measurement_label",
+        text(),
+        "What they call the runs with equal values of `${...}`",
+        default="${iterationvars}",
+    ),
+    Key(
+        "replication-label",
+        "option.replication_label",
+        text(),
+        "What they call one of these runs",
+        default="#${repetition}",
+    ),
     Key("description", "option.description", text(), "What the configuration is about", default='""'),
 )
 
@@ -53,11 +74,23 @@ OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
 SECTION_OPTIONS = ("extends", "abstract")
 """Options that belong to a section and cannot be given on the command line."""
 
-IGNORED_OPTIONS = ("network", "result-dir", "experiment-label", "cmdenv-*", "qtenv-*")
+IGNORED_OPTIONS = (
+    "network",
+    "result-dir",
+    "output-scalar-*",
+    "output-vector*",
+    "outputscalarmanager-class",
+    "outputvectormanager-class",
+    "cmdenv-*",
+    "qtenv-*",
+)
 """Options of OMNeT++ that files share with it. `network` is only the name that paths begin with."""
 
-IGNORED_ENDS = ("cmdenv-", "qtenv-")
-"""Options of OMNeT++ that are given per module, such as `**.cmdenv-log-level`."""
+IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-")
+"""Of the last names of keys: options of OMNeT++ that are given per module, such as `**.cmdenv-log-level`."""
+
+IGNORED_ENDS = tuple(f"{kind}-recording" for kind in ("scalar", "vector", "statistic", "bin", "param"))
+"""Last names of keys: which results OMNeT++ records, `**.vector-recording`."""
 
 IGNORED_MODULES = ("visualizer",)
 """Names below the network whose parameters are OMNeT++'s alone."""

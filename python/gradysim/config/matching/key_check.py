@@ -49,7 +49,7 @@ def check_option(entry: Entry) -> None:
         raise ConfigError(f"`{key}` belongs to a section; expected it in the file", entry.source)
     if key in OPTIONS or key in SECTION_OPTIONS or is_ignored(entry):
         return
-    hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, "network", "result-dir", "experiment-label"])
+    hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, "network", "result-dir"])
     if re.fullmatch(r"num[A-Z]\w*", key):
         hint = f"; did you mean `*.{key}`?"
     raise ConfigError(

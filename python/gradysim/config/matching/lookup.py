@@ -12,7 +12,12 @@ from fnmatch import fnmatchcase
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
-from gradysim.config.keys.options import IGNORED_ENDS, IGNORED_MODULES, IGNORED_OPTIONS
+from gradysim.config.keys.options import (
+    IGNORED_BEGINNINGS,
+    IGNORED_ENDS,
+    IGNORED_MODULES,
+    IGNORED_OPTIONS,
+)
 from gradysim.config.value.parameter_context import differs_between_parameters
 from gradysim.config.value.pattern import Pattern, compile_pattern
 
@@ -111,8 +116,7 @@ class Lookup:
         for _, entry in ranked:
             if is_option(entry):
                 self.options.setdefault(entry.key, entry)
-        network = self.options.get("network")
-        self.network = network.text.strip('"').rpartition(".")[2] if network else "Network"
+        self.network = network_name(self.options.get("network"))
         self.found = [
             _compile(order, rank, entry)
             for order, (rank, entry) in enumerate(ranked)
@@ -143,6 +147,11 @@ class Lookup:
         return self.candidates(rest).first(name)
 
 
+def network_name(network: Entry | None) -> str:
+    """What paths begin with; `network` is the option of that name, which may name a package, too."""
+    return network.text.strip('"').rpartition(".")[2] if network else "Network"
+
+
 def is_option(entry: Entry) -> bool:
     """Whether the key is one of an option: it has no dot."""
     return "." not in entry.key
@@ -153,7 +162,9 @@ def is_ignored(entry: Entry) -> bool:
     parts = entry.key.split(".")
     if len(parts) == 1:
         return any(fnmatchcase(entry.key, option) for option in IGNORED_OPTIONS)
-    return parts[-1].startswith(IGNORED_ENDS) or (len(parts) > 2 and parts[1] in IGNORED_MODULES)
+    if parts[-1].startswith(IGNORED_BEGINNINGS) or parts[-1] in IGNORED_ENDS:
+        return True
+    return len(parts) > 2 and parts[1] in IGNORED_MODULES
 
 
 def _compile(order: int, rank: int, entry: Entry) -> Found:

@@ -21,8 +21,22 @@ from gradysim.config.value.drawing_functions import drawing_function_in
 REPETITION = "repetition"
 """The variable that counts the runs of one combination of values, from 0."""
 
-PREDEFINED = ("runnumber", REPETITION, "configname", "iterationvars")
-"""Variables that every run has, whatever its file says."""
+PREDEFINED = (
+    "runnumber",
+    REPETITION,
+    "configname",
+    "iterationvars",
+    "iterationvarsf",
+    "iterationvarsd",
+    "seedset",
+    "experiment",
+    "measurement",
+    "replication",
+    "inifile",
+    "network",
+)
+"""Variables that every run has, whatever its file says: those of OMNeT++ that are the same when a run is done
+again."""
 
 MAX_VALUES = 1_000_000
 """Of one variable; also the most runs of a configuration."""
@@ -32,6 +46,7 @@ _DEFINITION = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)", re.ASCII | re.DOTALL
 _LOCK_STEP = re.compile(r"(.*)!\s*([A-Za-z_]\w*)\s*", re.ASCII | re.DOTALL)
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})(?:\s+step\s+({_NUMBER}))?", re.ASCII)
+_NOT_IN_FILE_NAMES = re.compile(r"[^\w!()\[\];=+@~.#,-]", re.ASCII)
 _LIKE_A_RANGE = re.compile(r"[-+]?\.?\d[^\"']*\.\.", re.ASCII)
 
 
@@ -117,6 +132,24 @@ def count_combinations(variables: Sequence[IterationVariable]) -> int:
 def text_of_iterations(values: Mapping[str, object]) -> str:
     """Write a combination as OMNeT++ does: `$x=1, $speed=5`."""
     return ", ".join(f"${name}={value}" for name, value in values.items())
+
+
+def file_names_of_iterations(values: Mapping[str, str]) -> tuple[str, str]:
+    """Write a combination as OMNeT++ does for files, `x=1,speed=5-`, and for folders, `x=1/speed=5`."""
+    parts = [
+        f"{'' if name.isdigit() else f'{name}='}{_for_file_name(value)}" for name, value in values.items()
+    ]
+    return f"{','.join(parts)}-" if parts else "", "/".join(parts)
+
+
+def _for_file_name(value: str) -> str:
+    """The value without its quotes and spaces, and with the code of what some system has no files with."""
+    if len(value) > 1 and value[0] == value[-1] == '"':
+        value = re.sub(r"\\(.)", r"\1", value[1:-1], flags=re.DOTALL)
+    return _NOT_IN_FILE_NAMES.sub(
+        lambda match: "".join(f"#{byte:02x}" for byte in match[0].encode(errors="surrogateescape")),
+        value.replace(" ", "_"),
+    )
 
 
 def _with_names(entry: Entry, variables: dict[str, IterationVariable]) -> Entry:
@@ -269,9 +302,9 @@ def _unknown(name: str, known: Sequence[str], left_out: Sequence[Entry]) -> str:
                 f"`{name}` has its values at {entry.source}, which another value of `{entry.key}` overrides;"
                 f" expected a value here that does without it, or `${{{name}=...}}` there"
             )
-    listed = " or ".join(f"`${{{other}}}`" for other in known)
+    listed = ", ".join(f"`${{{other}}}`" for other in known)
     return (
-        f"there is no variable `{name}`; expected {listed}, or values such as `${{{name}=1, 2, 5}}`"
+        f"there is no variable `{name}`; expected one of {listed}, or values such as `${{{name}=1, 2, 5}}`"
         f"{did_you_mean(name, known)}"
     )
 

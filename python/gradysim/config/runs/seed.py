@@ -7,6 +7,7 @@ from gradysim.config.errors.argument_names import OF_SCRIPT
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.file.reader import Entry
 from gradysim.config.keys.options import LARGEST_SEED, OPTIONS
+from gradysim.config.runs.variables import substitute
 from gradysim.config.value.setting import read_scalar
 
 
@@ -43,7 +44,10 @@ def check_seeds_of_runs(seed: int, last_run: int, name: str = OF_SCRIPT.seed) ->
         )
 
 
-def seed_of_file(options: Mapping[str, Entry], run_number: int) -> int:
-    """Return what the file says, by default the number of the run."""
+def seed_of_file(options: Mapping[str, Entry], run_number: int, variables: Mapping[str, str]) -> int:
+    """Return what the file says, by default the number of the run.
+
+    Raises ConfigError for what is no seed, and for one that depends on itself.
+    """
     seed = options.get("seed-set")
-    return int(read_scalar(seed, OPTIONS["seed-set"])) if seed else run_number
+    return int(read_scalar(substitute(seed, variables), OPTIONS["seed-set"])) if seed else run_number

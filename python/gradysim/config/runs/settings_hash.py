@@ -5,6 +5,7 @@ from collections.abc import Iterable
 
 from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
+from gradysim.config.runs.labels import LABEL_OPTIONS
 
 _OF_NO_RUN = (
     "repeat",
@@ -13,10 +14,13 @@ _OF_NO_RUN = (
     "description",
     "extends",
     "abstract",
+    *LABEL_OPTIONS,
 )
 """Options that say which runs there are, or nothing of what happens in them."""
 
-SAME_IN_ALL_RUNS = {"runnumber": "${runnumber}", "repetition": "${repetition}"}
+SAME_IN_ALL_RUNS = {
+    name: f"${{{name}}}" for name in ("runnumber", "repetition", "seedset", "replication", "inifile")
+}
 """Values of variables for the hash: runs that differ in their numbers alone are of the same settings."""
 
 _LENGTH = 16

@@ -91,7 +91,7 @@ def test_who_needs_the_variable_of_an_overridden_line_is_told_where_it_is() -> N
 
 
 def test_what_is_ignored_iterates_over_nothing() -> None:
-    ranked = [(1, entry("${x=1,2}", "*.visualizer.x")), (1, entry("${unknown}", "experiment-label"))]
+    ranked = [(1, entry("${x=1,2}", "*.visualizer.x")), (1, entry("${unknown}", "result-dir"))]
     assert name_iterations(ranked) == (ranked, [])
 
 
@@ -131,9 +131,10 @@ def test_what_is_ignored_iterates_over_nothing() -> None:
         ),
         (
             ["${speed=1,2}", "${sped}"],
-            "there is no variable `sped`; expected `${speed}` or `${runnumber}` or `${repetition}` or"
-            " `${configname}` or `${iterationvars}`, or values such as `${sped=1, 2, 5}`;"
-            " did you mean `speed`?",
+            "there is no variable `sped`; expected one of `${speed}`, `${runnumber}`, `${repetition}`,"
+            " `${configname}`, `${iterationvars}`, `${iterationvarsf}`, `${iterationvarsd}`, `${seedset}`,"
+            " `${experiment}`, `${measurement}`, `${replication}`, `${inifile}`, `${network}`, or values such"
+            " as `${sped=1, 2, 5}`; did you mean `speed`?",
         ),
         (
             ["${x=1,2}", "${3,4,5 ! x}"],

@@ -1,7 +1,9 @@
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.runs.variables import depends_on_run, run_variables, substitute
@@ -11,14 +13,37 @@ def entry(text: str) -> Entry:
     return Entry("*.x.label", text, Source(Path("a.ini"), 7, "*.x.label", text), "General")
 
 
+def variables_of(
+    config: str = "X", number: int = 0, repetition: int = 0, iterations: Mapping[str, str] | None = None
+) -> dict[str, str]:
+    return run_variables(Path("a.ini"), "Field", config, number, repetition, iterations or {})
+
+
 def test_replaces_variables_also_in_texts() -> None:
-    variables = run_variables("ZigZag5", 7, 3, {"x": "1", "0": "2s"})
+    variables = variables_of("ZigZag5", 7, 3, {"x": "1", "0": "2s"})
     text = '"${configname} ${runnumber}#${repetition} ${x} ${0} (${iterationvars})"'
     assert substitute(entry(text), variables).text == '"ZigZag5 7#3 1 2s ($x=1, $0=2s)"'
 
 
 def test_keeps_the_place() -> None:
-    assert substitute(entry("${runnumber}"), run_variables("X", 3, 3, {})).source.line == 7
+    assert substitute(entry("${runnumber}"), variables_of(number=3)).source.line == 7
+
+
+def test_knows_the_file_and_what_paths_begin_with() -> None:
+    assert substitute(entry("${inifile}: ${network}.**"), variables_of()).text == "a.ini: Field.**"
+
+
+def test_writes_values_for_names_of_files() -> None:
+    values = {"x": "1", "0": "2s", "q": '"a b/c:d\\""', "y": "é,*"}
+    variables = variables_of(iterations=values)
+    assert variables["iterationvarsf"] == "x=1,2s,q=a_b#2fc#3ad#22,y=#c3#a9,#2a-"
+    assert variables["iterationvarsd"] == "x=1/2s/q=a_b#2fc#3ad#22/y=#c3#a9,#2a"
+    assert variables_of()["iterationvarsf"] == variables_of()["iterationvarsd"] == ""
+
+
+def test_a_variable_that_follows_from_the_value_itself_is_refused() -> None:
+    with pytest.raises(ConfigError, match=r"^a.ini:7: .*: `\$\{seedset\}` follows from this value"):
+        substitute(entry("${seedset}"), variables_of())
 
 
 @pytest.mark.parametrize(
@@ -26,6 +51,9 @@ def test_keeps_the_place() -> None:
     [
         ("5", False),
         ("${configname}", False),
+        ("${network} in ${inifile}", False),
+        ("${seedset}", True),
+        ("${experiment}", True),
         ("${runnumber}", True),
         ("${repetition}", True),
         ("${x}", True),

@@ -1,0 +1,34 @@
+"""What results of a run are found by: seed, and labels of experiment, measurement and replication.
+
+They are variables of a run, too, which the values of all other keys may name. Each may name those before it.
+"""
+
+from collections.abc import Mapping
+
+from gradysim.config.file.reader import Entry
+from gradysim.config.keys.options import OPTIONS
+from gradysim.config.runs.variables import substitute
+from gradysim.config.value.setting import read_scalar
+
+LABELS = {"experiment": "configname", "measurement": "iterationvars", "replication": "repetition"}
+"""{variable: what it is unless the option `experiment-label` and so on says otherwise}."""
+
+LABEL_OPTIONS = tuple(f"{name}-label" for name in LABELS)
+
+
+def with_labels(variables: Mapping[str, str], seed: int, options: Mapping[str, Entry]) -> dict[str, str]:
+    """The variables of one run with its seed and its labels; in `options` no variable has been replaced yet.
+
+    Raises ConfigError for a label that is no text, or that depends on itself.
+    """
+    known = {**variables, "seedset": str(seed)}
+    for (name, default), option in zip(LABELS.items(), LABEL_OPTIONS, strict=True):
+        number_sign = "#" if default == "repetition" else ""
+        entry = options.get(option)
+        known[name] = free_text(substitute(entry, known)) if entry else f"{number_sign}{known[default]}"
+    return known
+
+
+def free_text(entry: Entry) -> str:
+    """The text of an option that needs no quotes, as in OMNeT++."""
+    return str(read_scalar(entry, OPTIONS[entry.key])) if entry.text.startswith('"') else entry.text
