@@ -1,5 +1,7 @@
 // A node as its Python protocol's provider sees it.
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -14,6 +16,21 @@ namespace py = pybind11;
 using netsim::Node;
 
 namespace proxy_protocol {
+
+namespace {
+
+void observe(Node& node, py::function on_telemetry, py::function on_variable) {
+    node.observe(
+        [&node, on_telemetry = std::move(on_telemetry)](const netsim::Position& position) {
+            on_telemetry(node.now().ps(), position.x, position.y, position.z);
+        },
+        [&node, on_variable = std::move(on_variable)](std::string_view name,
+                                                      const netsim::TrackedValue& value) {
+            on_variable(node.now().ps(), name, value);
+        });
+}
+
+}  // namespace
 
 void bind_node(py::module_& module) {
     py::class_<Node>(module, "Node")
@@ -42,11 +59,13 @@ void bind_node(py::module_& module) {
                                    }
                                    return variables;
                                })
+        .def("observe", &observe, py::arg("on_telemetry"), py::arg("on_variable"))
         .def("send_communication_command", &send_communication_command, py::arg("command"))
         .def("send_mobility_command", &send_mobility_command, py::arg("command"))
         .def("schedule_timer", &schedule_timer, py::arg("timer"), py::arg("timestamp"))
         .def("cancel_timer", &cancel_timer, py::arg("timer"))
         .def("current_time", [](const Node& node) { return node.now().seconds(); })
+        .def("current_time_ps", [](const Node& node) { return node.now().ps(); })
         .def("get_id", &Node::id);
 }
 

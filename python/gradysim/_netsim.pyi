@@ -302,11 +302,23 @@ class Node:
     @property
     def tracked_variables(self) -> dict[str, bool | int | float | str]:
         """What a native protocol tracks; those of a protocol in Python are its provider's."""
+    def observe(
+        self,
+        on_telemetry: Callable[[int, float, float, float], object],
+        on_variable: Callable[[int, str, bool | int | float | str], object],
+    ) -> None:
+        """Have somebody told what the node does, from now on.
+
+        `on_telemetry(time_ps, x, y, z)`, in picoseconds and metres, is called before the protocol gets that
+        telemetry, `on_variable(time_ps, name, value)` when a native protocol sets a tracked variable.
+        """
     def send_communication_command(self, command: Any) -> None: ...
     def send_mobility_command(self, command: Any) -> None: ...
     def schedule_timer(self, timer: str, timestamp: float) -> None: ...
     def cancel_timer(self, timer: str) -> None: ...
     def current_time(self) -> float: ...
+    def current_time_ps(self) -> int:
+        """Return the simulated time, whole: float seconds do not tell all picoseconds apart."""
     def get_id(self) -> int: ...
 
 class Network:

@@ -1,5 +1,7 @@
 #include "netsim/node/node.hpp"
 
+#include <utility>
+
 #include "netsim/error.hpp"
 #include "netsim/kernel/fetch.hpp"
 #include "netsim/node/protocol_error.hpp"
@@ -35,6 +37,12 @@ void Node::call_protocol(const char* callback, Call call) {
     } catch (const SimulationError& error) {
         throw ProtocolError(error.what(), id_, callback, now());
     }
+}
+
+void Node::observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable) {
+    on_telemetry_ = std::move(on_telemetry);
+    tracked_variables_.observe(std::move(on_variable));
+    observed_ = true;
 }
 
 void Node::check_protocol() const {
@@ -126,6 +134,9 @@ void Node::timer_due(std::size_t number) {
 }
 
 void Node::report_position() {
+    if (observed_) {
+        on_telemetry_(position());
+    }
     call_protocol("handle_telemetry", [this](Protocol& protocol) { protocol.handle_telemetry(position()); });
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -45,6 +46,10 @@ public:
     void set_protocol(std::unique_ptr<Protocol> protocol) { protocol_ = std::move(protocol); }
     Protocol* protocol() { return protocol_.get(); }
     const std::vector<std::unique_ptr<NetworkInterface>>& interfaces() const { return interfaces_; }
+
+    // Has somebody told of each telemetry, before the protocol is, and of what a native protocol tracks.
+    using OnTelemetry = std::function<void(const Position& position)>;
+    void observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable);
 
     // Life cycle, driven by the Network. A SimulationError of the protocol comes out as a ProtocolError.
     void check_protocol() const;
@@ -97,6 +102,7 @@ private:
     Fingerprint& fingerprint_;
     PayloadHash& payload_hash_;
     NodeId id_;
+    bool observed_ = false;  // here, where it is at hand: most nodes are not
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Protocol> protocol_;
     std::unique_ptr<Mobility> mobility_;
@@ -107,6 +113,7 @@ private:
     Attitude attitude_;
     RandomStream random_;
     TrackedVariables tracked_variables_;
+    OnTelemetry on_telemetry_;
 };
 
 }  // namespace netsim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,8 +16,15 @@ using TrackedValue = std::variant<bool, std::int64_t, double, std::string>;
 
 class TrackedVariables {
 public:
+    // Told of each value that is set, also if the variable has it already.
+    using OnSet = std::function<void(std::string_view name, const TrackedValue& value)>;
+
+    void observe(OnSet on_set) { on_set_ = std::move(on_set); }
     // A new variable comes after those that are there; there are few of them.
     void set(std::string_view name, TrackedValue value) {
+        if (on_set_) {
+            on_set_(name, value);
+        }
         for (auto& [known, old] : values_) {
             if (known == name) {
                 old = std::move(value);
@@ -29,6 +37,7 @@ public:
 
 private:
     std::vector<std::pair<std::string, TrackedValue>> values_;
+    OnSet on_set_;
 };
 
 }  // namespace netsim

@@ -1,7 +1,10 @@
 #include "netsim/node/node.hpp"
 
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -203,6 +206,30 @@ TEST_F(NodeTest, GoesWhereItIsSent) {
     first->node.go_to({0, 100, 0});
     run(10);
     EXPECT_NEAR(first->node.position().y, 20, 1e-9);
+}
+
+TEST(NodeObserved, IsToldOfBeforeItsProtocolIs) {
+    Network network{MediumConfig(), 1};
+    NodeConfig config("observed");
+    config.initial_position = {1, 2, 3};
+    config.mobility.telemetry_interval_s = 0.5;
+    Recorder& recorder = test::add_recorder(network, config);
+    std::vector<std::string> order;
+    recorder.node.observe(
+        [&](const Position& position) {
+            EXPECT_EQ(position, (Position{1, 2, 3}));
+            order.push_back("position at " + std::to_string(recorder.node.now().ps()));
+        },
+        [&](std::string_view name, const TrackedValue& value) {
+            order.push_back(std::string(name) + " = " + std::to_string(std::get<std::int64_t>(value)));
+        });
+    recorder.on_telemetry = [](Recorder& self) {
+        self.node.tracked_variables().set("telemetries", static_cast<std::int64_t>(self.telemetry.size()));
+    };
+    network.initialize();
+    network.run_until(s(1));
+    EXPECT_EQ(order, (std::vector<std::string>{"position at 500000000000", "telemetries = 1",
+                                               "position at 1000000000000", "telemetries = 2"}));
 }
 
 }  // namespace
