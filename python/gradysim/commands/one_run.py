@@ -2,8 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, TextIO
 
 from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK
@@ -35,21 +34,29 @@ def run_one(
     return carry_out(build_it, scenario, interrupt.should_stop, console)
 
 
-def report(outcome: "Outcome", output: TextIO, result_dir: Path | None, *, as_json: bool, quiet: bool) -> int:
+def report(
+    outcome: "Outcome",
+    output: TextIO,
+    write: "Callable[[RunResult], Iterable[str]]",
+    *,
+    as_json: bool,
+    quiet: bool,
+) -> int:
     """Show and write what came out of a run, and return the exit code; show only JSON if it is to be `quiet`.
+
+    `write` makes the files of a result, and gives a line about each.
 
     Why it failed comes last, where somebody looks whose screen the tables fill.
     """
     from gradysim.report.failure import print_failure
-    from gradysim.results.run_file import write_run_file
 
     try:
         if outcome.result is not None:
             if as_json or not quiet:
                 show(outcome.result, output, as_json=as_json)
-            written = None if result_dir is None else write_run_file(outcome.result, result_dir)
-            if written is not None and not quiet:
-                print(f"written to {written}")
+            for line in write(outcome.result):
+                if not quiet:
+                    print(line)
             output.flush()
     finally:  # also if the output takes no more
         if outcome.failure is not None:

@@ -2,42 +2,36 @@
 
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.commands.arguments import Mode
-from gradysim.commands.simulators import captures, files_written, ids_of_fates
+from gradysim.commands.asked import Asked
+from gradysim.commands.simulators import ids_of_fates
+from gradysim.commands.written_files import are_there
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
 
 
-def left_to_do(
-    scenarios: "Sequence[Scenario]",
-    mode: Mode,
-    result_dir: Path | None,
-    fates_at: Sequence[str],
-    pcap: Sequence[str],
-) -> "list[Scenario]":
-    """Return the runs that lack a result or a capture, and say which do not, and whose result is outdated.
+def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "list[Scenario]":
+    """Return the runs that lack a file that is asked for, and say which do not, and which are outdated.
 
-    Raises ConfigError without a folder, and for names in `fates_at` and `pcap` that are none of nodes.
+    Raises ConfigError without a folder, and for names of nodes that are none.
     """
     from gradysim.config.errors.config_error import ConfigError
     from gradysim.config.runs.file_hashes import text_of_files
     from gradysim.config.runs.run_numbers import text_of_runs
     from gradysim.results.run_file import files_changed_since
 
+    result_dir = asked.result_dir
     if result_dir is None:
         raise ConfigError("--resume: there is no folder to look into; expected --result-dir DIR, too")
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
     for scenario in scenarios:
-        captured = all(
-            file.is_file() for file in files_written(scenario, captures(scenario, pcap, result_dir))
-        )
-        changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, fates_at))
-        if changed == () and captured:
+        complete = are_there(scenario, mode, asked)
+        changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, asked))
+        if changed == () and complete:
             done.append(scenario.run_number)
             continue
         left.append(scenario)

@@ -2,9 +2,11 @@
 
 import contextlib
 import sys
+from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
 from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
+from gradysim.commands.asked import Asked
 from gradysim.commands.exit_code import OK, say_mistake
 from gradysim.commands.one_run import report, run_one
 from gradysim.commands.result_dir import check_may_be_written_to, make_result_dir
@@ -19,11 +21,13 @@ from gradysim.commands.run_options import (
     ResultDirOption,
     ResumeOption,
     RunsOption,
+    ScalarsOption,
     SeedOption,
+    VectorsOption,
 )
 from gradysim.commands.scenarios import load
 from gradysim.commands.several_runs import one_after_the_other, several_at_once
-from gradysim.commands.simulators import captures, files_written, simulator
+from gradysim.commands.simulators import simulator
 from gradysim.commands.warnings import (
     warn_of_bands_beside_frequencies,
     warn_of_doubtful_times,
@@ -32,6 +36,7 @@ from gradysim.commands.warnings import (
     warn_of_shadowed_lines,
     warn_of_what_is_seldom_meant,
 )
+from gradysim.commands.written_files import write_files
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
@@ -50,6 +55,8 @@ def run(
     result_dir: ResultDirOption = None,
     resume: ResumeOption = False,
     jobs: JobsOption = 1,
+    scalars: ScalarsOption = False,
+    vectors: VectorsOption = (),
     pcap: PcapOption = (),
     fates_at: FatesAtOption = (),
     as_json: JsonOption = False,
@@ -60,23 +67,24 @@ def run(
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report.waiting import waiting
 
+    asked = Asked(result_dir, pcap, fates_at, scalars, vectors)
     output = sys.stdout
     bar = not quiet and not as_json
     # What protocols print, also when they are imported, must not get between the JSON objects.
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
         try:
-            if result_dir is not None:
-                make_result_dir(result_dir)
+            if asked.writes_files:
+                make_result_dir(asked.directory)
             with waiting(f"reading {file}", shown=bar):
                 scenarios = load(file, config, runs, settings, seed)
-            check, build = simulator(mode, pcap, fates_at, result_dir)
+            check, build = simulator(mode, asked)
             warn_of_equal_seeds(scenarios)
             if resume:
-                scenarios = left_to_do(scenarios, mode, result_dir, fates_at, pcap)
+                scenarios = left_to_do(scenarios, mode, asked)
                 if not scenarios:
                     return OK
-            if result_dir is not None:
-                check_may_be_written_to(result_dir)
+            if asked.writes_files:
+                check_may_be_written_to(asked.directory)
             warn_of_shadowed_lines(scenarios[0])
             warn_of_bands_beside_frequencies(scenarios)
             warn_of_doubtful_times(scenarios)
@@ -89,11 +97,8 @@ def run(
 
             def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
                 outcome = run_one(build, scenario, interrupt, bar=bar and jobs == 1)
-                code = report(outcome, output, result_dir, as_json=as_json, quiet=quiet)
-                if pcap and outcome.result is not None and not quiet:
-                    for capture in files_written(scenario, captures(scenario, pcap, result_dir)):
-                        print(f"captured in {capture}")
-                return code
+                write = partial(write_files, scenario, asked=asked)
+                return report(outcome, output, write, as_json=as_json, quiet=quiet)
 
             if jobs == 1:
                 return one_after_the_other(scenarios, carry_out, output)

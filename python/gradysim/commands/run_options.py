@@ -49,12 +49,28 @@ ResumeOption = Annotated[
     bool,
     _flag(
         "Leave out runs whose file in --result-dir is complete and of the same settings, seed and"
-        " files (protocols, obstacles), with what --pcap and --fates-at ask for."
+        " files (protocols, obstacles), with what --scalars, --vectors, --pcap and --fates-at ask for."
     ),
 ]
 
 JobsOption = Annotated[
     WholeNumber, Parameter(alias="-j", help="How many runs at once, each in a process of its own.")
+]
+
+ScalarsOption = Annotated[
+    bool,
+    _flag(
+        "Write the numbers of each run to DIR/CONFIG-#RUN.MODE.sca for OMNeT++'s analysis tools,"
+        " DIR as in --result-dir (default: results)."
+    ),
+]
+
+VectorsOption = Annotated[
+    tuple[str, ...],
+    _of_nodes(
+        "write what tracked variables and positions of these nodes were over time to"
+        " DIR/CONFIG-#RUN.MODE.vec, DIR as above."
+    ),
 ]
 
 PcapOption = Annotated[

@@ -10,7 +10,7 @@ from gradysim.config.node_names import nodes_named
 from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
-from gradysim.integrated.node_ids import checked_ids
+from gradysim.results.node_ids import checked_ids
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from gradysim.integrated.node_ids import checked_ids
+from gradysim.results.node_ids import checked_ids
 from gradysim.results.run_result import NodeResult
 
 if TYPE_CHECKING:

@@ -28,8 +28,10 @@ from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
 from gradysim.integrated.real_time import RealTimeRun
+from gradysim.integrated.recorded_nodes import record_node, record_protocol
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.protocol.interface import IProtocol
+from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
 from gradysim.results.run_file import run_name
 from gradysim.results.run_result import RunResult
@@ -50,6 +52,7 @@ class IntegratedRun:
         captures: Mapping[int, str | Path] | None = None,
         *,
         fates_at: Iterable[int] = (),
+        vectors_of: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
     ) -> None:
@@ -66,14 +69,17 @@ class IntegratedRun:
         `fates_at` are the ids of the nodes whose results tell what became of frames there and who interfered:
         `NodeResult.frame_fates` and `interferers`. The run itself is the same, and as fast.
 
+        `vectors_of` are the ids of the nodes whose results have a row for each assignment of a tracked
+        variable that is a number, and for each telemetry: `NodeResult.vectors`.
+
         `real_time` lets simulated time go by as on the wall clock (True), or so many times as fast; False or
         0 is full speed. For viewers: events are up to 10 ms of wall time late.
 
         Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
         accept a value of the scenario or cannot write a capture file, SitlError when an autopilot does not
-        start, ValueError or TypeError when `scenario` is none, `fates_at` or `captures` names what is no
-        node, two interfaces would write one file, a handler cannot work in this mode or `real_time` is no
-        factor, and what the constructor of a protocol raises.
+        start, ValueError or TypeError when `scenario` is none, `fates_at`, `vectors_of` or `captures`
+        names what is no node, two interfaces would write one file, a handler cannot work in this mode or
+        `real_time` is no factor, and what the constructor of a protocol raises.
         """
         require_scenario(scenario)
         self._started = (perf_counter(), process_time())
@@ -82,6 +88,7 @@ class IntegratedRun:
         self._complete = False
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
+        self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         files = checked_captures(captures or {}, scenario)
         random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
@@ -97,6 +104,8 @@ class IntegratedRun:
     def _make_protocols(self) -> None:
         scenario = self._scenario
         name = run_name(scenario, "integrated")
+        for node_id, recorder in self._recorders.items():
+            record_node(self._nodes[node_id], recorder)
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
             if is_native(spec):
                 view = NativeView(node, spec)
@@ -112,6 +121,8 @@ class IntegratedRun:
                 steer=self._flown.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
+            if node.id in self._recorders:
+                record_protocol(encapsulator, node, self._recorders[node.id])
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
             self._handlers.register_node(node, encapsulator, scenario.seed)
@@ -194,6 +205,7 @@ class IntegratedRun:
                 for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
             ),
             [network.frames_by_bitrate(node.id) for node in self._nodes],
+            self._recorders,
         )
         return RunResult(
             config=scenario.config,
@@ -222,12 +234,18 @@ def run(
     should_stop: Callable[[], bool] | None = None,
     captures: Mapping[int, str | Path] | None = None,
     fates_at: Iterable[int] = (),
+    vectors_of: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
     integrated_run = IntegratedRun(
-        scenario, captures, fates_at=fates_at, handlers=handlers, real_time=real_time
+        scenario,
+        captures,
+        fates_at=fates_at,
+        vectors_of=vectors_of,
+        handlers=handlers,
+        real_time=real_time,
     )
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

@@ -24,6 +24,11 @@ def plain_value(value: object, *, nan: str | None = None) -> object:
     return _plain(value, nan, ())
 
 
+def key_text(key: object) -> str:
+    """Return the name of a tracked variable, which may be any object, as a text. Never raises."""
+    return str.__str__(key) if isinstance(key, str) else _representation(key)
+
+
 def _plain(value: Any, nan: str | None, containers: tuple[int, ...]) -> object:
     try:
         return _converted(value, nan, containers)
@@ -49,7 +54,7 @@ def _converted(value: Any, nan: str | None, containers: tuple[int, ...]) -> obje
         return _representation(value)
     inside = (*containers, id(value))
     if isinstance(value, Mapping):
-        return {_key(key): _plain(item, nan, inside) for key, item in value.items()}
+        return {key_text(key): _plain(item, nan, inside) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(item, nan, inside) for item in value]
     return _representation(value)
@@ -61,10 +66,6 @@ def _integer(number: int) -> int | str:
     except ValueError:  # more digits than sys.get_int_max_str_digits()
         return hex(number)
     return number
-
-
-def _key(key: object) -> str:
-    return str.__str__(key) if isinstance(key, str) else _representation(key)
 
 
 def _representation(value: object) -> str:

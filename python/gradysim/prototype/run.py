@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
 from gradysim.config.scenario import Scenario, require_scenario
+from gradysim.prototype.recorded_nodes import record_nodes
 from gradysim.prototype.simulation import build_simulation
+from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
@@ -23,18 +25,23 @@ class PrototypeRun:
         self,
         scenario: Scenario,
         *,
+        vectors_of: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
     ) -> None:
         """Build the simulation and the protocols.
+
+        `vectors_of` are the ids of the nodes whose results have a row for each assignment of a tracked
+        variable that is a number, and for each telemetry: `NodeResult.vectors`.
 
         `handlers` are added to those of communication, timers and mobility: assertions, a viewer, one's own.
         `real_time` lets simulated time go by as on the wall clock (True), or so many times as fast; False or
         0 is full speed.
 
         Raises ConfigError when the simulator does not accept a value of the scenario, ValueError or TypeError
-        when `scenario` is none, one of the handlers cannot be added or `real_time` is no factor, what the
-        constructor of a protocol raises, and SitlError when an autopilot does not start.
+        when `scenario` is none, `vectors_of` names what is no node, one of the handlers cannot be added or
+        `real_time` is no factor, what the constructor of a protocol raises, and SitlError when an autopilot
+        does not start.
         """
         require_scenario(scenario)
         self._started = (perf_counter(), process_time())
@@ -42,7 +49,9 @@ class PrototypeRun:
         self._scenario = scenario
         self._complete = False
         random.seed(scenario.seed)
+        self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         self._simulator, self._ledger = build_simulation(scenario, handlers, real_time)
+        record_nodes(self._simulator, self._recorders)
 
     def execute(
         self,
@@ -101,6 +110,7 @@ class PrototypeRun:
                     (node.position, node.protocol_encapsulator.provider.tracked_variables)
                     for node in simulator.nodes
                 ),
+                recorders=self._recorders,
             ),
         )
 
@@ -110,10 +120,11 @@ def run(
     *,
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
+    vectors_of: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
 ) -> RunResult:
     """Run `scenario` on the plain simulator and return its result; see `PrototypeRun` for the details."""
-    prototype_run = PrototypeRun(scenario, handlers=handlers, real_time=real_time)
+    prototype_run = PrototypeRun(scenario, vectors_of=vectors_of, handlers=handlers, real_time=real_time)
     prototype_run.execute(progress, should_stop)
     return prototype_run.result()

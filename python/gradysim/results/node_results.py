@@ -5,6 +5,7 @@ from itertools import repeat
 
 from gradysim.config.scenario import Scenario
 from gradysim.protocol.position import Position
+from gradysim.results.node_recorder import NodeRecorder
 from gradysim.results.run_result import NodeResult
 
 
@@ -12,6 +13,7 @@ def node_results(
     scenario: Scenario,
     ends: Iterable[tuple[Position, Mapping[str, object]]],
     frames_by_bitrate: Iterable[Mapping[int, int]] | None = None,
+    recorders: Mapping[int, NodeRecorder] | None = None,
 ) -> tuple[NodeResult, ...]:
     """Return the results in the order of the ids.
 
@@ -19,7 +21,9 @@ def node_results(
         scenario: What was run.
         ends: For each node, in the same order, its position (m) and the variables that it tracked.
         frames_by_bitrate: For each node, in the same order; None for a mode that has no bitrates.
+        recorders: What recorded some of the nodes, by their ids.
     """
+    recorded = recorders or {}
     rates = repeat({}, len(scenario.nodes)) if frames_by_bitrate is None else frames_by_bitrate
     return tuple(
         NodeResult(
@@ -29,6 +33,7 @@ def node_results(
             position=position,
             tracked_variables=dict(tracked),
             frames_by_bitrate=frames,
+            vectors=recorded[spec.id].vectors() if spec.id in recorded else None,
         )
         for spec, (position, tracked), frames in zip(scenario.nodes, ends, rates, strict=True)
     )

@@ -10,9 +10,9 @@ from gradysim.config.scenario import Scenario
 from gradysim.results.run_result import Mode, RunResult, plain_iterations
 
 
-def run_file(directory: Path, config: str, run: int, mode: Mode) -> Path:
-    """Return the file for one run."""
-    return directory / f"{_stem(config, run, mode)}.json"
+def run_file(directory: Path, config: str, run: int, mode: Mode, suffix: str = ".json") -> Path:
+    """Return the file for one run; `.sca` and `.vec` are those of its scalars and its vectors."""
+    return directory / f"{_stem(config, run, mode)}{suffix}"
 
 
 def run_name(scenario: Scenario, mode: Mode) -> str:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from gradysim.protocol.plain_value import plain_value
+from gradysim.results.vector import Vector
 
 Mode = Literal["integrated", "prototype"]
 Fates = Mapping[str, Mapping[str, Mapping[str, int]]]
@@ -44,9 +45,11 @@ class NodeResult:
     others}, in the order of ids; None as above. Of those on the air when the interference was at its
     strongest, the strongest are named, as many as outweigh all the others together; a copy counts once
     for each of them."""
+    vectors: tuple[Vector, ...] | None = None
+    """What its numbers were over time; None unless the run was asked for it (`vectors_of`). Not in JSON."""
 
     def to_json_object(self) -> dict[str, object]:
-        """Return the fields as plain values; see `plain_value` for tracked variables of other kinds.
+        """Return the fields but `vectors` as plain values; see `plain_value` for those of other kinds.
 
         `frames_by_bitrate` is left out where it is empty; its keys are texts then. `frame_fates` and
         `interferers` are left out where they are None.

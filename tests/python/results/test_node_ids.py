@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.integrated.node_ids import checked_ids
+from gradysim.results.node_ids import checked_ids
 
 
 def test_ids_of_numpy_are_ids():

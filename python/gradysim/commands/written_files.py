@@ -1,0 +1,73 @@
+"""The files that a run of `gradysim run` leaves behind."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gradysim.commands.arguments import Mode
+from gradysim.commands.asked import Asked
+from gradysim.commands.simulators import capture_files_of, nodes_of_vectors
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+    from gradysim.results.run_result import RunResult
+
+
+def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
+    """Write what was asked for of a run, and give a line about each file.
+
+    Captures are there already: radios write them. Raises OSError, with the name of the file.
+    """
+    from gradysim.results.run_file import write_run_file
+
+    if asked.result_dir is not None:
+        yield f"written to {write_run_file(result, asked.result_dir)}"
+    if asked.scalars or asked.vectors:
+        yield from _write_for_omnetpp(scenario, result, asked)
+    for capture in capture_files_of(scenario, asked):
+        yield f"captured in {capture}"
+
+
+def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
+    from gradysim.results.run_identity import identity_of
+    from gradysim.results.scalar_file import write_scalar_file
+    from gradysim.results.scalars import scalars
+    from gradysim.results.vector_file import vectors_of, write_vector_file
+
+    identity = identity_of(result, scenario, asked.directory)
+    if asked.scalars:
+        path = omnetpp_file(scenario, result.mode, asked, ".sca")
+        write_scalar_file(scalars(result, scenario.network), identity, path)
+        yield f"scalars in {path}"
+    if asked.vectors:
+        path = omnetpp_file(scenario, result.mode, asked, ".vec")
+        write_vector_file(vectors_of(result, scenario.network), identity, path)
+        yield f"vectors in {path}"
+
+
+def omnetpp_file(scenario: "Scenario", mode: Mode, asked: Asked, suffix: str) -> Path:
+    """Return the file of a run's scalars, `.sca`, or vectors, `.vec`."""
+    from gradysim.results.run_file import run_file
+
+    return run_file(asked.directory, scenario.config, scenario.run_number, mode, suffix)
+
+
+def are_there(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
+    """Whether the run left all that is asked for beside its result, none of it older than that."""
+    from gradysim.results.read_files import recorded_modules
+    from gradysim.results.run_file import run_file
+
+    if not all(file.is_file() for file in capture_files_of(scenario, asked)):
+        return False
+    suffixes = [*([".sca"] if asked.scalars else []), *([".vec"] if asked.vectors else [])]
+    files = [omnetpp_file(scenario, mode, asked, suffix) for suffix in suffixes]
+    result = run_file(asked.directory, scenario.config, scenario.run_number, mode)
+    try:
+        if any(file.stat().st_mtime_ns < result.stat().st_mtime_ns for file in files):
+            return False
+    except OSError:
+        return False
+    nodes = nodes_of_vectors(scenario, asked)
+    return not nodes or recorded_modules(files[-1]).issuperset(
+        f"{scenario.network}.{node.name}.mobility" for node in nodes
+    )

@@ -1,0 +1,16 @@
+"""Which Python values are numbers, for results that hold nothing else."""
+
+from numbers import Real
+
+
+def as_float(value: object) -> float | None:
+    """Return a number, a bool included, as a float; None for what is none, or too large for a float.
+
+    Numbers of numpy are numbers, too, and arrays of it that hold a single one. Never raises.
+    """
+    try:
+        if type(value).__module__ == "numpy" and hasattr(value, "item"):
+            value = value.item()
+        return float(value) if isinstance(value, Real) else None
+    except Exception:  # too large, or a user's class that does not work
+        return None

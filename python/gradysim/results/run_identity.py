@@ -1,0 +1,50 @@
+"""What tells a run from all others, in the words of OMNeT++'s result files."""
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from pathlib import Path
+
+from gradysim.config.runs.iterations import PREDEFINED
+from gradysim.config.scenario import Scenario
+from gradysim.results.run_result import RunResult
+
+
+@dataclass(frozen=True)
+class RunIdentity:
+    """The same in all files of one run: readers take them for one run by it.
+
+    Attributes:
+        name: No other run has it.
+        attributes: Run attributes by name.
+        iterations: The value of each iteration variable that has a name, as the .ini file writes it.
+        settings: The lines of the .ini file that this run consists of, overrides first.
+    """
+
+    name: str
+    attributes: Mapping[str, str]
+    iterations: Mapping[str, str]
+    settings: tuple[tuple[str, str], ...]
+
+
+def identity_of(result: RunResult, scenario: Scenario, directory: Path) -> RunIdentity:
+    """Return the identity of a run that has just ended, whose results go to `directory`."""
+    began = datetime.now() - timedelta(seconds=result.wall_s)
+    known = scenario.variables
+    attributes = {
+        **{name: known[name] for name in PREDEFINED if name in known},
+        "datetime": f"{began:%Y%m%d-%H:%M:%S}",
+        "datetimef": f"{began:%Y%m%d-%H%M%S}",
+        "processid": str(os.getpid()),
+        "resultdir": str(directory),
+        "seedset": str(result.seed),
+        "mode": result.mode,
+        "interrupted": str(result.interrupted).lower(),
+    }
+    return RunIdentity(
+        name=f"{result.config}-{result.run}-{attributes['datetime']}-{attributes['processid']}",
+        attributes=dict(sorted(attributes.items())),
+        iterations={name: text for name, text in sorted(result.iterations.items()) if not name.isdigit()},
+        settings=tuple((entry.key, entry.text) for entry in scenario.entries),
+    )

@@ -1,0 +1,29 @@
+"""What one number of a node was over time."""
+
+from array import array
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Times: TypeAlias = "array[int]"
+"""Of 64 bits each, in picoseconds of simulated time."""
+
+Values: TypeAlias = "array[float]"
+
+
+@dataclass(frozen=True)
+class Vector:
+    """One number over time: a variable that a protocol tracks, or a coordinate. A row for each assignment.
+
+    The arrays go to numpy without a copy (`numpy.asarray(vector.values)`), and still grow if the run does.
+    """
+
+    part: str
+    """The part of the node that it is about: "protocol" or "mobility"."""
+    name: str
+    """What the protocol calls the variable; `positionX`, `positionY` and `positionZ` of the trajectory."""
+    times_ps: Times
+    """Picoseconds of simulated time, none before the one ahead of it."""
+    values: Values
+    """NaN where the variable became something else than a number, or was removed."""
+    unit: str = ""
+    """Of the values; "" for what has none, or none that is known."""

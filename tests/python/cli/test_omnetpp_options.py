@@ -1,0 +1,175 @@
+"""`gradysim run --scalars` and `--vectors`: which files are written, what is in them, and what is refused."""
+
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from gradysim.results import read_scalars, read_vectors
+from python.cli.command import both_modes, compiled, environment, objects
+
+PROTOTYPE = ("run", "test.ini", "--mode", "prototype")
+
+
+def names_in(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+@both_modes
+def test_files_of_each_run(gradysim, folder, mode):
+    done = gradysim("run", "test.ini", "--mode", mode, "-r", "0,2", "--scalars", "--vectors", "uavs[1]")
+    assert (done.returncode, done.stderr) == (0, "")
+    names = [f"General-#{run}.{mode}{suffix}" for run in (0, 2) for suffix in (".sca", ".vec")]
+    assert names_in(folder / "results") == names
+    told = [line for line in done.stdout.splitlines() if line.startswith(("scalars", "vectors"))]
+    assert told == [f"{'scalars' if name.endswith('a') else 'vectors'} in results/{name}" for name in names]
+
+
+@both_modes
+def test_both_are_of_one_run(gradysim, folder, mode):
+    arguments = ("-r", "1", "--scalars", "--vectors", "all", "--result-dir", "out", "--quiet")
+    gradysim("run", "test.ini", "--mode", mode, *arguments, "--set", "network = field.Field")
+    scalars = read_scalars(folder / "out" / f"General-#1.{mode}.sca")
+    vectors = read_vectors(folder / "out" / f"General-#1.{mode}.vec")
+    assert len({row["runID"] for row in (*scalars, *vectors)}) == 1
+    said = [(row["module"], row["value"]) for row in scalars if row["name"] == "said:last"]
+    assert said == [("Field.uavs[0].protocol", 10.0), ("Field.uavs[1].protocol", 10.0)]
+    counted = {row["module"]: row for row in vectors if row["name"] == "said:vector"}
+    assert list(counted) == ["Field.uavs[0].protocol", "Field.uavs[1].protocol"]
+    assert list(counted["Field.uavs[1].protocol"]["vecvalue"]) == list(range(11))
+    assert list(counted["Field.uavs[1].protocol"]["vectime"])[:3] == [0, 1.01, 2.01]
+    assert {(row["runnumber"], row["repetition"], row["mode"]) for row in vectors} == {("1", "1", mode)}
+
+
+def test_scalars_do_without_vectors_and_vectors_without_scalars(gradysim, folder):
+    gradysim(*PROTOTYPE, "-r", "0", "--scalars", "--quiet")
+    gradysim(*PROTOTYPE, "-r", "1", "--vectors", "uavs", "--quiet")
+    assert names_in(folder / "results") == ["General-#0.prototype.sca", "General-#1.prototype.vec"]
+
+
+@compiled
+def test_fates_at_nodes_are_scalars(gradysim, folder):
+    gradysim("run", "test.ini", "-r", "0", "--scalars", "--fates-at", "uavs[0]", "--quiet")
+    rows = read_scalars(folder / "results/General-#0.integrated.sca")
+    told = {row["name"]: row["value"] for row in rows if row["module"] == "Network.uavs[0]"}
+    assert told == {"broadcast:delivered:count": 10}
+
+
+def test_several_jobs(gradysim, folder):
+    done = gradysim(*PROTOTYPE, "-j", "2", "--scalars", "--vectors", "all")
+    assert done.returncode == 0
+    files = sorted((folder / "results").glob("*.vec"))
+    assert {row["runnumber"] for row in read_vectors(files)} == {"0", "1", "2"}
+    assert done.stdout.count("vectors in results/General-#") == 3
+
+
+def test_json_stays_json(gradysim):
+    done = gradysim(*PROTOTYPE, "-r", "0", "--scalars", "--vectors", "all", "--json")
+    (run,) = objects(done.stdout)
+    assert "vectors" not in run["nodes"][0]
+    assert "scalars in" in done.stderr
+    assert "vectors in" in done.stderr
+
+
+def test_quiet_says_nothing(gradysim):
+    done = gradysim(*PROTOTYPE, "-r", "0", "--scalars", "--vectors", "all", "--quiet")
+    assert (done.stdout, done.stderr) == ("printed by a protocol\n" * 2, "")
+
+
+def test_resumed_runs_are_repeated_for_files_that_are_missing(gradysim, folder):
+    arguments = (*PROTOTYPE, "--result-dir", "out", "--resume", "--json", "--scalars", "--vectors", "uavs[0]")
+    assert len(objects(gradysim(*arguments).stdout)) == 3
+    assert len(objects(gradysim(*arguments).stdout)) == 0
+    (folder / "out/General-#1.prototype.sca").unlink()
+    assert [run["run"] for run in objects(gradysim(*arguments).stdout)] == [1]
+    (folder / "out/General-#2.prototype.vec").unlink()
+    assert [run["run"] for run in objects(gradysim(*arguments).stdout)] == [2]
+
+
+def test_resumed_runs_are_repeated_for_nodes_without_vectors(gradysim):
+    arguments = (*PROTOTYPE, "--result-dir", "out", "--resume", "--json", "--vectors")
+    assert len(objects(gradysim(*arguments, "uavs[0]").stdout)) == 3
+    assert len(objects(gradysim(*arguments, "uavs").stdout)) == 3
+    assert len(objects(gradysim(*arguments, "uavs[0]").stdout)) == 0
+
+
+def test_resumed_runs_are_repeated_for_files_of_an_earlier_run(gradysim):
+    arguments = (*PROTOTYPE, "--result-dir", "out", "--json", "-r", "0")
+    gradysim(*arguments, "--scalars")
+    other = ("--set", "sim-time-limit=2s")
+    gradysim(*arguments, *other)
+    assert len(objects(gradysim(*arguments, *other, "--scalars", "--resume").stdout)) == 1
+
+
+@both_modes
+def test_an_interrupted_run_keeps_what_was_computed(folder, mode):
+    arguments = ("-c", "Endless", "--mode", mode, "--scalars", "--vectors", "all", "--quiet")
+    with subprocess.Popen(
+        [sys.executable, "-m", "gradysim", "run", "test.ini", *arguments],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        while "ready" not in (line := process.stderr.readline()):
+            assert line, "it ended before it was ready"
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+    assert process.returncode == 130
+    rows = read_scalars(folder / f"results/Endless-#0.{mode}.sca")
+    assert {row["interrupted"] for row in rows} == {"true"}
+    vectors = read_vectors(folder / f"results/Endless-#0.{mode}.vec")
+    assert {"said:vector", "positionX:vector"} <= {row["name"] for row in vectors}
+
+
+@both_modes
+def test_a_failing_run_keeps_what_was_computed(gradysim, folder, mode):
+    done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode, "--scalars", "--vectors", "all")
+    assert done.returncode == 1
+    rows = read_vectors(folder / f"results/Failing-#0.{mode}.vec")
+    assert [list(row["vecvalue"]) for row in rows if row["name"] == "said:vector"] == [[0, 1], [0]]
+
+
+@both_modes
+def test_a_run_without_numbers(gradysim, folder, mode):
+    (folder / "protocol.py").write_text(
+        (folder / "protocol.py")
+        .read_text()
+        .replace('["said"] = 0', '["said"] = ""')
+        .replace("+= 1", '+= "x"')
+    )
+    gradysim("run", "test.ini", "--mode", mode, "-r", "0", "--scalars", "--vectors", "all", "--quiet")
+    scalars = read_scalars(folder / f"results/General-#0.{mode}.sca")
+    assert {row["name"] for row in scalars if "uavs" in row["module"]} == {
+        f"position{axis}:last" for axis in "XYZ"
+    }
+    vectors = read_vectors(folder / f"results/General-#0.{mode}.vec")
+    assert [(row["name"], len(row["vecvalue"])) for row in vectors] == [
+        (f"position{axis}:vector", 0) for axis in "XYZXYZ"
+    ]
+
+
+@both_modes
+def test_a_wrong_node(gradysim, mode):
+    done = gradysim("run", "test.ini", "--mode", mode, "--vectors", "uavs[7]")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("--vectors uavs[7]: no such node in run 0; expected a node such as")
+    assert "did you mean `uavs[" in done.stderr
+
+
+@pytest.mark.parametrize("option", [("--scalars",), ("--vectors", "all")])
+def test_a_folder_that_cannot_be_made(gradysim, folder, option):
+    (folder / "results").write_text("")
+    done = gradysim(*PROTOTYPE, *option)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "--result-dir results: it is no folder; expected a folder, or a new name\n"
+
+
+def test_a_file_that_cannot_be_written(gradysim, folder):
+    (folder / "out/General-#0.prototype.sca").mkdir(parents=True)
+    done = gradysim(*PROTOTYPE, "-r", "0", "--scalars", "--result-dir", "out", "--quiet")
+    assert done.returncode == 2
+    assert "out/General-#0.prototype.sca" in done.stderr
+    assert names_in(folder / "out") == ["General-#0.prototype.json", "General-#0.prototype.sca"]

@@ -1,0 +1,68 @@
+from gradysim.prototype.run import PrototypeRun, run
+
+COUNTER = """
+class Tested(Quiet):
+    def initialize(self):
+        self.provider.tracked_variables["count"] = 0
+        self.provider.schedule_timer("tick", 0.07)
+    def handle_timer(self, timer):
+        self.provider.tracked_variables["count"] += 1
+        self.provider.schedule_timer("tick", self.provider.current_time() + 0.7)
+    def finish(self):
+        self.provider.tracked_variables = {"finished": True}
+"""
+
+FLYING = """
+class Tested(Quiet):
+    def initialize(self):
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))
+"""
+
+
+def vectors_of(result, node=0):
+    return {vector.name: vector for vector in result.nodes[node].vectors}
+
+
+def test_a_run_records_nothing_unasked(make_scenario):
+    assert [node.vectors for node in run(make_scenario()).nodes] == [None, None]
+
+
+def test_it_records_the_nodes_that_it_is_asked_for(make_scenario):
+    nodes = run(make_scenario(), vectors_of=[1]).nodes
+    assert [node.vectors is not None for node in nodes] == [False, True]
+
+
+def test_each_assignment_with_its_time(make_scenario):
+    count = vectors_of(run(make_scenario(COUNTER), vectors_of=[0]))["count"]
+    assert list(count.times_ps)[:4] == [0, 70_000_000_000, 770_000_000_000, 1_470_000_000_000]
+    assert list(count.values)[:4] == [0, 1, 2, 3]
+
+
+def test_another_dictionary_ends_what_was_tracked(make_scenario):
+    vectors = vectors_of(run(make_scenario(COUNTER), vectors_of=[0]))
+    assert str(vectors["count"].values[-1]) == "nan"
+    assert (list(vectors["finished"].times_ps), list(vectors["finished"].values)) == (
+        [2_050_000_000_000],
+        [1],
+    )
+
+
+def test_the_place_at_each_telemetry(make_scenario):
+    vectors = vectors_of(run(make_scenario(FLYING), vectors_of=[0]))
+    assert list(vectors["positionZ"].times_ps) == [500_000_000_000 * number for number in (1, 2, 3, 4)]
+    assert [round(height, 6) for height in vectors["positionZ"].values] == [5, 10, 15, 20]
+    assert set(vectors["positionX"].values) == {0}
+
+
+def test_the_run_is_the_same(make_scenario):
+    asked, unasked = (run(make_scenario(), vectors_of=ids) for ids in ([0, 1], []))
+    assert (asked.fates, asked.events) == (unasked.fates, unasked.events)
+    assert [node.tracked_variables for node in asked.nodes] == [
+        node.tracked_variables for node in unasked.nodes
+    ]
+
+
+def test_a_run_that_was_stopped_has_what_has_been(make_scenario):
+    stopped = PrototypeRun(make_scenario(COUNTER), vectors_of=[0])
+    stopped.execute(should_stop=lambda: True)
+    assert vectors_of(stopped.result())["count"].values[0] == 0

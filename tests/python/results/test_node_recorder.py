@@ -1,0 +1,64 @@
+import math
+
+import pytest
+
+from gradysim.results.node_recorder import NodeRecorder, recorders_of
+
+
+def tracked(*changes):
+    """What remains of (time, value) pairs of one variable, with NaN as "nan"."""
+    recorder = NodeRecorder()
+    for time_ps, value in changes:
+        recorder.variable_set(time_ps, "v", value)
+    vectors = [vector for vector in recorder.vectors() if vector.part == "protocol"]
+    return [
+        [
+            (time, "nan" if math.isnan(value) else value)
+            for time, value in zip(vector.times_ps, vector.values, strict=True)
+        ]
+        for vector in vectors
+    ]
+
+
+def test_each_assignment_is_a_row_also_of_the_same_value():
+    assert tracked((1, 5), (2, 5), (2, True), (3, 0.5)) == [[(1, 5), (2, 5), (2, 1), (3, 0.5)]]
+
+
+def test_what_is_never_a_number_has_no_vector():
+    assert tracked((1, "on"), (2, None), (3, 10**400)) == []
+
+
+def test_a_vector_begins_with_the_first_number_and_has_gaps():
+    changes = [(1, "off"), (2, 7), (3, "off"), (4, 8), (5, None), (6, 10**400), (7, math.nan)]
+    assert tracked(*changes) == [[(2, 7), (3, "nan"), (4, 8), (5, "nan"), (6, "nan"), (7, "nan")]]
+
+
+def test_an_infinity_is_a_number():
+    assert tracked((1, math.inf), (2, -math.inf)) == [[(1, math.inf), (2, -math.inf)]]
+
+
+def test_positions_are_three_vectors_with_the_same_times():
+    recorder = NodeRecorder()
+    recorder.position_told(5, 1.0, 2.0, 3.0)
+    recorder.position_told(9, 1.5, 2.0, 3.0)
+    vectors = recorder.vectors()
+    assert [(vector.name, list(vector.values), vector.unit) for vector in vectors] == [
+        ("positionX", [1.0, 1.5], "m"),
+        ("positionY", [2.0, 2.0], "m"),
+        ("positionZ", [3.0, 3.0], "m"),
+    ]
+    assert {tuple(vector.times_ps) for vector in vectors} == {(5, 9)}
+
+
+def test_a_name_that_is_no_text_becomes_one():
+    recorder = NodeRecorder()
+    recorder.variable_set(1, 5, 7)
+    assert recorder.vectors()[0].name == "5"
+
+
+def test_ids_name_nodes():
+    assert list(recorders_of([2, 0, 2], 3)) == [0, 2]
+    with pytest.raises(ValueError, match=r"^vectors_of: there is no node 3; expected ids of the 3 nodes"):
+        recorders_of([3], 3)
+    with pytest.raises(TypeError, match=r"^vectors_of = 'all': expected ids of nodes, such as \[0\]"):
+        recorders_of("all", 3)

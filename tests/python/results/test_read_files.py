@@ -1,0 +1,116 @@
+import math
+from array import array
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gradysim.results import read_scalars, read_vectors
+from gradysim.results.node_recorder import NodeRecorder
+from gradysim.results.read_files import recorded_modules
+from gradysim.results.run_identity import RunIdentity
+from gradysim.results.scalar_file import write_scalar_file
+from gradysim.results.scalars import Scalar
+from gradysim.results.vector import Vector
+from gradysim.results.vector_file import write_vector_file
+
+IDENTITY = RunIdentity("A-0-20261123-05:00:00-7", {"mode": "prototype", "x": "hidden"}, {"x": "2"}, ())
+
+
+@pytest.fixture
+def scalar_file(tmp_path):
+    path = tmp_path / "A.sca"
+    found = [
+        Scalar("N.uavs[0].protocol", "heard:last", 5.0, {"unit": "s", "mode": "hidden"}),
+        Scalar("N.uavs[0].protocol", "rate:last", math.nan),
+        Scalar("N.uavs[0].protocol", "far:last", -math.inf),
+    ]
+    write_scalar_file(found, IDENTITY, path)
+    return path
+
+
+def test_a_row_for_each_scalar(scalar_file):
+    row, nan, infinite = read_scalars(scalar_file)
+    assert row == {
+        "runID": "A-0-20261123-05:00:00-7",
+        "module": "N.uavs[0].protocol",
+        "name": "heard:last",
+        "value": 5.0,
+        "x": "2",
+        "mode": "prototype",
+        "unit": "s",
+    }
+    assert list(row)[:4] == ["runID", "module", "name", "value"]
+    assert math.isnan(nan["value"])
+    assert infinite["value"] == -math.inf
+
+
+def test_several_files(scalar_file):
+    assert len(read_scalars([scalar_file, str(scalar_file)])) == 6
+    assert read_scalars([]) == []
+
+
+def test_a_row_for_each_vector(tmp_path):
+    vector = Vector("protocol", "v", array("q", [1, 2_500_000_000_000]), array("d", [3.0, math.nan]), "m")
+    write_vector_file([("N.a.protocol", vector)], IDENTITY, tmp_path / "A.vec")
+    (row,) = read_vectors(tmp_path / "A.vec")
+    assert (row["module"], row["name"], row["unit"], row["x"]) == ("N.a.protocol", "v:vector", "m", "2")
+    assert row["vectime"] == array("d", [1e-12, 2.5])
+    assert row["vecvalue"][0] == 3.0
+    assert math.isnan(row["vecvalue"][1])
+    assert "value" not in row
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.integers(0, 9_200_000 * 10**12),
+            st.sampled_from(["heard", "sent", "a[0] b"]),
+            st.one_of(
+                st.integers(-(2**53), 2**53), st.floats(), st.booleans(), st.text(max_size=3), st.none()
+            ),
+        ),
+        max_size=30,
+    )
+)
+def test_what_was_tracked_comes_back(tmp_path_factory, changes):
+    changes.sort(key=lambda change: change[0])
+    recorder = NodeRecorder()
+    expected = {}
+    for time_ps, name, value in changes:
+        recorder.variable_set(time_ps, name, value)
+        is_number = isinstance(value, int | float)
+        if is_number or name in expected:
+            number = float(value) if is_number else math.nan
+            expected.setdefault(name, []).append((time_ps / 10**12, str(number)))
+    path = tmp_path_factory.mktemp("vectors") / "A.vec"
+    vectors = [(f"N.a.{vector.part}", vector) for vector in recorder.vectors()]
+    write_vector_file(vectors, IDENTITY, path)
+    found = {
+        row["name"].removesuffix(":vector"): list(zip(row["vectime"], map(str, row["vecvalue"]), strict=True))
+        for row in read_vectors(path)
+        if row["module"] == "N.a.protocol"
+    }
+    assert found == expected
+
+
+def test_a_file_that_is_not_there_is_an_error(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"missing\.sca"):
+        read_scalars(tmp_path / "missing.sca")
+
+
+@pytest.mark.parametrize("content", [b"version 3\nrun A-0\n", b""])
+def test_a_file_of_another_kind_is_an_error(tmp_path, content):
+    path = tmp_path / "A.vec"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=r"A\.vec: .*; expected a file of OMNeT\+\+'s results in SQLite"):
+        read_vectors(path)
+
+
+def test_it_knows_which_modules_have_vectors(tmp_path):
+    vector = Vector("mobility", "positionX", array("q"), array("d"))
+    write_vector_file([("N.a.mobility", vector)], IDENTITY, tmp_path / "A.vec")
+    (tmp_path / "other.vec").write_text("version 3")
+    assert recorded_modules(tmp_path / "A.vec") == {"N.a.mobility"}
+    assert recorded_modules(tmp_path / "other.vec") == set()
+    assert recorded_modules(tmp_path / "missing.vec") == set()
