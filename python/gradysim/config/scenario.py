@@ -86,8 +86,8 @@ class Scenario:
             protocols with what they import from their folder, obstacles, error rates.
         run_count: How many runs the configuration has, this one and those that were not asked for included.
         network: What paths of parameters and results begin with.
-        variables: Value of each variable that `${...}` may name in this run, the predefined ones included.
-        entries: All of these sections and, before them, the overrides, with the values of this run.
+        lines: The entries of the overrides and of these sections in their order, with names for the values
+            of this run.
     """
 
     file: Path
@@ -108,8 +108,7 @@ class Scenario:
     file_hashes: Mapping[str, str] = field(default_factory=dict)
     run_count: int = 1
     network: str = "Network"
-    variables: Mapping[str, str] = field(default_factory=dict, repr=False)
-    entries: tuple[Entry, ...] = field(default=(), repr=False)
+    lines: tuple[Entry, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         """Check what scripts replace. Raises TypeError and ValueError, which name the field."""
@@ -127,6 +126,20 @@ class Scenario:
                 raise ValueError(
                     f"nodes: {node.name}, at place {place}, has the id {node.id}; expected 0, 1, ... in order"
                 )
+
+    @property
+    def variables(self) -> dict[str, str]:
+        """Value of each variable that `${...}` may name in this run, the predefined ones included."""
+        values = run_variables(
+            self.file, self.network, self.config, self.run_number, self.repetition, self.iterations
+        )
+        return with_labels(values, self.seed, _options(self.lines))
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """The lines with the values of this run."""
+        variables = self.variables
+        return tuple(line if is_ignored(line) else substitute(line, variables) for line in self.lines)
 
 
 def require_scenario(value: object) -> None:
@@ -194,9 +207,10 @@ def load_scenarios(
 
     source = sections[0].source
     ranked, variables = name_iterations(ranked)
-    only_options = [each for each in ranked if is_option(each.entry)]
+    lines = tuple(entry for _, entry in ranked)
+    only_options = [entry for entry in lines if is_option(entry)]
     as_written = _options(only_options)
-    network_of_file = network_name(next((each for _, each in only_options if each.key == "network"), None))
+    network_of_file = network_name(next((entry for entry in only_options if entry.key == "network"), None))
     numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
     if seed is not None:
         check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
@@ -216,7 +230,7 @@ def load_scenarios(
         of_file = seed_of_file(as_written, number, values)
         seed_of_run = of_file if seed is None else seed + number
         values = with_labels(values, seed_of_run, as_written)
-        options = _options(_substituted(only_options, values))
+        options = {key: substitute(entry, values) for key, entry in as_written.items()}
         texts = [substitute(entry, values).text for entry in varying]
         draws = always_draws or any(map(drawing_function_in, texts))
         alike = (*texts, *([seed_of_run] if draws else ()))
@@ -234,8 +248,7 @@ def load_scenarios(
                 settings_hash=settings_hash(_substituted(in_force, {**values, **SAME_IN_ALL_RUNS})),
                 run_count=run_count,
                 network=network_of_file,
-                variables=values,
-                entries=tuple(entry for _, entry in _substituted(ranked, values)),
+                lines=lines,
             )
         )
     if len(numbered) == run_count:  # or the others may have those nodes
@@ -305,10 +318,10 @@ def _substituted(ranked: list[Ranked], variables: Mapping[str, str]) -> list[Ran
     ]
 
 
-def _options(ranked: list[Ranked]) -> dict[str, Entry]:
+def _options(entries: Iterable[Entry]) -> dict[str, Entry]:
     """The entry in force for each option that is given and not left at its default."""
     options: dict[str, Entry] = {}
-    for _, entry in ranked:
+    for entry in entries:
         if entry.key in OPTIONS:
             options.setdefault(entry.key, entry)
     return {key: entry for key, entry in options.items() if entry.text != "default"}
