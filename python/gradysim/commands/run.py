@@ -36,7 +36,7 @@ from gradysim.commands.warnings import (
     warn_of_shadowed_lines,
     warn_of_what_is_seldom_meant,
 )
-from gradysim.commands.written_files import write_files
+from gradysim.commands.written_files import check_can_be_written, write_files
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
@@ -73,6 +73,7 @@ def run(
     # What protocols print, also when they are imported, must not get between the JSON objects.
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
         try:
+            check_can_be_written(asked)
             if asked.writes_files:
                 make_result_dir(asked.directory)
             with waiting(f"reading {file}", shown=bar):

@@ -13,6 +13,19 @@ if TYPE_CHECKING:
     from gradysim.results.run_result import RunResult
 
 
+def check_can_be_written(asked: Asked) -> None:
+    """Raise ConfigError for files that this Python cannot write, before runs that take hours."""
+    if not (asked.scalars or asked.vectors):
+        return
+    try:
+        import sqlite3  # noqa: F401
+    except ImportError as error:
+        from gradysim.config.errors.config_error import ConfigError
+
+        option = "--scalars" if asked.scalars else f"--vectors {asked.vectors[0]}"
+        raise ConfigError(f"{option}: {error}; expected a Python with the module sqlite3") from error
+
+
 def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
     """Write what was asked for of a run, and give a line about each file.
 

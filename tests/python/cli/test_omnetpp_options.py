@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from gradysim.cli import main
 from gradysim.results import read_scalars, read_vectors
 from python.cli.command import both_modes, compiled, environment, objects
 
@@ -165,6 +166,15 @@ def test_a_folder_that_cannot_be_made(gradysim, folder, option):
     done = gradysim(*PROTOTYPE, *option)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "--result-dir results: it is no folder; expected a folder, or a new name\n"
+
+
+@pytest.mark.parametrize("option", [["--scalars"], ["--vectors", "all"]])
+def test_a_python_without_sqlite(folder, monkeypatch, capsys, option):
+    monkeypatch.chdir(folder)
+    monkeypatch.setitem(sys.modules, "sqlite3", None)
+    assert main([*PROTOTYPE, *option]) == 2
+    assert capsys.readouterr().err.endswith("; expected a Python with the module sqlite3\n")
+    assert not (folder / "results").exists()
 
 
 def test_a_file_that_cannot_be_written(gradysim, folder):
