@@ -17,6 +17,7 @@ OnAir& Airwaves::put(Transmission transmission, SimTime now, Turn first_turn) {
     entry.transmission.start = now;
     entry.transmission.origin = links_.position(entry.transmission.radio, now);
     entry.last_end = now;
+    entry.ring_m = 0;
     entry.reach_m = 0;
     entry.arrives_at_once = false;
     entry.others_w = 0;

@@ -32,11 +32,13 @@ struct Heard {
     bool lockable = false;
 };
 
-struct OnAir {
+// First what whoever looks for those that matter asks of each: one cache line, with the beginning of the transmission.
+struct alignas(64) OnAir {
+    SimTime last_end;       // at its most distant receiver, or later
+    double odometer_m = 0;  // at its start
+    double ring_m = 0;      // nobody farther away is in one of its rings
     Transmission transmission;
-    SimTime last_end;                   // at its most distant receiver, or later
     Turn first_turn = 0;                // of its arrivals' events, two for each receiver
-    double odometer_m = 0;              // at its start
     double reach_m = 0;                 // nobody locks on to it farther away
     bool arrives_at_once = false;       // at one whom it matters to
     double others_w = 0;                // within that, at most, of all that are on the air beside it
@@ -81,6 +83,12 @@ public:
     Arrival arrival_at(const OnAir& on_air, RadioId radio, const Position& place, SimTime now) const {
         return nobody_moved(now) ? arrival_at_place(on_air, radio, place) : arrival_at(on_air, radio);
     }
+    // Of that arrival.
+    double power_at(const OnAir& on_air, RadioId radio, const Position& place, SimTime now) const {
+        return nobody_moved(now)
+                   ? power_at_place(on_air, radio, place)
+                   : power_at_place(on_air, radio, links_.position(radio, on_air.transmission.start));
+    }
     double share_at(const OnAir& on_air, RadioId radio) const {
         return on_air.shares[links_.audience_of(radio)];
     }
@@ -100,6 +108,10 @@ private:
     // With the radio at `place` when the transmission starts.
     Arrival arrival_at_place(const OnAir& on_air, RadioId radio, const Position& place) const {
         return links_.arrival(on_air.transmission, share_at(on_air, radio), radio, place);
+    }
+    double power_at_place(const OnAir& on_air, RadioId radio, const Position& place) const {
+        const Transmission& sent = on_air.transmission;
+        return links_.power_w(sent, share_at(on_air, radio), radio, place, distance(sent.origin, place));
     }
     // Since the first of those on the air began.
     bool nobody_moved(SimTime now) const {

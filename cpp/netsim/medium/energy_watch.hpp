@@ -33,8 +33,9 @@ public:
 
     // One more of those in `links`.
     void add_radio() { outlooks_.add_radio(); }
-    // Begins the ring of a new transmission (energy_ring.hpp). Whoever then gets the ring's least power is to be put into it.
-    void begin_ring(EnergyRing& ring, Audience& audience, const Transmission& sent) const;
+    // Begins a new transmission's ring among an audience (energy_ring.hpp). Whoever then gets the ring's least power is to be
+    // put into it.
+    void begin_ring(OnAir& here, std::size_t audience);
     // Tells where the newest and those beside it, none of which matters alone, make the channel busy: now, or at the end of
     // this instant.
     void add_up_in_time(OnAir& newest, const std::vector<OnAir*>& beside);
@@ -53,7 +54,15 @@ private:
     // One that is or was on the air, at one receiver.
     struct Passing {
         OnAir* on_air = nullptr;
-        Arrival arrival;
+        double power_w = 0;
+        bool is_in_its_ring = false;
+    };
+    // One of those begins or ends.
+    struct Change {
+        SimTime time;
+        Turn turn = 0;
+        const Passing* passing = nullptr;
+        bool begins = true;
     };
 
     void add_up_those_begun_now();
@@ -68,7 +77,7 @@ private:
         ++look_count_;
         return on_air.transmission.radio == radio
                    ? 0
-                   : airwaves_.arrival_at(on_air, radio, place, simulator_.now()).power_w;
+                   : airwaves_.power_at(on_air, radio, place, simulator_.now());
     }
     // Tells the radio of as many as it takes to find its channel busy when it is. Returns by how many W the sum may still
     // rise before more has to be told; not positive if that is not known. What is worked out once for a radio is kept in its
@@ -79,8 +88,12 @@ private:
     // The same for one that gets `received_w` of one transmission, and of the others at most what is in `bounds_`.
     double missing_by_bounds(RadioId radio, const Position& place, double received_w);
     void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air);
-    // When those in `passing_` were enough for the last time, as the radio itself would have it.
-    SimTime over_at(RadioId radio);
+    bool may_be_in_a_ring(const Position& place, SimTime since) const;
+    double find_passing(RadioId radio, const Position& place, SimTime since);
+    void watch_the_rest(RadioId radio, const Position& place);
+    double missing_beside_those_coming(RadioId radio, const Position& place);
+    // When those in `passing_` were enough for the last time since then, as the radio itself would have it.
+    SimTime over_at(RadioId radio, const Position& place, SimTime since);
 
     Simulator& simulator_;
     Links& links_;
@@ -91,7 +104,9 @@ private:
     bool awaits_end_of_instant_ = false;  // to do that
     std::vector<OnAir*> beside_;          // one of those
     std::vector<Bound> bounds_;
-    std::vector<Passing> passing_;
+    std::vector<Passing> passing_;  // by start
+    std::vector<Change> changes_;
+    std::vector<const Passing*> present_;
     std::uint64_t look_count_ = 0;
 };
 

@@ -106,7 +106,7 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
     Audience& audience = links_.audiences()[index];
     const double share = entry.shares[index];
     EnergyRing& ring = entry.rings[index];
-    energy_watch_.begin_ring(ring, audience, sent);
+    energy_watch_.begin_ring(entry, index);
     const bool is_decodable = audience.can_decode(sent);
     const double within_m = links_.reach_m(audience, sent);
     audience.members.prepare(sent.start, links_.odometer(), within_m);

@@ -26,7 +26,7 @@ double Medium::most_interference_w(RadioId receiver, const Arrival& arrival) con
     double most_w = here.far_w;
     for (const OnAir* other : here.close) {
         if (other->transmission.radio != receiver) {
-            most_w += airwaves_.arrival_at(*other, receiver, arrival.place, simulator_.now()).power_w;
+            most_w += airwaves_.power_at(*other, receiver, arrival.place, simulator_.now());
         }
     }
     return most_w * (1 + rounding_margin);

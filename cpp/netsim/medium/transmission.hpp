@@ -46,14 +46,14 @@ struct Band {
 };
 
 struct Transmission {
-    std::uint64_t id = 0;  // 0, 1, 2, … in the order of starting
-    InterfaceId sender;
-    RadioId radio = 0;  // the sender's
+    Position origin;  // of the sender, at the start
     SimTime start;
     SimTime duration;
     double power_w = 0;
     Band band;
-    Position origin;  // of the sender, at the start
+    RadioId radio = 0;  // the sender's
+    InterfaceId sender;
+    std::uint64_t id = 0;  // 0, 1, 2, … in the order of starting
     FrameLabel label;
     PpduFormat format = PpduFormat::erp_ofdm;
     int psdu_bytes = 0;

@@ -62,7 +62,7 @@ protected:
         OnAir& entry = waves.put(std::move(transmission), simulator.now(), 0);
         entry.last_end = simulator.now() + us(1000);
         Audience& audience = links.audiences()[0];
-        watch.begin_ring(entry.rings[0], audience, entry.transmission);
+        watch.begin_ring(entry, 0);
         audience.members.prepare(simulator.now(), links.odometer(), 1000);
         if (links.watches_energy(0) && received_w >= entry.rings[0].least_power_w()) {
             entry.rings[0].watched().push_back({0, {}, links.kind(0).missing_beside_w(received_w)});
