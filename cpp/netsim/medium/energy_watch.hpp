@@ -65,6 +65,12 @@ private:
         bool begins = true;
     };
 
+    // Of what is missing: who needs to know has to ask again.
+    static constexpr double unknown_w = 0;
+    // To put off looking at so many frames that a radio was not told of.
+    static constexpr std::size_t worth_an_event = 4;
+    static SimTime just_before(SimTime time) { return time - SimTime::from_ps(1); }
+
     void add_up_those_begun_now();
     // `beside` are those beside the newest, here and below.
     void add_up(OnAir& newest, const std::vector<OnAir*>& beside);
