@@ -4,7 +4,7 @@ import contextlib
 import math
 import os
 from array import array
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,40 +17,29 @@ Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 Row = dict[str, Any]
 
 
-def read_scalars(paths: Paths) -> list[Row]:
+def read_scalars(paths: Paths, names: Iterable[str] | None = None) -> list[Row]:
     """Return a row for each scalar of `.sca` files; `pandas.DataFrame` makes a table of them.
 
     The columns are `runID`, `module`, `name` and `value`, a float, then, all of them texts, the iteration
     variables, the run attributes (`configname`, `mode`, `repetition`, …) and the attributes of the scalar
-    itself (`unit`, …). Of columns of one name the first is kept.
+    itself (`unit`, …). Of columns of one name the first is kept. `names` are those of the scalars that are
+    wanted, `["heard:last"]`; None for all.
 
     Raises OSError for a file that cannot be read, and ValueError for one that is no such file.
     """
-
-    def numbers(_: "sqlite3.Connection", __: int, value: float | None) -> Row:
-        return {"value": _number(value)}
-
-    return _rows(paths, "scalar", "scalarValue", numbers)
+    return _rows(paths, "scalar", names, _values)
 
 
-def read_vectors(paths: Paths) -> list[Row]:
+def read_vectors(paths: Paths, names: Iterable[str] | None = None) -> list[Row]:
     """Return a row for each vector of `.vec` files; `pandas.DataFrame` makes a table of them.
 
     The columns are those of `read_scalars`, but for `vectime` (seconds) and `vecvalue` in the place of
-    `value`: arrays of floats, which numpy takes as they are (`numpy.asarray`).
+    `value`: arrays of floats, which numpy takes as they are (`numpy.asarray`). `names` are those of the
+    vectors that are wanted, `["heard:vector"]`: trajectories may be much larger than all else.
 
     Raises OSError for a file that cannot be read, and ValueError for one that is no such file.
     """
-
-    def series(connection: "sqlite3.Connection", vector_id: int, exponent: int) -> Row:
-        query = "SELECT simtimeRaw, value FROM vectorData WHERE vectorId = ? ORDER BY rowid"
-        times, values = array("d"), array("d")
-        for raw, value in connection.execute(query, (vector_id,)):
-            times.append(raw / 10**-exponent if exponent < 0 else float(raw * 10**exponent))
-            values.append(_number(value))
-        return {"vectime": times, "vecvalue": values}
-
-    return _rows(paths, "vector", "(SELECT simtimeExp FROM run WHERE run.runId = vector.runId)", series)
+    return _rows(paths, "vector", names, _series)
 
 
 def recorded_modules(path: Path) -> set[str]:
@@ -63,21 +52,45 @@ def recorded_modules(path: Path) -> set[str]:
 
 
 def _rows(
-    paths: Paths, kind: str, column: str, data: Callable[["sqlite3.Connection", int, Any], Row]
+    paths: Paths,
+    kind: str,
+    names: Iterable[str] | None,
+    data_of: Callable[["sqlite3.Connection", Collection[int]], Mapping[int, Row]],
 ) -> list[Row]:
+    wanted = None if names is None else set(names)
     rows: list[Row] = []
     for path in [paths] if isinstance(paths, str | os.PathLike) else paths:
         with _opened(Path(path)) as connection:
             runs = _runs(connection)
             own = _texts(connection, f"{kind}Id, attrName, attrValue FROM {kind}Attr")
-            query = f"SELECT {kind}Id, runId, moduleName, {kind}Name, {column} FROM {kind} ORDER BY {kind}Id"
-            for item, run, module, name, value in connection.execute(query).fetchall():
+            query = f"SELECT {kind}Id, runId, moduleName, {kind}Name FROM {kind} ORDER BY {kind}Id"
+            found = [row for row in connection.execute(query) if wanted is None or row[3] in wanted]
+            data = data_of(connection, {item for item, *_ in found})
+            for item, run, module, name in found:
                 run_name, attributes = runs[run]
-                row = {"runID": run_name, "module": module, "name": name, **data(connection, item, value)}
+                row = {"runID": run_name, "module": module, "name": name, **data[item]}
                 for more in (attributes, own.get(item, {})):
                     row.update((key, text) for key, text in more.items() if key not in row)
                 rows.append(row)
     return rows
+
+
+def _values(connection: "sqlite3.Connection", items: Collection[int]) -> dict[int, Row]:
+    query = "SELECT scalarId, scalarValue FROM scalar"
+    return {item: {"value": _number(value)} for item, value in connection.execute(query) if item in items}
+
+
+def _series(connection: "sqlite3.Connection", items: Collection[int]) -> dict[int, Row]:
+    exponents = dict(connection.execute("SELECT vectorId, simtimeExp FROM vector JOIN run USING (runId)"))
+    found = {item: (array("d"), array("d"), 10 ** -exponents[item]) for item in items}
+    # In one go, by time: OMNeT++'s own files have no index.
+    query = "SELECT vectorId, simtimeRaw, value FROM vectorData ORDER BY rowid"
+    for item, raw, value in connection.execute(query):
+        if item in found:
+            times, values, per_second = found[item]
+            times.append(raw / per_second)
+            values.append(_number(value))
+    return {item: {"vectime": times, "vecvalue": values} for item, (times, values, _) in found.items()}
 
 
 def _runs(connection: "sqlite3.Connection") -> dict[int, tuple[str, dict[str, str]]]:

@@ -95,6 +95,21 @@ def test_what_was_tracked_comes_back(tmp_path_factory, changes):
     assert found == expected
 
 
+def test_only_those_that_are_wanted(tmp_path, scalar_file):
+    vectors = [
+        ("N.a.protocol", Vector("protocol", name, array("q", [1, 2]), array("d", [number, number])))
+        for number, name in enumerate(["heard", "sent", "lost"])
+    ]
+    write_vector_file(vectors, IDENTITY, tmp_path / "A.vec")
+    found = read_vectors(tmp_path / "A.vec", ["lost:vector", "heard:vector", "other:vector"])
+    assert [(row["name"], list(row["vecvalue"])) for row in found] == [
+        ("heard:vector", [0, 0]),
+        ("lost:vector", [2, 2]),
+    ]
+    assert [row["name"] for row in read_scalars(scalar_file, ["far:last"])] == ["far:last"]
+    assert read_scalars(scalar_file, []) == []
+
+
 def test_a_file_that_is_not_there_is_an_error(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"missing\.sca"):
         read_scalars(tmp_path / "missing.sca")
