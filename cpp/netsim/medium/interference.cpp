@@ -25,24 +25,10 @@ private:
 
 }  // namespace
 
-void InterferenceSum::begin(SimTime start, SimTime end) {
-    start_ = start;
-    end_ = end;
-    others_.clear();
-    worst_moment_.reset();
-}
-
-void InterferenceSum::add(const Arrival& other) {
-    if (other.start < end_ && other.end > start_ && other.power_w > 0) {
-        others_.push_back(other);
-        worst_moment_.reset();
-    }
-}
-
 void InterferenceSum::find_changes() {
     starts_.clear();
     ends_.clear();
-    for (const Arrival& other : others_) {
+    for (const Other& other : others_) {
         starts_.push_back({std::max(other.start, start_), other.power_w});
         if (other.end < end_) {
             ends_.push_back({other.end, other.power_w});
@@ -77,7 +63,7 @@ void InterferenceSum::find_moments() {
 
 double InterferenceSum::sum_w_at(SimTime moment) const {
     double sum_w = 0;
-    for (const Arrival& other : others_) {
+    for (const Other& other : others_) {
         if (other.start <= moment && moment < other.end) {
             sum_w += other.power_w;
         }
@@ -106,7 +92,7 @@ SimTime InterferenceSum::find_worst_moment() {
     }
     SimTime worst = start_;
     double largest_w = 0;
-    for (const Arrival& candidate : others_) {
+    for (const Other& candidate : others_) {
         const SimTime time = std::max(candidate.start, start_);
         const auto found = std::ranges::find(moments_, time, &Moment::time);
         if (found == moments_.end()) {
@@ -133,18 +119,18 @@ const std::vector<NodeId>& InterferenceSum::interferers() {
     }
     strongest_.clear();
     const SimTime worst = worst_moment();
-    for (const Arrival& other : others_) {
+    for (const Other& other : others_) {
         if (other.start <= worst && worst < other.end) {
             strongest_.push_back(&other);
         }
     }
-    std::ranges::sort(strongest_, [](const Arrival* a, const Arrival* b) {
+    std::ranges::sort(strongest_, [](const Other* a, const Other* b) {
         return a->power_w != b->power_w ? a->power_w > b->power_w : a->transmission->id < b->transmission->id;
     });
     const double all_w = sum_w_at(worst);
     double named_w = 0;
     double last_w = 0;
-    for (const Arrival* other : strongest_) {
+    for (const Other* other : strongest_) {
         if (named_w > all_w - named_w && other->power_w < last_w) {
             break;
         }

@@ -23,9 +23,20 @@ struct InterferenceStep {
 class InterferenceSum {
 public:
     // Begins a new period, from `start` until just before `end`, in which nothing disturbs.
-    void begin(SimTime start, SimTime end);
-    // One that does, in the order of transmissions; no matter whether it lasts into the period.
-    void add(const Arrival& other);
+    void begin(SimTime start, SimTime end) {
+        start_ = start;
+        end_ = end;
+        others_.clear();
+        worst_moment_.reset();
+    }
+    // One that does, in the order of transmissions; no matter whether it lasts into the period. In the header, so that
+    // nothing of an arrival is worked out that is not asked for here.
+    void add(const Arrival& other) {
+        if (other.start < end_ && other.end > start_ && other.power_w > 0) {
+            others_.push_back({other.transmission, other.start, other.end, other.power_w});
+            worst_moment_.reset();
+        }
+    }
 
     // The largest sum over the period, in W, without background noise.
     double worst_w();
@@ -38,6 +49,12 @@ public:
     const std::vector<InterferenceStep>& steps();
 
 private:
+    struct Other {
+        const Transmission* transmission = nullptr;
+        SimTime start;
+        SimTime end;
+        double power_w = 0;
+    };
     struct Change {  // of the sum
         SimTime time;
         double power_w = 0;
@@ -59,13 +76,13 @@ private:
 
     SimTime start_;
     SimTime end_;
-    std::vector<Arrival> others_;
+    std::vector<Other> others_;
     std::vector<Change> starts_;
     std::vector<Change> ends_;
     std::vector<Moment> moments_;
     std::vector<InterferenceStep> steps_;
     std::optional<SimTime> worst_moment_;
-    std::vector<const Arrival*> strongest_;
+    std::vector<const Other*> strongest_;
     std::vector<NodeId> interferers_;
 };
 
