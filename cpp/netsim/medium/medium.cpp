@@ -188,7 +188,7 @@ void Medium::schedule_arrivals(OnAir& entry) {
     if (entry.heard.empty()) {
         return;
     }
-    put_in_order(entry.heard, entry.transmission.start);
+    put_in_order(entry.heard, entry.transmission.start, spare_);
     schedule_next(entry, Edge::begins);
     schedule_next(entry, Edge::ends);
 }

@@ -131,6 +131,7 @@ private:
     SimTime remembered_;            // after their end
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
+    std::vector<Heard> spare_;  // to put others in order
 };
 
 }  // namespace netsim
