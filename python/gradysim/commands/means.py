@@ -18,7 +18,7 @@ def print_means(
         bool, Parameter(name="--csv", negative="", help="As CSV, with all digits, for other programs.")
     ] = False,
 ) -> int:
-    """Print means over runs, of tracked variables and fates of messages, with 95 % confidence intervals."""
+    """Print means over runs, of the last values of tracked variables and of fates, with 95 % intervals."""
     from gradysim.config.errors.config_error import ConfigError
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
@@ -36,8 +36,10 @@ def print_means(
             raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
         results = read_results(directory)
         if not results:
+            others = any(file.suffix in (".sca", ".vec") for file in directory.iterdir())
+            reason = "it has only files for OMNeT++'s tools" if others else "it has no results"
             raise ConfigError(
-                f"{directory}: it has no results of runs that came to their end; expected those of"
+                f"{directory}: {reason} of runs that came to their end; expected the JSON files of"
                 f" `gradysim run FILE --result-dir {shlex.quote(str(directory))}`"
             )
     except (ConfigError, OSError) as mistake:

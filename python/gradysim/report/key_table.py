@@ -23,8 +23,8 @@ the same file deprives of any effect. A list of values, `${10ms, 50ms}`, makes r
 (docs/guides/results.md). Values may be worked out, `50m * parentIndex()`, and drawn, `uniform(0m, 1km)`, for
 each node its own (docs/guides/values.md). A section may also say `extends = NAME` and `abstract = true`, and
 `include FILE` puts another file in the place of that line. What only OMNeT++ needs is
-ignored: `network` but for its name, `result-dir`, `output-vector-file`, `**.vector-recording` and the same of
-scalars, `cmdenv-*`, `qtenv-*`, `*.visualizer.**`.
+ignored: `network` but for its name, how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
+`*.visualizer.**` and so on), and what it records where (`result-dir`, `**.vector-recording` and so on).
 
 A key that matches no parameter is an error. A line for a model that is not chosen (`pathLoss.sigma` with
 `FreeSpacePathLoss`) is none, but `gradysim run` says on the error output that nothing reads it, and what

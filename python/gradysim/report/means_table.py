@@ -9,6 +9,9 @@ from rich.table import Table
 
 from gradysim.results.means import Mean
 
+_BEFORE = ("config", "mode")
+_AFTER = ("quantity", "runs", "mean", "half_width", "left_out")
+
 
 def means_table(means: Sequence[Mean]) -> Table:
     """Return a row for each mean; what is the same in all of them is the title."""
@@ -37,10 +40,15 @@ def means_table(means: Sequence[Mean]) -> Table:
 
 
 def write_csv(means: Sequence[Mean], output: TextIO) -> None:
-    """Write a heading and a line for each mean, with all digits."""
+    """Write a heading and a line for each mean, with all digits.
+
+    A variable that is called as another column is goes by `$mode`.
+    """
     writer = csv.writer(output, lineterminator="\n")
     variables = _variables(means)
-    writer.writerow(["config", "mode", *variables, "quantity", "runs", "mean", "half_width", "left_out"])
+    taken = {*_BEFORE, *_AFTER}
+    headings = [f"${name}" if name in taken else name for name in variables]
+    writer.writerow([*_BEFORE, *headings, *_AFTER])
     writer.writerows(_rows(means, variables))
 
 

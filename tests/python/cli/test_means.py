@@ -61,14 +61,21 @@ def test_a_folder_without_results(gradysim, folder):
     done = gradysim("means", ".")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        ".: it has no results of runs that came to their end; expected those of"
+        ".: it has no results of runs that came to their end; expected the JSON files of"
         " `gradysim run FILE --result-dir .`\n"
+    )
+
+
+def test_a_folder_with_files_for_omnetpp_alone(gradysim, folder):
+    gradysim("run", "test.ini", "--scalars")
+    assert gradysim("means", "results").stderr.startswith(
+        "results: it has only files for OMNeT++'s tools of runs"
     )
 
 
 def test_a_folder_whose_name_has_blanks_is_quoted_where_it_stands_in_a_command(gradysim, folder):
     (folder / "a b").mkdir()
-    assert gradysim("means", "a b").stderr.endswith("those of `gradysim run FILE --result-dir 'a b'`\n")
+    assert gradysim("means", "a b").stderr.endswith("JSON files of `gradysim run FILE --result-dir 'a b'`\n")
 
 
 @pytest.mark.parametrize(

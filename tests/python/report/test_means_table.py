@@ -49,6 +49,12 @@ def test_csv_has_all_digits() -> None:
     ]
 
 
+def test_a_variable_called_as_another_column_has_a_heading_of_its_own_in_csv() -> None:
+    text = StringIO()
+    write_csv([Mean("Study", "integrated", {"mode": "b", "x": 1}, "uavs[*] heard", 1, 2.0, None)], text)
+    assert text.getvalue().splitlines()[0] == "config,mode,$mode,x,quantity,runs,mean,half_width,left_out"
+
+
 def test_a_narrow_table_loses_no_letter() -> None:
     text = StringIO()
     long = Mean("Study", "integrated", {"fading": "Free" * 8}, "uavs[*] heard", 1, 2.0, None)

@@ -1,4 +1,4 @@
-"""Options of a run, and what is ignored because only OMNeT++ needs it."""
+"""Options of a run."""
 
 from gradysim.config.keys.key import Key
 from gradysim.config.value.kinds import Kind, integer, quantity, text
@@ -73,24 +73,3 @@ OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
 
 SECTION_OPTIONS = ("extends", "abstract")
 """Options that belong to a section and cannot be given on the command line."""
-
-IGNORED_OPTIONS = (
-    "network",
-    "result-dir",
-    "output-scalar-*",
-    "output-vector*",
-    "outputscalarmanager-class",
-    "outputvectormanager-class",
-    "cmdenv-*",
-    "qtenv-*",
-)
-"""Options of OMNeT++ that files share with it. `network` is only the name that paths begin with."""
-
-IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-")
-"""Of the last names of keys: options of OMNeT++ that are given per module, such as `**.cmdenv-log-level`."""
-
-IGNORED_ENDS = tuple(f"{kind}-recording" for kind in ("scalar", "vector", "statistic", "bin", "param"))
-"""Last names of keys: which results OMNeT++ records, `**.vector-recording`."""
-
-IGNORED_MODULES = ("visualizer",)
-"""Names below the network whose parameters are OMNeT++'s alone."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from gradysim.config.keys import NETWORK_MODULES
 from gradysim.config.keys.interface import NUM_WLAN_INTERFACES
 from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS
-from gradysim.config.keys.options import IGNORED_MODULES
+from gradysim.config.keys.omnetpp_options import IGNORED_MODULES
 from gradysim.config.matching.lookup import Found, Lookup
 from gradysim.config.value.pattern import Pattern, compile_pattern
 from gradysim.config.value.setting import SettingReader

@@ -6,6 +6,7 @@ group is better reported than the missing class that follows from it.
 
 import re
 from collections.abc import Iterator, Mapping
+from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.config.errors.config_error import ConfigError
@@ -16,6 +17,7 @@ from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_
 from gradysim.config.keys.environment import OBSTACLE_KEYS, obstacle_path
 from gradysim.config.keys.interface import at_interface
 from gradysim.config.keys.node import GROUP_SIZE
+from gradysim.config.keys.omnetpp_options import REFUSED_OPTIONS
 from gradysim.config.keys.options import OPTIONS, SECTION_OPTIONS
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import unknown_name_text, unknown_parameter_text
@@ -49,6 +51,9 @@ def check_option(entry: Entry) -> None:
         raise ConfigError(f"`{key}` belongs to a section; expected it in the file", entry.source)
     if key in OPTIONS or key in SECTION_OPTIONS or is_ignored(entry):
         return
+    for option, instead in REFUSED_OPTIONS.items():
+        if fnmatchcase(key, option):
+            raise ConfigError(f"`{key}` is an option that only OMNeT++ has: {instead}", entry.source)
     hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, "network", "result-dir"])
     if re.fullmatch(r"num[A-Z]\w*", key):
         hint = f"; did you mean `*.{key}`?"

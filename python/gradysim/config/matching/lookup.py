@@ -12,7 +12,7 @@ from fnmatch import fnmatchcase
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
-from gradysim.config.keys.options import (
+from gradysim.config.keys.omnetpp_options import (
     IGNORED_BEGINNINGS,
     IGNORED_ENDS,
     IGNORED_MODULES,

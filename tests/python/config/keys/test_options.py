@@ -1,4 +1,5 @@
-from gradysim.config.keys.options import IGNORED_OPTIONS, OPTIONS, SECTION_OPTIONS
+from gradysim.config.keys.omnetpp_options import IGNORED_OPTIONS
+from gradysim.config.keys.options import OPTIONS, SECTION_OPTIONS
 
 
 def test_options_have_no_dot() -> None:
