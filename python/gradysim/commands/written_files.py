@@ -29,16 +29,28 @@ def check_can_be_written(asked: Asked) -> None:
 def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
     """Write what was asked for of a run, and give a line about each file.
 
-    Captures are there already: radios write them. Raises OSError, with the name of the file.
+    Captures are there already: radios write them. Files for OMNeT++ that an earlier run left under names of
+    this one, and that it does not replace, are removed first. Raises OSError, with the name of the file.
     """
     from gradysim.results.run_file import write_run_file
 
+    if asked.writes_files:
+        yield from _remove_of_earlier_runs(scenario, result.mode, asked)
     if asked.result_dir is not None:
         yield f"written to {write_run_file(result, asked.result_dir)}"
     if asked.scalars or asked.vectors:
         yield from _write_for_omnetpp(scenario, result, asked)
     for capture in capture_files_of(scenario, asked):
         yield f"captured in {capture}"
+
+
+def _remove_of_earlier_runs(scenario: "Scenario", mode: Mode, asked: Asked) -> Iterator[str]:
+    """Remove what a reader would take for scalars or vectors of this run, and are those of another one."""
+    for suffix, is_replaced in ((".sca", asked.scalars), (".vec", bool(asked.vectors))):
+        path = omnetpp_file(scenario, mode, asked, suffix)
+        if not is_replaced and path.is_file():
+            path.unlink()
+            yield f"removed {path}, of an earlier run"
 
 
 def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:

@@ -57,6 +57,66 @@ def test_fates_at_nodes_are_scalars(gradysim, folder):
     assert told == {"broadcast:delivered:count": 10}
 
 
+def values_of(folder, name):
+    """Of a scalar, in all files of the folder."""
+    return [row["value"] for row in read_scalars(folder.glob("*.sca"), [name])]
+
+
+def test_a_rerun_leaves_no_scalars_and_vectors_of_the_run_before(gradysim, folder):
+    arguments = (*PROTOTYPE, "-r", "1", "--result-dir", "out")
+    gradysim(*arguments, "--scalars", "--vectors", "uavs")
+    done = gradysim(*arguments, "--set", "sim-time-limit=2s")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert names_in(folder / "out") == ["General-#1.prototype.json"]
+    assert [line for line in done.stdout.splitlines() if line.startswith("removed")] == [
+        f"removed out/General-#1.prototype.{suffix}, of an earlier run" for suffix in ("sca", "vec")
+    ]
+
+
+def test_a_rerun_with_scalars_leaves_no_vectors_of_the_run_before(gradysim, folder):
+    gradysim(*PROTOTYPE, "-r", "1", "--scalars", "--vectors", "uavs")
+    gradysim(*PROTOTYPE, "-r", "1", "--scalars", "--set", "sim-time-limit=2s")
+    assert names_in(folder / "results") == ["General-#1.prototype.sca"]
+    assert values_of(folder / "results", "simTime") == [2]
+
+
+def test_a_rerun_with_vectors_leaves_no_scalars_of_the_run_before(gradysim, folder):
+    gradysim(*PROTOTYPE, "-r", "1", "--scalars", "--vectors", "uavs")
+    gradysim(*PROTOTYPE, "-r", "1", "--vectors", "uavs", "--quiet")
+    assert names_in(folder / "results") == ["General-#1.prototype.vec"]
+
+
+def test_files_of_other_runs_stay(gradysim, folder):
+    arguments = ("--scalars", "--vectors", "uavs")
+    gradysim(*PROTOTYPE, "-r", "1", *arguments)
+    gradysim(*PROTOTYPE, "-r", "0", "--scalars")
+    assert names_in(folder / "results") == [
+        "General-#0.prototype.sca",
+        "General-#1.prototype.sca",
+        "General-#1.prototype.vec",
+    ]
+
+
+def test_a_run_that_writes_no_files_removes_none(gradysim, folder):
+    gradysim(*PROTOTYPE, "-r", "1", "--scalars")
+    gradysim(*PROTOTYPE, "-r", "1", "--set", "sim-time-limit=2s")
+    assert names_in(folder / "results") == ["General-#1.prototype.sca"]
+
+
+def test_results_that_resume_goes_by_stay(gradysim, folder):
+    gradysim(*PROTOTYPE, "-r", "1", "--result-dir", "results")
+    gradysim(*PROTOTYPE, "-r", "1", "--scalars")
+    assert names_in(folder / "results") == ["General-#1.prototype.json", "General-#1.prototype.sca"]
+
+
+def test_runs_that_are_left_out_remove_nothing(gradysim, folder):
+    arguments = (*PROTOTYPE, "-r", "1", "--result-dir", "results")
+    gradysim(*arguments, "--scalars", "--vectors", "uavs")
+    before = names_in(folder / "results")
+    gradysim(*arguments, "--resume")
+    assert names_in(folder / "results") == before
+
+
 def test_several_jobs(gradysim, folder):
     done = gradysim(*PROTOTYPE, "-j", "2", "--scalars", "--vectors", "all")
     assert done.returncode == 0
