@@ -1,6 +1,6 @@
 """The files that a run of `gradysim run` leaves behind."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -78,8 +78,7 @@ def omnetpp_file(scenario: "Scenario", mode: Mode, asked: Asked, suffix: str) ->
 
 
 def are_there(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
-    """Whether the run left all that is asked for beside its result, none of it older than that."""
-    from gradysim.results.read_files import recorded_modules
+    """Whether the run left all that is asked for beside its result, none of it older, or of another run."""
     from gradysim.results.run_file import run_file
 
     if not all(file.is_file() for file in capture_files_of(scenario, asked)):
@@ -92,6 +91,29 @@ def are_there(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
             return False
     except OSError:
         return False
+    return _are_of_run(files, scenario, mode) and _has_vectors(files, scenario, asked)
+
+
+def _are_of_run(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
+    """Whether files for OMNeT++ are those of one run, this one, with the labels that it has now."""
+    if not files:
+        return True
+    from gradysim.results.database import storable
+    from gradysim.results.read_files import run_attributes
+    from gradysim.results.run_identity import lasting_attributes
+
+    expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
+    found = [run_attributes(file) for file in files]
+    return all(
+        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
+        for attributes in found
+    )
+
+
+def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:
+    """Whether the last of the files has vectors of all nodes that are asked for."""
+    from gradysim.results.read_files import recorded_modules
+
     nodes = nodes_of_vectors(scenario, asked)
     return not nodes or recorded_modules(files[-1]).issuperset(
         f"{scenario.network}.{node.name}.mobility" for node in nodes

@@ -42,6 +42,17 @@ def read_vectors(paths: Paths, names: Iterable[str] | None = None) -> list[Row]:
     return _rows(paths, "vector", names, _series)
 
 
+def run_attributes(path: Path) -> dict[str, str]:
+    """Return `runID` and the attributes of the run of a file; none if it is not there, or no such file."""
+    try:
+        with _opened(path) as connection:
+            query = "SELECT attrName, attrValue FROM runAttr"
+            ((name,),) = connection.execute("SELECT runName FROM run")
+            return {"runID": name, **dict(connection.execute(query))}
+    except (OSError, ValueError):
+        return {}
+
+
 def recorded_modules(path: Path) -> set[str]:
     """Return the modules that have vectors in a file; none if it is not there, or no such file."""
     try:

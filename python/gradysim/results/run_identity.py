@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gradysim.config.runs.iterations import PREDEFINED
 from gradysim.config.scenario import Scenario
-from gradysim.results.run_result import RunResult
+from gradysim.results.run_result import Mode, RunResult
 
 
 @dataclass(frozen=True)
@@ -31,16 +31,13 @@ class RunIdentity:
 def identity_of(result: RunResult, scenario: Scenario, directory: Path) -> RunIdentity:
     """Return the identity of a run that has just ended, whose results go to `directory`."""
     began = datetime.now() - timedelta(seconds=result.wall_s)
-    known = scenario.variables
     attributes = {
-        **{name: known[name] for name in PREDEFINED if name in known},
+        **lasting_attributes(scenario, result.mode, interrupted=result.interrupted),
+        "inifile": str(scenario.file),
         "datetime": f"{began:%Y%m%d-%H:%M:%S}",
         "datetimef": f"{began:%Y%m%d-%H%M%S}",
         "processid": str(os.getpid()),
         "resultdir": str(directory),
-        "seedset": str(result.seed),
-        "mode": result.mode,
-        "interrupted": str(result.interrupted).lower(),
     }
     return RunIdentity(
         name=f"{result.config}-{result.run}-{attributes['datetime']}-{attributes['processid']}",
@@ -48,3 +45,14 @@ def identity_of(result: RunResult, scenario: Scenario, directory: Path) -> RunId
         iterations={name: text for name, text in sorted(result.iterations.items()) if not name.isdigit()},
         settings=tuple((entry.key, entry.text) for entry in scenario.entries),
     )
+
+
+def lasting_attributes(scenario: Scenario, mode: Mode, *, interrupted: bool = False) -> dict[str, str]:
+    """Return the attributes of a run that are the same when it is done again, from wherever it is started."""
+    known = scenario.variables
+    return {
+        **{name: known[name] for name in PREDEFINED if name in known and name != "inifile"},
+        "mode": mode,
+        "settings_hash": scenario.settings_hash,
+        "interrupted": str(interrupted).lower(),
+    }

@@ -163,6 +163,60 @@ def test_resumed_runs_are_repeated_for_files_of_an_earlier_run(gradysim):
     assert len(objects(gradysim(*arguments, *other, "--scalars", "--resume").stdout)) == 1
 
 
+@pytest.fixture
+def resumed(gradysim, folder):
+    """`resumed(*options)`: the numbers of the runs done anew, of one that left both kinds of files."""
+    arguments = (*PROTOTYPE, "--result-dir", "out", "-r", "0", "--json")
+    gradysim(*arguments, "--scalars", "--vectors", "uavs")
+
+    def again(*options):
+        return [run["run"] for run in objects(gradysim(*arguments, "--resume", *options).stdout)]
+
+    return again
+
+
+BOTH = ("--scalars", "--vectors", "uavs")
+
+
+@pytest.mark.parametrize("content", [b"", b"garbage"])
+@pytest.mark.parametrize(
+    ("suffix", "options"), [("sca", ["--scalars"]), ("vec", ["--vectors", "uavs"]), ("sca", BOTH)]
+)
+def test_a_resumed_run_is_repeated_for_a_file_that_cannot_be_read(folder, resumed, suffix, options, content):
+    (folder / f"out/General-#0.prototype.{suffix}").write_bytes(content)
+    assert resumed(*options) == [0]
+    assert resumed(*options) == []
+
+
+@pytest.mark.parametrize("line", ["network = field.Field", "experiment-label = mine"])
+@pytest.mark.parametrize("options", [["--scalars"], ["--vectors", "uavs"]])
+def test_a_resumed_run_is_repeated_for_files_with_other_labels(resumed, line, options):
+    assert resumed(*options) == []
+    assert resumed(*options, "--set", line) == [0]
+    assert resumed(*options, "--set", line) == []
+    assert resumed("--set", "experiment-label = of no concern to JSON") == []
+
+
+def test_a_resumed_run_is_repeated_for_newer_files_of_other_settings(gradysim):
+    other = ("--set", "sim-time-limit=2s")
+    arguments = (*PROTOTYPE, "-r", "0", "--json", "--result-dir", "results")
+    gradysim(*arguments)
+    gradysim(*PROTOTYPE, "-r", "0", "--scalars", *other)
+    assert len(objects(gradysim(*arguments, "--scalars", "--resume").stdout)) == 1
+
+
+def test_a_resumed_run_is_repeated_for_scalars_and_vectors_of_two_runs(gradysim, folder, resumed):
+    gradysim(*PROTOTYPE, "-r", "0", "--vectors", "uavs")
+    (folder / "results/General-#0.prototype.vec").replace(folder / "out/General-#0.prototype.vec")
+    assert resumed("--vectors", "uavs") == []
+    assert resumed(*BOTH) == [0]
+    assert resumed(*BOTH) == []
+
+
+def test_more_repetitions_leave_what_is_there(resumed):
+    assert resumed("--scalars", "--set", "repeat=5") == []
+
+
 @both_modes
 def test_an_interrupted_run_keeps_what_was_computed(folder, mode):
     arguments = ("-c", "Endless", "--mode", mode, "--scalars", "--vectors", "all", "--quiet")

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from gradysim.results import read_scalars, read_vectors
 from gradysim.results.node_recorder import NodeRecorder
-from gradysim.results.read_files import recorded_modules
+from gradysim.results.read_files import recorded_modules, run_attributes
 from gradysim.results.run_identity import RunIdentity
 from gradysim.results.scalar_file import write_scalar_file
 from gradysim.results.scalars import Scalar
@@ -130,3 +130,12 @@ def test_it_knows_which_modules_have_vectors(tmp_path):
     assert recorded_modules(tmp_path / "A.vec") == {"N.a.mobility"}
     assert recorded_modules(tmp_path / "other.vec") == set()
     assert recorded_modules(tmp_path / "missing.vec") == set()
+
+
+def test_it_knows_of_which_run_a_file_is(tmp_path, scalar_file):
+    assert run_attributes(scalar_file) == {"runID": IDENTITY.name, **IDENTITY.attributes}
+    for name, content in (("other.sca", b"version 3"), ("empty.sca", b"")):
+        (tmp_path / name).write_bytes(content)
+        assert run_attributes(tmp_path / name) == {}
+    assert run_attributes(tmp_path / "missing.sca") == {}
+    assert run_attributes(tmp_path) == {}

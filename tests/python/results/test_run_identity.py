@@ -6,7 +6,7 @@ import pytest
 
 from gradysim.config import load_scenarios
 from gradysim.prototype.run import run
-from gradysim.results.run_identity import identity_of
+from gradysim.results.run_identity import identity_of, lasting_attributes
 
 STUDY = ("repeat = 2", "**.heard = ${y=5, 6}", "**.mobility.speed = ${x=1, 2}mps", "sim-time-limit = ${0.5s}")
 
@@ -25,7 +25,8 @@ def identity(make_scenario):
 
 def test_it_has_the_attributes_of_omnetpp(identity):
     attributes = identity().attributes
-    drawn = {name: attributes[name] for name in ("datetime", "datetimef", "processid", "inifile")}
+    never_the_same = ("datetime", "datetimef", "processid", "inifile", "settings_hash")
+    drawn = {name: attributes[name] for name in never_the_same}
     assert {name: text for name, text in attributes.items() if name not in drawn} == {
         "configname": "General",
         "experiment": "General",
@@ -73,3 +74,18 @@ def test_an_interrupted_run_says_so(make_scenario):
     scenario = make_scenario()
     result = dataclasses.replace(run(scenario), interrupted=True)
     assert identity_of(result, scenario, Path("out")).attributes["interrupted"] == "true"
+
+
+def test_what_lasts_is_the_same_when_a_run_is_done_again_from_another_folder(make_scenario, monkeypatch):
+    scenario = make_scenario()
+    attributes = identity_of(run(scenario), scenario, Path("out")).attributes
+    monkeypatch.chdir(scenario.file.parent)
+    again = lasting_attributes(load_scenarios(scenario.file.name)[0], "prototype")
+    assert again.items() <= attributes.items()
+    assert attributes.keys() - again.keys() == {
+        "datetime",
+        "datetimef",
+        "processid",
+        "resultdir",
+        "inifile",
+    }
