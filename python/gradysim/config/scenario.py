@@ -206,11 +206,11 @@ def load_scenarios(
             check_option(entry)
 
     source = sections[0].source
+    network_of_file = network_name(next((entry for _, entry in ranked if entry.key == "network"), None))
     ranked, variables = name_iterations(ranked)
     lines = tuple(entry for _, entry in ranked)
     only_options = [entry for entry in lines if is_option(entry)]
     as_written = _options(only_options)
-    network_of_file = network_name(next((entry for entry in only_options if entry.key == "network"), None))
     numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
     if seed is not None:
         check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)

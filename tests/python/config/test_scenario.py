@@ -76,6 +76,11 @@ def test_values_may_depend_on_the_run(folder: Any) -> None:
     assert scenarios[0].nodes[1].protocol is scenarios[1].nodes[1].protocol
 
 
+def test_a_variable_in_the_name_of_the_network_is_an_error_at_its_line(folder: Any) -> None:
+    with pytest.raises(ConfigError, match=r"\.ini:\d+: network = \$\{x=A, B\}: it is the same in all runs"):
+        folder.load('network = ${x=A, B}\n**.label = "${x}"\n')
+
+
 def speeds(scenarios: list[Scenario]) -> list[object]:
     return [scenario.nodes[1].mobility["speed_mps"].value for scenario in scenarios]
 

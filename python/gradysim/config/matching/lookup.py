@@ -148,7 +148,12 @@ class Lookup:
 
 
 def network_name(network: Entry | None) -> str:
-    """What paths begin with; `network` is the option of that name, which may name a package, too."""
+    """What paths begin with; `network` is the option of that name, which may name a package, too.
+
+    Raises ConfigError for one with variables.
+    """
+    if network and "${" in network.text:
+        raise ConfigError.at(network.source, "it is the same in all runs; expected a name without variables")
     return network.text.strip('"').rpartition(".")[2] if network else "Network"
 
 

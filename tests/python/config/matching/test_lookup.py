@@ -8,7 +8,7 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
-from gradysim.config.matching.lookup import Lookup
+from gradysim.config.matching.lookup import Lookup, network_name
 from gradysim.config.value.pattern import compile_pattern
 
 
@@ -44,6 +44,15 @@ def test_paths_begin_with_the_name_of_the_network() -> None:
     assert in_force(Lookup(ranked), "a", "b") == "1"
     network = Entry("network", '"pkg.Other"', Source(Path("a.ini"), 9), "General")
     assert in_force(Lookup([*ranked, (1, network)]), "a", "b") == "0"
+
+
+def test_the_name_of_the_network_has_no_variables() -> None:
+    network = Entry("network", "${x=A, B}", Source(Path("a.ini"), 9, "network", "${x=A, B}"), "General")
+    with pytest.raises(ConfigError) as caught:
+        network_name(network)
+    assert str(caught.value) == (
+        "a.ini:9: network = ${x=A, B}: it is the same in all runs; expected a name without variables"
+    )
 
 
 def test_what_omnetpp_alone_reads_is_left_out() -> None:
