@@ -5,11 +5,15 @@ import math
 import os
 from array import array
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import sqlite3
+
+Names = str | Iterable[str]
+"""A name, or several; with `*` for any letters and `?` for any one."""
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 """A file, or several."""
@@ -17,25 +21,25 @@ Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 Row = dict[str, Any]
 
 
-def read_scalars(paths: Paths, names: Iterable[str] | None = None) -> list[Row]:
+def read_scalars(paths: Paths, names: Names | None = None) -> list[Row]:
     """Return a row for each scalar of `.sca` files; `pandas.DataFrame` makes a table of them.
 
     The columns are `runID`, `module`, `name` and `value`, a float, then, all of them texts, the iteration
     variables, the run attributes (`configname`, `mode`, `repetition`, …) and the attributes of the scalar
     itself (`unit`, …). Of columns of one name the first is kept. `names` are those of the scalars that are
-    wanted, `["heard:last"]`; None for all.
+    wanted, `"heard:last"` or `["heard:last", "position?:*"]`; None for all.
 
     Raises OSError for a file that cannot be read, and ValueError for one that is no such file.
     """
     return _rows(paths, "scalar", names, _values)
 
 
-def read_vectors(paths: Paths, names: Iterable[str] | None = None) -> list[Row]:
+def read_vectors(paths: Paths, names: Names | None = None) -> list[Row]:
     """Return a row for each vector of `.vec` files; `pandas.DataFrame` makes a table of them.
 
     The columns are those of `read_scalars`, but for `vectime` (seconds) and `vecvalue` in the place of
     `value`: arrays of floats, which numpy takes as they are (`numpy.asarray`). `names` are those of the
-    vectors that are wanted, `["heard:vector"]`: trajectories may be much larger than all else.
+    vectors that are wanted, `"heard:vector"`: trajectories may be much larger than all else.
 
     Raises OSError for a file that cannot be read, and ValueError for one that is no such file.
     """
@@ -65,17 +69,17 @@ def recorded_modules(path: Path) -> set[str]:
 def _rows(
     paths: Paths,
     kind: str,
-    names: Iterable[str] | None,
+    names: Names | None,
     data_of: Callable[["sqlite3.Connection", Collection[int]], Mapping[int, Row]],
 ) -> list[Row]:
-    wanted = None if names is None else set(names)
+    wanted = _is_wanted(names)
     rows: list[Row] = []
     for path in [paths] if isinstance(paths, str | os.PathLike) else paths:
         with _opened(Path(path)) as connection:
             runs = _runs(connection)
             own = _texts(connection, f"{kind}Id, attrName, attrValue FROM {kind}Attr")
             query = f"SELECT {kind}Id, runId, moduleName, {kind}Name FROM {kind} ORDER BY {kind}Id"
-            found = [row for row in connection.execute(query) if wanted is None or row[3] in wanted]
+            found = [row for row in connection.execute(query) if wanted(row[3])]
             data = data_of(connection, {item for item, *_ in found})
             for item, run, module, name in found:
                 run_name, attributes = runs[run]
@@ -84,6 +88,14 @@ def _rows(
                     row.update((key, text) for key, text in more.items() if key not in row)
                 rows.append(row)
     return rows
+
+
+def _is_wanted(names: Names | None) -> Callable[[str], bool]:
+    if names is None:
+        return lambda _: True
+    # A bracket is a bracket, as in `received[0]:last`.
+    patterns = [name.replace("[", "[[]") for name in ([names] if isinstance(names, str) else names)]
+    return lambda name: any(fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def _values(connection: "sqlite3.Connection", items: Collection[int]) -> dict[int, Row]:

@@ -110,6 +110,26 @@ def test_only_those_that_are_wanted(tmp_path, scalar_file):
     assert read_scalars(scalar_file, []) == []
 
 
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [
+        ("far:last", ["far:last"]),
+        ("*a*:last", ["heard:last", "rate:last", "far:last"]),
+        (["rate:*", "f?r:last"], ["rate:last", "far:last"]),
+        ("rate", []),
+        ("", []),
+    ],
+)
+def test_a_single_name_and_patterns(scalar_file, names, found):
+    assert [row["name"] for row in read_scalars(scalar_file, names)] == found
+
+
+def test_brackets_in_names_are_no_pattern(tmp_path):
+    names = ("a[0]:last", "a0:last", "A[0]:last")
+    write_scalar_file([Scalar("N", name, 1.0) for name in names], IDENTITY, tmp_path / "A.sca")
+    assert [row["name"] for row in read_scalars(tmp_path / "A.sca", "a[0]:*")] == ["a[0]:last"]
+
+
 def test_a_file_that_is_not_there_is_an_error(tmp_path):
     with pytest.raises(FileNotFoundError, match=r"missing\.sca"):
         read_scalars(tmp_path / "missing.sca")
