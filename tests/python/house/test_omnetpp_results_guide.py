@@ -11,6 +11,9 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.config import load_scenarios
 from gradysim.results import read_scalars, read_vectors
+from gradysim.results.run_identity import RunIdentity
+from gradysim.results.scalar_file import write_scalar_file
+from gradysim.results.scalars import Scalar
 
 GUIDE = "docs/guides/omnetpp-results.md"
 
@@ -41,11 +44,41 @@ def test_its_commands_write_what_its_functions_read(
     (commands,) = code_blocks(GUIDE, "sh")
     shell(commands, folder)
     heard = shown["heard"](str(folder / "results"))
-    assert heard["prototype", "10ms"] == heard["integrated", "10ms"] == 177
-    assert heard["integrated", "100us"] < heard["integrated", "1ms"] < 177
+    assert heard["Study", "prototype", "10ms"] == heard["Study", "integrated", "10ms"] == 177
+    assert heard["Study", "integrated", "100us"] < heard["Study", "integrated", "1ms"] < 177
     times = shown["first_times"](str(folder / "results/Study-#0.integrated.vec"))
     assert list(times) == ["Network.nodes[0].protocol", "Network.nodes[1].protocol"]
     assert all(1 < time < 1.1 for time in times.values())
+
+
+def test_its_means_are_of_one_configuration_and_of_whole_runs(tmp_path: Path, shown: dict[str, Any]) -> None:
+    for number, (config, interrupted, jitter, value) in enumerate(
+        [
+            ("Study", "false", {"jitter": "10ms"}, 4),
+            ("Study", "false", {"jitter": "10ms"}, 6),
+            ("Study", "true", {"jitter": "10ms"}, 1),
+            ("Other", "false", {"jitter": "10ms"}, 7),
+            ("Plain", "false", {}, 8),
+        ]
+    ):
+        attributes = {"configname": config, "mode": "prototype", "interrupted": interrupted}
+        identity = RunIdentity(f"{config}-{number}", attributes, jitter, ())
+        found = [Scalar("Network.nodes[0].protocol", "heard:last", value)]
+        write_scalar_file(found, identity, tmp_path / f"{number}.sca")
+    assert shown["heard"](str(tmp_path)) == {
+        ("Study", "prototype", "10ms"): 5,
+        ("Other", "prototype", "10ms"): 7,
+        ("Plain", "prototype", ""): 8,
+    }
+
+
+def test_nodes_that_hear_nothing_have_no_first_time(
+    shell: Shell, folder: Path, shown: dict[str, Any]
+) -> None:
+    far = "--set '*.nodes[3].mobility.initialX=100km'"
+    shell(f"gradysim run hello.ini --mode prototype --vectors all --quiet {far}", folder)
+    times = shown["first_times"](str(folder / "results/General-#0.prototype.vec"))
+    assert list(times) == [f"Network.nodes[{index}].protocol" for index in range(3)]
 
 
 def test_its_tables_have_the_names_that_are_written(shell: Shell, root: Path, folder: Path) -> None:
