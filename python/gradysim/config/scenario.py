@@ -34,7 +34,7 @@ from gradysim.config.runs.iterations import name_iterations
 from gradysim.config.runs.labels import free_text, with_labels
 from gradysim.config.runs.numbered_runs import numbered_runs
 from gradysim.config.runs.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
-from gradysim.config.runs.settings_hash import SAME_IN_ALL_RUNS, entries_of_the_hash, settings_hash
+from gradysim.config.runs.settings_hash import entries_of_the_hash, settings_hash
 from gradysim.config.runs.variables import depends_on_run, run_variables, substitute
 from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
@@ -225,10 +225,15 @@ def load_scenarios(
     scenarios = []
     network: _Network | None = None  # that of the run before, kept while what it is made of stays the same
     made_of: tuple[str | int, ...] = ()
+    hash_of_run = ""
+    hash_is_of: Mapping[str, str] | None = None  # the iterations: no more of a run is in its hash
     for number, repetition, iterations in numbered:
         values = run_variables(file, network_of_file, config, number, repetition, iterations)
         of_file = seed_of_file(as_written, number, values)
         seed_of_run = of_file if seed is None else seed + number
+        if iterations != hash_is_of:
+            hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
+            hash_of_run, hash_is_of = settings_hash(_substituted(in_force, hashed)), iterations
         values = with_labels(values, seed_of_run, as_written)
         options = {key: substitute(entry, values) for key, entry in as_written.items()}
         texts = [substitute(entry, values).text for entry in varying]
@@ -245,7 +250,7 @@ def load_scenarios(
                 scenario,
                 repetition=repetition,
                 iterations=iterations,
-                settings_hash=settings_hash(_substituted(in_force, {**values, **SAME_IN_ALL_RUNS})),
+                settings_hash=hash_of_run,
                 run_count=run_count,
                 network=network_of_file,
                 lines=lines,

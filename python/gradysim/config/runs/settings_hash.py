@@ -18,11 +18,6 @@ _OF_NO_RUN = (
 )
 """Options that say which runs there are, or nothing of what happens in them."""
 
-SAME_IN_ALL_RUNS = {
-    name: f"${{{name}}}" for name in ("runnumber", "repetition", "seedset", "replication", "inifile")
-}
-"""Values of variables for the hash: runs that differ in their numbers alone are of the same settings."""
-
 _LENGTH = 16
 """Hexadecimal digits, as many as a fingerprint has."""
 

@@ -54,3 +54,20 @@ def test_repetitions_have_the_same_whatever_depends_on_their_number(folder: Any)
     folder.load('repeat = 2\nseed-set = ${repetition}\n**.label = "${runnumber}"\n')
     first, again = (scenario.settings_hash for scenario in load_scenarios(folder.ini))
     assert first == again
+
+
+def test_repetitions_have_the_same_whatever_label_depends_on_their_number(folder: Any) -> None:
+    labels = 'measurement-label = "m ${seedset}"\nreplication-label = "r" + string(${runnumber})\n'
+    folder.load(f'repeat = 2\n{labels}**.label = "${{measurement}} ${{replication}}"\n')
+    first, again = (scenario.settings_hash for scenario in load_scenarios(folder.ini))
+    assert first == again
+
+
+@pytest.mark.parametrize("name", ["experiment", "measurement", "replication"])
+def test_another_label_is_another_setting_if_a_value_names_it(folder: Any, name: str) -> None:
+    added = f'**.label = "${{{name}}}"\n'
+    assert hash_of(folder, added, f"{name}-label=a") != hash_of(folder, added, f"{name}-label=b")
+
+
+def test_another_label_is_none_if_no_value_names_it(folder: Any) -> None:
+    assert hash_of(folder, "", "replication-label=a") == hash_of(folder, "", "replication-label=b")
