@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "list[Scenario]":
     """Return the runs that lack a file that is asked for, and say which do not, and which are outdated.
 
-    Raises ConfigError without a folder, and for names of nodes that are none.
+    Raises ConfigError without a folder.
     """
     from gradysim.config.errors.config_error import ConfigError
     from gradysim.config.runs.file_hashes import text_of_files
@@ -25,7 +25,10 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
 
     result_dir = asked.result_dir
     if result_dir is None:
-        raise ConfigError("--resume: there is no folder to look into; expected --result-dir DIR, too")
+        raise ConfigError(
+            "--resume: it goes by the JSON files of --result-dir, which is not given;"
+            " expected --result-dir DIR, too"
+        )
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
     for scenario in scenarios:

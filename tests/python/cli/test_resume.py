@@ -2,6 +2,8 @@
 
 import json
 
+import pytest
+
 
 def results(folder):
     return {path.name: json.loads(path.read_text()) for path in (folder / "out").iterdir()}
@@ -63,7 +65,11 @@ def test_runs_of_an_edited_included_file_begin_anew(gradysim, folder):
     assert {result["sim_time_s"] for result in results(folder).values()} == {2}
 
 
-def test_it_takes_a_folder(gradysim):
-    done = gradysim("run", "test.ini", "--resume")
+@pytest.mark.parametrize("options", [[], ["--scalars"]])
+def test_it_takes_a_folder(gradysim, options):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--resume", *options)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "--resume: there is no folder to look into; expected --result-dir DIR, too\n"
+    assert done.stderr == (
+        "--resume: it goes by the JSON files of --result-dir, which is not given; expected --result-dir DIR,"
+        " too\n"
+    )
