@@ -27,7 +27,7 @@ from gradysim.commands.run_options import (
 )
 from gradysim.commands.scenarios import load
 from gradysim.commands.several_runs import one_after_the_other, several_at_once
-from gradysim.commands.simulators import simulator
+from gradysim.commands.simulators import check_names, simulator
 from gradysim.commands.warnings import (
     warn_of_bands_beside_frequencies,
     warn_of_doubtful_times,
@@ -79,6 +79,7 @@ def run(
             with waiting(f"reading {file}", shown=bar):
                 scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode, asked)
+            check_names(scenarios, asked)
             warn_of_equal_seeds(scenarios)
             if resume:
                 scenarios = left_to_do(scenarios, mode, asked)

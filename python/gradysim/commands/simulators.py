@@ -1,6 +1,6 @@
 """What checks and builds the runs of either mode, and which of their nodes options name."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -34,7 +34,6 @@ def simulator(mode: Mode, asked: Asked) -> "tuple[Check, Callable[[Scenario], Ru
 
         def check_all(scenario: "Scenario", *, is_built_next: bool) -> None:
             check_scenario(scenario)
-            nodes_of_vectors(scenario, asked)
 
         def build_prototype(scenario: "Scenario") -> "Run":
             return PrototypeRun(scenario, vectors_of=_ids(nodes_of_vectors(scenario, asked)))
@@ -47,9 +46,6 @@ def simulator(mode: Mode, asked: Asked) -> "tuple[Check, Callable[[Scenario], Ru
     def check(scenario: "Scenario", *, is_built_next: bool) -> None:
         if not is_built_next:
             check_network(scenario)
-        captures(scenario, asked)
-        ids_of_fates(scenario, asked)
-        nodes_of_vectors(scenario, asked)
 
     def build(scenario: "Scenario") -> "Run":
         return IntegratedRun(
@@ -70,22 +66,34 @@ def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
         raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")
 
 
+def check_names(scenarios: "Sequence[Scenario]", asked: Asked) -> None:
+    """Raise ConfigError for a name that an option was given, and that no node has in any of these runs."""
+    from gradysim.config.node_names import check_node_names
+
+    for option, names in (
+        ("--pcap", asked.pcap),
+        ("--fates-at", asked.fates_at),
+        ("--vectors", asked.vectors),
+    ):
+        check_node_names(scenarios, names, option)
+
+
 def ids_of_fates(scenario: "Scenario", asked: Asked) -> list[int]:
-    """Return the ids of the nodes that --fates-at names. Raises ConfigError for an unknown name."""
+    """Return the ids of the nodes that --fates-at names."""
     from gradysim.config.node_names import nodes_named
 
-    return _ids(nodes_named(scenario, asked.fates_at, "--fates-at"))
+    return _ids(nodes_named(scenario, asked.fates_at))
 
 
 def nodes_of_vectors(scenario: "Scenario", asked: Asked) -> "list[NodeSpec]":
-    """Return the nodes that --vectors names. Raises ConfigError for an unknown name."""
+    """Return the nodes that --vectors names."""
     from gradysim.config.node_names import nodes_named
 
-    return nodes_named(scenario, asked.vectors, "--vectors")
+    return nodes_named(scenario, asked.vectors)
 
 
 def captures(scenario: "Scenario", asked: Asked) -> dict[int, Path]:
-    """Return {id of a node: its capture file} of one run. Raises ConfigError for an unknown name."""
+    """Return {id of a node: its capture file} of one run."""
     from gradysim.integrated.capture import capture_files
 
     return capture_files(scenario, asked.pcap, asked.directory)

@@ -26,12 +26,11 @@ class CaptureError(RuntimeError):
 def capture_files(scenario: Scenario, names: Iterable[str], directory: Path) -> dict[int, Path]:
     """Return {id of a node: the file for what it sends and receives}, in the order of ids.
 
-    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `all`. The files are
-    `directory`/CONFIG-#RUN-NODE.pcap. Raises ConfigError for a name that the scenario has not.
+    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `all`; there is no file for a name that the
+    scenario has not. The files are `directory`/CONFIG-#RUN-NODE.pcap.
     """
     prefix = f"{scenario.config}-#{scenario.run_number}"
-    nodes = nodes_named(scenario, names, "--pcap")
-    return {node.id: directory / f"{prefix}-{node.name}.pcap" for node in nodes}
+    return {node.id: directory / f"{prefix}-{node.name}.pcap" for node in nodes_named(scenario, names)}
 
 
 def checked_captures(captures: Mapping[int, str | Path], scenario: Scenario) -> dict[int, Path]:

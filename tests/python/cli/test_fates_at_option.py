@@ -29,10 +29,21 @@ def test_resumed_runs_are_repeated_for_nodes_that_were_not_told_of(gradysim):
 
 
 @compiled
+def test_a_node_that_only_some_runs_have(gradysim, folder):
+    study = ("--set", "*.uavs.count=${2,3}", "--set", "repeat=1")
+    done = gradysim("run", "test.ini", "--json", *study, "--fates-at", "uavs[2]", "--pcap", "uavs[2]")
+    told = [[node["name"] for node in run["nodes"] if "frame_fates" in node] for run in objects(done.stdout)]
+    assert told == [[], ["uavs[2]"]]
+    assert [file.name for file in folder.glob("results/*.pcap")] == ["General-#1-uavs[2].pcap"]
+
+
+@compiled
 def test_a_wrong_node(gradysim):
     done = gradysim("run", "test.ini", "--fates-at", "uavs[7]")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("--fates-at uavs[7]: no such node in run 0; expected a node such as")
+    assert done.stderr.startswith(
+        "--fates-at uavs[7]: no such node in any of the runs; expected a node such as"
+    )
 
 
 def test_prototype_mode_has_no_frames(gradysim):

@@ -267,10 +267,26 @@ def test_a_run_without_numbers(gradysim, folder, mode):
 
 
 @both_modes
+def test_a_node_that_only_some_runs_have(gradysim, folder, mode):
+    arguments = ("run", "test.ini", "--mode", mode, "--quiet", "--vectors", "uavs[2]", "--result-dir", "out")
+    study = ("--set", "*.uavs.count=${n=2,4}", "--set", "repeat=1")
+    done = gradysim(*arguments, *study)
+    assert (done.returncode, done.stderr) == (0, "")
+    rows = read_vectors(sorted((folder / "out").glob("*.vec")), "positionX:*")
+    assert [(row["n"], row["module"]) for row in rows] == [("4", "Network.uavs[2].mobility")]
+    assert "2 of 2 runs are in out (0..1) and left out" in gradysim(*arguments, *study, "--resume").stderr
+    done = gradysim(*arguments, *study, "-r", "0")
+    assert done.returncode == 2
+    assert done.stderr.startswith("--vectors uavs[2]: no such node in run 0; expected a node such as")
+
+
+@both_modes
 def test_a_wrong_node(gradysim, mode):
     done = gradysim("run", "test.ini", "--mode", mode, "--vectors", "uavs[7]")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("--vectors uavs[7]: no such node in run 0; expected a node such as")
+    assert done.stderr.startswith(
+        "--vectors uavs[7]: no such node in any of the runs; expected a node such as"
+    )
     assert "did you mean `uavs[" in done.stderr
 
 

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.node_names import nodes_named
+from gradysim.config.node_names import check_node_names, nodes_named
 from gradysim.config.scenario import load_scenarios
 
 
@@ -30,12 +30,13 @@ def scenario(make_scenario, tmp_path):
     ],
 )
 def test_nodes_by_name(scenario, names, nodes):
-    assert [node.id for node in nodes_named(scenario, names, "--pcap")] == nodes
+    check_node_names([scenario], names, "--pcap")
+    assert [node.id for node in nodes_named(scenario, names)] == nodes
 
 
 def test_an_unknown_name_says_what_there_is(scenario):
     with pytest.raises(ConfigError) as error:
-        nodes_named(scenario, ["groundstation"], "--fates-at")
+        check_node_names([scenario], ["groundstation"], "--fates-at")
     assert str(error.value) == (
         "--fates-at groundstation: no such node; expected a node such as uavs[0],"
         " a group (uavs, groundStation) or all; did you mean `groundStation`?"
@@ -45,4 +46,26 @@ def test_an_unknown_name_says_what_there_is(scenario):
 def test_of_several_runs_the_one_without_such_a_node_is_named(scenario):
     one_of_two = replace(scenario, run_number=1, run_count=2)
     with pytest.raises(ConfigError, match=r"^--pcap uavs\[7\]: no such node in run 1; expected"):
-        nodes_named(one_of_two, ["uavs[7]"], "--pcap")
+        check_node_names([one_of_two], ["uavs[7]"], "--pcap")
+
+
+@pytest.fixture
+def study(scenario):
+    """Runs with one UAV and with three."""
+    return load_scenarios(scenario.file, overrides=["*.uavs.count = ${1, 3}"])
+
+
+def test_a_node_that_one_of_several_runs_has(study):
+    check_node_names(study, ["uavs[2]", "all"], "--vectors")
+    assert [[node.name for node in nodes_named(scenario, ["uavs[2]"])] for scenario in study] == [
+        [],
+        ["uavs[2]"],
+    ]
+
+
+def test_a_node_that_none_of_several_runs_has(study):
+    with pytest.raises(ConfigError) as error:
+        check_node_names(study, ["uavs[2]", "uavs[3]"], "--vectors")
+    assert str(error.value).startswith(
+        "--vectors uavs[3]: no such node in any of the runs; expected a node such as uavs[0], a group (uavs,"
+    )
