@@ -59,7 +59,7 @@ std::uint32_t EventQueue::take_slot() {
 
 EventHandle EventQueue::insert(SimTime time, Priority priority, Turn turn, std::uint32_t slot) {
     const std::uint32_t generation = slots_[slot].generation;
-    const std::uint64_t order = (static_cast<std::uint64_t>(priority) << 63) | turn;
+    const std::uint64_t order = (priority == Priority::last ? last_of_instant : 0) | turn;
     const EventKey key{time.ps(), order, slot, generation};
     if (heap_.size() >= large_heap && !far_.is_in_use()) {
         close_gap();

@@ -69,10 +69,18 @@ public:
 
     // Time of the next event. Only when not empty.
     SimTime next_time();
+    // All normal events of its time with lower turns have run when it does. After next_time.
+    Turn next_turn() const {
+        const std::uint64_t order = heap_.front().order;
+        return order < last_of_instant ? order : next_turn_;
+    }
+    // What is scheduled or reserved from now on has that turn, or a higher one.
+    Turn unused_turn() const { return next_turn_; }
     // Takes the next event out of the queue. Only when not empty.
     Action pop();
 
 private:
+    static constexpr std::uint64_t last_of_instant = std::uint64_t{1} << 63;  // in EventKey::order
     struct Slot {
         Action action;
         std::uint32_t generation = 1;

@@ -1,9 +1,12 @@
 #include "netsim/kernel/simulator.hpp"
 
+#include <algorithm>
+
 namespace netsim {
 
 inline void Simulator::run_next(SimTime time) {
     now_ = time;
+    turn_ = queue_.next_turn();
     ++event_count_;
     Action action = queue_.pop();
     action();
@@ -23,9 +26,8 @@ bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
         --budget_;
         run_next(time);
     }
-    if (limit > now_) {
-        now_ = limit;
-    }
+    now_ = std::max(now_, limit);
+    turn_ = queue_.unused_turn();
     return true;
 }
 

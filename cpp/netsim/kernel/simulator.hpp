@@ -46,8 +46,11 @@ public:
         --budget_;
         ++event_count_;
         now_ = time;
+        turn_ = turn;
         return true;
     }
+    // Whether an event of that time and turn, if there had been one, would have run by now: before the one that runs.
+    bool has_passed(SimTime time, Turn turn) const { return time < now_ || (time == now_ && turn < turn_); }
     bool cancel(EventHandle handle) { return queue_.cancel(handle); }
     bool is_pending(EventHandle handle) const { return queue_.is_pending(handle); }
 
@@ -62,6 +65,7 @@ private:
 
     EventQueue queue_;
     SimTime now_;
+    Turn turn_ = 0;  // events of this instant with lower ones have run
     std::uint64_t event_count_ = 0;
     SimTime limit_;             // of the run
     std::uint64_t budget_ = 0;  // so many more events in it

@@ -34,6 +34,10 @@ struct Heard {
 
 // First what whoever looks for those that matter asks of each: one cache line, with the beginning of the transmission.
 struct alignas(64) OnAir {
+    // What a radio is told of an arrival; at one time, in this order.
+    enum Edge : std::uint8_t { begins = 0, ends = 1 };
+    Turn turn_at(RadioId radio, Edge edge) const { return first_turn + 2 * static_cast<Turn>(radio) + edge; }
+
     SimTime last_end;       // at its most distant receiver, or later
     double odometer_m = 0;  // at its start
     double ring_m = 0;      // nobody farther away is in one of its rings

@@ -17,7 +17,7 @@ void EnergyForecast::begin_at(SimTime now) {
                                    [](const Step& step, SimTime time) { return step.time < time; }));
     steps_.erase(steps_.begin(), last_before);
     steps_.front().time = now - SimTime::from_ps(1);
-    std::erase_if(untold_, [now](const Coming& coming) { return coming.end <= now; });
+    std::erase_if(untold_, [now](const Coming& coming) { return coming.end < now; });
 }
 
 void EnergyForecast::add_untold(const Coming& coming) {
@@ -43,9 +43,9 @@ void EnergyForecast::add_told(const Coming& coming, SimTime sensed_from, bool is
 }
 
 SimTime EnergyForecast::told_until(double level_w) const {
-    for (std::size_t i = first_step(); i < steps_.size(); ++i) {
-        if (!steps_[i].is_told(level_w)) {
-            return std::max(steps_[i].time, now_);
+    for (const Step& step : steps_) {
+        if (!step.is_told(level_w)) {
+            return std::max(step.time, now_);
         }
     }
     return std::max(steps_.back().time, now_);

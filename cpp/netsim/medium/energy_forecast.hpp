@@ -31,7 +31,7 @@ public:
 
     // Nothing is on the air. Keeps its memory.
     void begin(double noise_w);
-    // What was before `now` is of no interest any more. Of what is added from then on nothing is over.
+    // What was before `now` is of no interest any more. Of what is added from then on nothing is over before.
     void begin_at(SimTime now);
     // The receiver was not told of it yet.
     void add_untold(const Coming& coming);
@@ -42,7 +42,7 @@ public:
     // Whether all that was added has ended before `now`.
     bool is_over(SimTime now) const { return steps_.back().time < now; }
 
-    // What was told reaches the level from now on and until then, or longer if nothing is known to change then; now if it does
+    // What was told reaches the level from just before now on and until then, or longer if nothing is known to change then; now if it does
     // not reach it.
     SimTime told_until(double level_w) const;
     std::size_t untold_count() const { return untold_.size(); }
@@ -66,15 +66,15 @@ private:
         bool is_told(double level_w) const { return told_w * (1 - margin) >= level_w; }
     };
 
-    // Which of them holds now.
-    std::size_t first_step() const { return steps_.size() > 1 && steps_[1].time <= now_ ? 1 : 0; }
     void change_at(SimTime time);
     void add_to_all(SimTime start, SimTime end, double power_w);
     void add_to_told(SimTime start, SimTime end, double power_w);
     std::optional<Coming> take_strongest_untold(const Step& step);
 
     SimTime now_;
-    std::vector<Step> steps_;  // by time, moments first; the first one holds just before `now_`
+    // By time, moments first. The first one holds just before `now_`, and perhaps still: whether what changes now has done so
+    // is not known here.
+    std::vector<Step> steps_;
     std::vector<Coming> untold_;
 };
 
@@ -84,8 +84,7 @@ private:
 template <typename Tell>
 double EnergyForecast::settle(double level_w, const Tell& tell) {
     double missing_w = std::numeric_limits<double>::infinity();
-    const std::size_t first = first_step();
-    for (std::size_t i = steps_.size(); i > first; --i) {
+    for (std::size_t i = steps_.size(); i > 0; --i) {
         const Step& step = steps_[i - 1];
         while (!step.is_told(level_w) && step.all_w * (1 + margin) >= level_w) {
             const std::optional<Coming> strongest = take_strongest_untold(step);

@@ -237,7 +237,7 @@ void EnergyWatch::foresee(EnergyForecast& forecast, RadioId radio, const Positio
     }
     ++look_count_;
     const Arrival arrival = airwaves_.arrival_at(on_air, radio, place, simulator_.now());
-    if (arrival.end <= simulator_.now()) {
+    if (has_ended(on_air, arrival, radio)) {
         return;
     }
     const EnergyForecast::Coming coming{sent.id, arrival.start, arrival.end, arrival.power_w};

@@ -93,6 +93,10 @@ private:
     void look_at(RadioId radio, SimTime time);
     // The same for one that gets `received_w` of one transmission, and of the others at most what is in `bounds_`.
     double missing_by_bounds(RadioId radio, const Position& place, double received_w);
+    // There, as the radio itself would have it.
+    bool has_ended(const OnAir& on_air, const Arrival& arrival, RadioId radio) const {
+        return simulator_.has_passed(arrival.end, on_air.turn_at(radio, OnAir::ends));
+    }
     void foresee(EnergyForecast& forecast, RadioId radio, const Position& place, const OnAir& on_air);
     bool may_be_in_a_ring(const Position& place, SimTime since) const;
     double find_passing(RadioId radio, const Position& place, SimTime since);

@@ -69,7 +69,7 @@ void EnergyWatch::watch_the_rest(RadioId radio, const Position& place) {
     std::erase_if(passing_, [&](const Passing& passing) {
         return passing.on_air->last_end <= now ||
                (passing.is_in_its_ring &&
-                airwaves_.arrival_at(*passing.on_air, radio, place, now).end <= now);
+                has_ended(*passing.on_air, airwaves_.arrival_at(*passing.on_air, radio, place, now), radio));
     });
     double present_w = 0;
     for (const Passing& passing : passing_) {
@@ -97,11 +97,11 @@ double EnergyWatch::missing_beside_those_coming(RadioId radio, const Position& p
     std::size_t coming = 0;
     for (const Passing& passing : passing_) {
         const Arrival arrival = airwaves_.arrival_at(*passing.on_air, radio, place, now);
-        if (arrival.end <= now) {
+        if (has_ended(*passing.on_air, arrival, radio)) {
             continue;
         }
         present_w += arrival.power_w;
-        if (arrival.start <= now) {
+        if (simulator_.has_passed(arrival.start, passing.on_air->turn_at(radio, OnAir::begins))) {
             arrived_w += arrival.power_w;
         } else {
             next_start = std::min(next_start, arrival.start);
@@ -112,7 +112,7 @@ double EnergyWatch::missing_beside_those_coming(RadioId radio, const Position& p
     if (missing_w > 0) {
         return missing_w;
     }
-    if (here.missing_beside_w(arrived_w) > 0 && coming >= worth_an_event) {
+    if (next_start > now && here.missing_beside_w(arrived_w) > 0 && coming >= worth_an_event) {
         look_at(radio, just_before(next_start));
         return unknown_w;
     }
@@ -127,9 +127,9 @@ SimTime EnergyWatch::over_at(RadioId radio, const Position& place, SimTime since
     for (const Passing& passing : passing_) {
         const Arrival arrival = airwaves_.arrival_at(*passing.on_air, radio, place, now);
         if (arrival.end > since) {
-            const Turn turn = passing.on_air->first_turn + 2 * static_cast<Turn>(radio);
-            changes_.push_back({arrival.start, turn, &passing, true});
-            changes_.push_back({arrival.end, turn + 1, &passing, false});
+            const OnAir& on_air = *passing.on_air;
+            changes_.push_back({arrival.start, on_air.turn_at(radio, OnAir::begins), &passing, true});
+            changes_.push_back({arrival.end, on_air.turn_at(radio, OnAir::ends), &passing, false});
         }
     }
     std::ranges::sort(changes_, [](const Change& a, const Change& b) {
@@ -139,7 +139,7 @@ SimTime EnergyWatch::over_at(RadioId radio, const Position& place, SimTime since
     SimTime over = SimTime::long_ago();
     bool was_loud = false;
     for (const Change& change : changes_) {
-        if (change.time > now) {
+        if (!simulator_.has_passed(change.time, change.turn)) {
             break;
         }
         if (change.begins) {

@@ -189,24 +189,24 @@ void Medium::schedule_arrivals(OnAir& entry) {
         return;
     }
     put_in_order(entry.heard, entry.transmission.start, spare_);
-    schedule_next(entry, Edge::begins);
-    schedule_next(entry, Edge::ends);
+    schedule_next(entry, OnAir::begins);
+    schedule_next(entry, OnAir::ends);
 }
 
-Medium::Due Medium::next_due(const OnAir& entry, Edge edge) {
+Medium::Due Medium::next_due(const OnAir& entry, OnAir::Edge edge) {
     const Heard& next = entry.heard[entry.told[edge]];
-    return {edge == Edge::begins ? next.start : next.start + entry.transmission.duration,
-            entry.first_turn + 2 * static_cast<Turn>(next.radio) + edge};
+    return {edge == OnAir::begins ? next.start : next.start + entry.transmission.duration,
+            entry.turn_at(next.radio, edge)};
 }
 
-void Medium::schedule_next(OnAir& entry, Edge edge) {
+void Medium::schedule_next(OnAir& entry, OnAir::Edge edge) {
     const Due due = next_due(entry, edge);
     simulator_.schedule_at_turn(due.time, due.turn, [this, &entry, edge] { tell_next(entry, edge); });
 }
 
 // And of those after it, as long as nothing else is due in between: mostly they come in one go, and need not pass through
 // the queue.
-void Medium::tell_next(OnAir& entry, Edge edge) {
+void Medium::tell_next(OnAir& entry, OnAir::Edge edge) {
     Due due;
     do {
         const Heard& heard = entry.heard[entry.told[edge]++];
@@ -219,7 +219,7 @@ void Medium::tell_next(OnAir& entry, Edge edge) {
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
             MediumListener& listener = *touched_[heard.radio].listener;
-            edge == Edge::begins ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
+            edge == OnAir::begins ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
         } catch (...) {  // a protocol's: the others hear the frame all the same
             if (!is_last) {
                 schedule_next(entry, edge);
@@ -245,22 +245,26 @@ void Medium::tell(RadioId radio, OnAir& on_air, const Arrival& arrival) {
         on_air.places.push_back(arrival.place);
         return;
     }
+    if (simulator_.has_passed(arrival.end, on_air.turn_at(radio, OnAir::ends))) {
+        return;
+    }
     const std::size_t apart = on_air.told_apart.size();
     on_air.told_apart.push_back(arrival);
-    if (arrival.start < simulator_.now()) {
+    const Turn turn = on_air.turn_at(radio, OnAir::begins);
+    if (simulator_.has_passed(arrival.start, turn)) {
         // It came to matter after it had begun: nothing that the radio could have noticed happened in
         // between.
         begin(radio, on_air, apart);
         return;
     }
-    simulator_.schedule_at_turn(arrival.start, on_air.first_turn + 2 * static_cast<Turn>(radio),
+    simulator_.schedule_at_turn(arrival.start, turn,
                                 [this, radio, &on_air, apart] { begin(radio, on_air, apart); });
 }
 
 void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
     const Arrival arrival = on_air.told_apart[apart];  // a copy: others may be told meanwhile
     touched_[radio].listener->arrival_started(arrival);
-    simulator_.schedule_at_turn(arrival.end, on_air.first_turn + 2 * static_cast<Turn>(radio) + 1,
+    simulator_.schedule_at_turn(arrival.end, on_air.turn_at(radio, OnAir::ends),
                                 [this, radio, &on_air, apart] {
                                     const Arrival ended = on_air.told_apart[apart];
                                     touched_[radio].listener->arrival_ended(ended);

@@ -95,8 +95,6 @@ private:
         const void* upper_layer = nullptr;
         const void* protocol = nullptr;
     };
-    // What a radio is told of an arrival; at one time, in this order.
-    enum Edge : std::uint8_t { begins = 0, ends = 1 };
     struct Due {
         SimTime time;
         Turn turn = 0;
@@ -109,9 +107,9 @@ private:
     void fetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(OnAir& entry);
     // Of the next one to start or to end.
-    static Due next_due(const OnAir& entry, Edge edge);
-    void schedule_next(OnAir& entry, Edge edge);
-    void tell_next(OnAir& entry, Edge edge);
+    static Due next_due(const OnAir& entry, OnAir::Edge edge);
+    void schedule_next(OnAir& entry, OnAir::Edge edge);
+    void tell_next(OnAir& entry, OnAir::Edge edge);
     // Of an arrival that it does not notice alone, or in the plain model.
     void tell(RadioId radio, OnAir& on_air, const Arrival& arrival);
     void begin(RadioId radio, const OnAir& on_air, std::size_t apart);

@@ -109,6 +109,39 @@ TEST(Simulator, AnEventIsNotPendingWhileItRuns) {
     EXPECT_FALSE(pending);
 }
 
+TEST(Simulator, KnowsWhichTurnsOfAnInstantHavePassed) {
+    Simulator simulator;
+    const Turn before = simulator.reserve_turns(1);
+    std::vector<bool> passed;
+    simulator.schedule_at(us(1), [&] {
+        const Turn after = simulator.reserve_turns(1);
+        for (const Turn turn : {before, after}) {
+            passed.push_back(simulator.has_passed(us(1), turn));
+        }
+        passed.push_back(simulator.has_passed(us(2), before));
+        passed.push_back(simulator.has_passed(us(0), after));
+    });
+    simulator.run_until(us(1));
+    EXPECT_EQ(passed, (std::vector{true, false, false, true}));
+}
+
+TEST(Simulator, AtTheEndOfAnInstantAllTurnsOfBeforeHavePassed) {
+    Simulator simulator;
+    Turn earlier = 0;
+    bool passed = false;
+    bool new_one_passed = true;
+    const auto at_its_end = [&] {
+        passed = simulator.has_passed(us(1), earlier);
+        new_one_passed = simulator.has_passed(us(1), simulator.reserve_turns(1));
+    };
+    simulator.schedule_at(us(1), at_its_end, Priority::last);
+    earlier = simulator.reserve_turns(1);
+    simulator.run_until(us(1));
+    EXPECT_TRUE(passed);
+    EXPECT_FALSE(new_one_passed);
+    EXPECT_TRUE(simulator.has_passed(us(1), earlier));
+}
+
 // An event at 1 µs and its successors, one a microsecond up to 5 µs, which go on without the queue where they may.
 class Chain {
 public:

@@ -116,7 +116,7 @@ TEST_F(EnergyForecastTest, WhatIsOverDoesNotCount) {
     forecast.add_untold({1, us(1), us(10), 0.6 * level_w});
     forecast.add_untold({2, us(1), us(20), 0.1 * level_w});
     told.settle();
-    forecast.begin_at(us(10));
+    forecast.begin_at(us(11));
     EXPECT_NEAR(told.settle(), 0.9 * level_w - noise_w, tiny_w);
     forecast.add_untold({3, us(11), us(30), 0.7 * level_w});
     EXPECT_NEAR(told.settle(), 0.2 * level_w - noise_w, tiny_w);
@@ -160,7 +160,7 @@ TEST_F(EnergyForecastTest, ALoudOneThatEndsBeforeItIsSensedIsOfNoInterest) {
 }
 
 TEST_F(EnergyForecastTest, IsToldUntilWhatWasToldIsNotEnough) {
-    forecast.add_told({1, us(0), us(10), 2 * level_w}, us(0), true);
+    forecast.add_told({1, us(-1), us(10), 2 * level_w}, us(-1), true);
     forecast.add_told({2, us(5), us(20), 0.6 * level_w}, us(5), false);
     forecast.add_told({3, us(5), us(15), 0.6 * level_w}, us(5), false);
     EXPECT_EQ(forecast.told_until(level_w), us(15));
@@ -171,8 +171,14 @@ TEST_F(EnergyForecastTest, IsToldUntilNowWhileWhatWasToldIsNotEnough) {
     EXPECT_EQ(forecast.told_until(level_w), us(0));
 }
 
-TEST_F(EnergyForecastTest, IsToldUntilTheMomentInWhichOneEndsAndTheNextBegins) {
+// Perhaps it has not begun yet: what is due in the same instant has turns.
+TEST_F(EnergyForecastTest, IsToldUntilNowIfWhatWasToldBeginsNow) {
     forecast.add_told({1, us(0), us(10), 2 * level_w}, us(0), true);
+    EXPECT_EQ(forecast.told_until(level_w), us(0));
+}
+
+TEST_F(EnergyForecastTest, IsToldUntilTheMomentInWhichOneEndsAndTheNextBegins) {
+    forecast.add_told({1, us(-1), us(10), 2 * level_w}, us(-1), true);
     forecast.add_told({2, us(10), us(20), 2 * level_w}, us(10), true);
     EXPECT_EQ(forecast.told_until(level_w), us(10));
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -16,7 +17,12 @@ using test::BareRadio;
 using test::light_microsecond_m;
 using test::RadioEvent;
 using test::RadioWord;
+using test::Station;
 using test::us;
+
+std::string name_of(const testing::TestParamInfo<Hearing>& given) {
+    return given.param == Hearing::everything ? "everything" : "what_matters";
+}
 
 // Two or three signals at one receiver, none of which it would notice alone.
 class EnergyThatAddsUp : public testing::TestWithParam<Hearing> {
@@ -157,11 +163,59 @@ TEST_P(EnergyThatAddsUp, OfManyIsNoticedIfItArrivesAfterALoudFrameBesideWhichThe
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(21), us(135)}));
 }
 
+// A station that gets its message in an instant in which something changes; its channel is busy before and after it.
+class EnergyOfOneInstant : public testing::TestWithParam<Hearing> {
+protected:
+    EnergyOfOneInstant() : air(MediumConfig(), GetParam()) {
+        RadioConfig config;
+        config.sensitivity_w = 1e-9;
+        config.energy_detection_w = 1e-10;
+        station = &air.add_station({0, 0, 0}, MacConfig(), config);
+    }
+    // Each alone is not noticed, three are.
+    void weak_frame(double from_light_us, SimTime start) {
+        const double from_m = from_light_us * light_microsecond_m;
+        BareRadio& sender =
+            air.add_radio({0, from_m, 0}, test::radio_of_power(test::power_for(3.5e-11, from_m)));
+        air.at(start, [&sender] { sender.send(us(400)); });
+    }
+    bool is_sending_at(SimTime time) {
+        bool is_sending = false;
+        air.at(time, [&] { is_sending = station->radio.is_transmitting(); });
+        air.run(time);
+        return is_sending;
+    }
+
+    Air air;
+    Station* station = nullptr;
+};
+
+TEST_P(EnergyOfOneInstant, IsNoticedByWhoGetsItsMessageAfterItArrived) {
+    for (const int i : {1, 2, 3}) {
+        weak_frame(i, us(100 - i));
+    }
+    const auto after_them = [this] {
+        air.simulator.schedule_at(us(100), [this] { station->send(broadcast_id, 100); });
+    };
+    air.at(us(99) + SimTime::from_ns(500), after_them);
+    EXPECT_FALSE(is_sending_at(us(101)));
+}
+
+TEST_P(EnergyOfOneInstant, IsNoticedThoughALoudFrameIsAboutToBegin) {
+    for (const int i : {1, 2, 3, 4}) {
+        weak_frame(i, us(50));
+    }
+    BareRadio& beside = air.add_radio({0, 0, 0}, test::radio_of_power(1e-3));
+    air.at(us(100), [&beside] { beside.send(us(30)); });
+    air.at(us(100), [this] { station->send(broadcast_id, 100); });
+    EXPECT_FALSE(is_sending_at(us(101)));
+}
+
 INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp,
-                         testing::Values(Hearing::what_matters, Hearing::everything),
-                         [](const auto& param_info) {
-                             return param_info.param == Hearing::everything ? "everything" : "what_matters";
-                         });
+                         testing::Values(Hearing::what_matters, Hearing::everything), name_of);
+
+INSTANTIATE_TEST_SUITE_P(Hearings, EnergyOfOneInstant,
+                         testing::Values(Hearing::what_matters, Hearing::everything), name_of);
 
 // Very many frames at once, of which it takes some to make a channel busy.
 TEST(EnergyOfVeryMany, LooksAtEachTransmissionAFewTimesAtEachRadio) {

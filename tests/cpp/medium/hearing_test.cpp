@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "support/far_flung_scenario.hpp"
+#include "support/light_step_scenario.hpp"
 #include "support/narrowband_scenario.hpp"
 #include "support/random_interfaces.hpp"
 #include "support/random_path_loss.hpp"
@@ -138,6 +139,12 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterface
     });
 }
 
+class LightStepScenarios : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(LightStepScenarios, TakeTheSameCourseAsWithThePlainModel) {
+    expect_same_courses(GetParam(), 100, test::make_light_step_scenario);
+}
+
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
@@ -226,6 +233,7 @@ TEST(RandomScenario, MeetsEveryFateOften) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Batches, RandomScenarios, testing::Range<std::uint64_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Batches, LightStepScenarios, testing::Range<std::uint64_t>(0, 10));
 INSTANTIATE_TEST_SUITE_P(Batches, NarrowbandScenarios, testing::Range<std::uint64_t>(0, 10));
 INSTANTIATE_TEST_SUITE_P(Batches, FarFlungScenarios, testing::Range<std::uint64_t>(0, 10));
 
