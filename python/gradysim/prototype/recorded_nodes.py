@@ -1,29 +1,24 @@
-"""Has the nodes of a simulation tell recorders what they do over time."""
+"""Has a node of a simulation tell a recorder what it does over time."""
 
-from collections.abc import Mapping
+from collections.abc import Callable
 from typing import Any
 
 from gradysim.encapsulator.watched_provider import watch_tracked_variables
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.results.node_recorder import NodeRecorder
 from gradysim.simulator.node import Node
-from gradysim.simulator.simulation import Simulator
 
 _PS_PER_S = 1e12
 
 
-def record_nodes(simulator: Simulator, recorders: Mapping[int, NodeRecorder]) -> None:
-    """Have nodes, by their ids, recorded; to be called before the simulation begins."""
-    for node_id, recorder in recorders.items():
-        _record(simulator, simulator.get_node(node_id), recorder)
-
-
-def _record(simulator: Simulator, node: Node[Any], recorder: NodeRecorder) -> None:
+def record_node(node: Node[Any], recorder: NodeRecorder) -> None:
+    """Have a node recorded. To be called before its protocol is made: it may keep `tracked_variables`."""
     encapsulator = node.protocol_encapsulator
     handle_telemetry = encapsulator.handle_telemetry
+    current_time: Callable[[], float] = encapsulator.provider.current_time
 
     def now_ps() -> int:
-        return round(simulator.current_time * _PS_PER_S)
+        return round(current_time() * _PS_PER_S)
 
     def record_and_handle(telemetry: Telemetry) -> None:
         recorder.position_told(now_ps(), *telemetry.current_position)

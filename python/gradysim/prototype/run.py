@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
 from gradysim.config.scenario import Scenario, require_scenario
-from gradysim.prototype.recorded_nodes import record_nodes
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
@@ -50,8 +49,7 @@ class PrototypeRun:
         self._complete = False
         random.seed(scenario.seed)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
-        self._simulator, self._ledger = build_simulation(scenario, handlers, real_time)
-        record_nodes(self._simulator, self._recorders)
+        self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
 
     def execute(
         self,

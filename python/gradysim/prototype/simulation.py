@@ -1,6 +1,7 @@
 """A scenario as a simulation of the plain simulator in Python."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.config.errors.config_error import ConfigError
@@ -8,6 +9,8 @@ from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeProtocol, text_of_only_integrated
 from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import Scenario
+from gradysim.prototype.recorded_nodes import record_node
+from gradysim.results.node_recorder import NodeRecorder
 from gradysim.results.run_file import run_name
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.copy_ledger import CopyLedger
@@ -16,16 +19,20 @@ from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
 
 
 def build_simulation(
-    scenario: Scenario, handlers: Iterable[INodeHandler] = (), real_time: bool | float = False
+    scenario: Scenario,
+    handlers: Iterable[INodeHandler] = (),
+    real_time: bool | float = False,
+    recorders: Mapping[int, NodeRecorder] | None = None,
 ) -> tuple[Simulator, CopyLedger]:
     """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
     `handlers` come beside those of communication, timers and mobility, and after them; `real_time` is that of
-    `SimulationConfiguration`.
+    `SimulationConfiguration`; `recorders` are told what nodes, by their ids, do over time.
 
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
     handlers cannot be added, what the constructor of a protocol raises, and SitlError when an autopilot does
@@ -50,10 +57,15 @@ def build_simulation(
         builder.add_handler(handler)
     for spec in scenario.nodes:
         builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
-    simulator = builder.build()
     name = run_name(scenario, "prototype")
-    for node in simulator.nodes:
+    recorded = recorders or {}
+
+    def prepare(node: Node[Any]) -> None:
         node.protocol_encapsulator.provider.run_name = name
+        if node.id in recorded:
+            record_node(node, recorded[node.id])
+
+    simulator = builder.prepare_nodes(prepare).build()
     if isinstance(mobility, FlownMobilityHandler):
         mobility.take_off()
     return simulator, ledger

@@ -6,7 +6,7 @@ import random
 import threading
 import time
 import weakref
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from datetime import timedelta
 from pathlib import Path
 from typing import Any
@@ -54,9 +54,12 @@ class Simulator:
 
     Attributes:
         seed: What all random numbers of the run follow from.
+        prepare_node: Called with each node, if it is set, before its protocol is made; the encapsulator has
+            its provider by then.
     """
 
     seed: int
+    prepare_node: Callable[[Node[Any]], None] | None = None
 
     def __init__(self, handlers: Mapping[str, INodeHandler], configuration: SimulationConfiguration) -> None:
         """Make a simulation without nodes.
@@ -128,6 +131,8 @@ class Simulator:
         node.position = checked_point("the position of a node", position, ValueError)
         node.seed = self.seed
         node.protocol_encapsulator = PythonEncapsulator(node, **self._handlers)
+        if self.prepare_node is not None:
+            self.prepare_node(node)
         node.protocol_encapsulator.encapsulate(_checked_protocol(protocol))
         self._nodes[identifier] = node
         for handler in self._handlers.values():
@@ -362,6 +367,12 @@ class SimulationBuilder:
         self._configuration = checked_configuration(configuration, SimulationConfiguration)
         self._handlers: dict[str, INodeHandler] = {}
         self._nodes: list[tuple[type[IProtocol], Position]] = []
+        self._prepare_node: Callable[[Node[Any]], None] | None = None
+
+    def prepare_nodes(self, prepare_node: Callable[[Node[Any]], None]) -> "SimulationBuilder":
+        """Have each node given to `Simulator.prepare_node` as it is made; returns the builder."""
+        self._prepare_node = prepare_node
+        return self
 
     def add_handler(self, handler: INodeHandler) -> "SimulationBuilder":
         """Add a handler, instead of the one with the same label if there is one; returns the builder."""
@@ -385,6 +396,7 @@ class SimulationBuilder:
     def build(self) -> Simulator:
         """Make the simulation: inject the event loop into the handlers, then make the nodes in order."""
         simulator = Simulator(self._handlers, self._configuration)
+        simulator.prepare_node = self._prepare_node
         for identifier, (protocol, position) in enumerate(self._nodes):
             simulator.create_node(position, protocol, identifier)
         return simulator

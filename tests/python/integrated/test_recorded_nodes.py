@@ -21,6 +21,20 @@ class Tested(Quiet):
         self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))
 """
 
+EARLY = """
+class Tested(Quiet):
+    @classmethod
+    def instantiate(cls, provider):
+        protocol = super().instantiate(provider)
+        protocol.tracked = provider.tracked_variables
+        protocol.tracked["made"] = 1
+        return protocol
+    def initialize(self):
+        self.tracked["begun"] = 2
+    def handle_telemetry(self, telemetry):
+        self.tracked["begun"] += 1
+"""
+
 REBOUND = """
 class Tested(Quiet):
     def initialize(self):
@@ -55,7 +69,7 @@ def test_it_records_the_nodes_that_it_is_asked_for(make_scenario):
     assert [node.vectors is not None for node in nodes] == [False, True]
 
 
-@pytest.mark.parametrize("python", [COUNTER, FLYING], ids=["tracked", "flying"])
+@pytest.mark.parametrize("python", [COUNTER, FLYING, EARLY], ids=["tracked", "flying", "early"])
 def test_it_is_what_prototype_mode_records(make_scenario, python):
     scenario = make_scenario(python)
     ours = vectors_of(run(scenario, vectors_of=[0]))

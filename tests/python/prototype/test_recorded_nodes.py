@@ -1,3 +1,5 @@
+import pytest
+
 from gradysim.prototype.run import PrototypeRun, run
 
 COUNTER = """
@@ -16,6 +18,18 @@ FLYING = """
 class Tested(Quiet):
     def initialize(self):
         self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))
+"""
+
+EARLY = """
+class Tested(Quiet):
+    @classmethod
+    def instantiate(cls, provider):
+        protocol = super().instantiate(provider)
+        protocol.tracked = provider.tracked_variables
+        protocol.tracked["made"] = 1
+        return protocol
+    def handle_telemetry(self, telemetry):
+        self.tracked["told"] = self.tracked.get("told", 0) + 1
 """
 
 
@@ -54,8 +68,17 @@ def test_the_place_at_each_telemetry(make_scenario):
     assert set(vectors["positionX"].values) == {0}
 
 
-def test_the_run_is_the_same(make_scenario):
-    asked, unasked = (run(make_scenario(), vectors_of=ids) for ids in ([0, 1], []))
+def test_variables_that_the_protocol_took_when_it_was_made(make_scenario):
+    result = run(make_scenario(EARLY), vectors_of=[0])
+    vectors = vectors_of(result)
+    assert (list(vectors["made"].times_ps), list(vectors["made"].values)) == ([0], [1])
+    assert list(vectors["told"].values) == [1, 2, 3, 4]
+    assert result.nodes[0].tracked_variables == {"made": 1, "told": 4}
+
+
+@pytest.mark.parametrize("python", ["class Tested(Talker): pass", EARLY], ids=["late", "early"])
+def test_the_run_is_the_same(make_scenario, python):
+    asked, unasked = (run(make_scenario(python), vectors_of=ids) for ids in ([0, 1], []))
     assert (asked.fates, asked.events) == (unasked.fates, unasked.events)
     assert [node.tracked_variables for node in asked.nodes] == [
         node.tracked_variables for node in unasked.nodes

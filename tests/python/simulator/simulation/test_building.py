@@ -42,6 +42,18 @@ def test_building_twice_makes_two_simulations():
     assert fired(tested) == ["1", "1"]
 
 
+def test_nodes_are_prepared_before_their_protocols_are_made():
+    seen = []
+    builder = SimulationBuilder()
+    builder.add_node(protocol(), (0, 0, 0))
+    builder.add_node(protocol(), (0, 0, 0))
+    builder.prepare_nodes(
+        lambda node: seen.append((node.id, hasattr(node.protocol_encapsulator, "protocol")))
+    )
+    builder.build()
+    assert seen == [(0, False), (1, False)]
+
+
 def test_an_unknown_node_is_an_error():
     with pytest.raises(KeyError, match=r"no node 5, only \[0\]"):
         build(protocol()).get_node(5)
