@@ -65,8 +65,13 @@ class TrackedVariables(dict[str, Any]):
             self._on_change(name, None)
 
     def replace(self, variables: Mapping[str, Any]) -> None:
-        """Become equal to `variables`, for a protocol that assigns another dict; removals come first."""
-        values = dict(variables)  # a copy, as it may be this very dict
+        """Become equal to `variables`, for a protocol that assigns another dict; removals come first.
+
+        Nothing is reported if they are this very dict: `provider.tracked_variables |= {"b": 2}` assigns it.
+        """
+        if variables is self:
+            return
+        values = dict(variables)
         for name in [name for name in self if name not in values]:
             del self[name]
         self.update(values)

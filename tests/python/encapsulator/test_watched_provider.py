@@ -34,6 +34,12 @@ def test_another_dictionary_is_watched_too(provider, changes):
     assert changes == [("old", 1), ("old", None), ("new", 2), ("new", 3)]
 
 
+def test_items_that_are_merged_are_told_once(provider, changes):
+    provider.tracked_variables["old"] = 1
+    provider.tracked_variables |= {"new": 2}
+    assert changes == [("old", 1), ("new", 2)]
+
+
 def test_what_was_tracked_before_is_told_first(changes):
     provider = PythonProvider(Node())
     provider.tracked_variables["early"] = 5
