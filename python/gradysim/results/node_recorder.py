@@ -1,7 +1,7 @@
 """Records what the numbers of a node are over time; whoever runs the node tells it."""
 
 from array import array
-from collections.abc import Iterable
+from collections.abc import Iterable, Sized
 
 from gradysim.protocol.number import as_float
 from gradysim.protocol.plain_value import key_text
@@ -40,13 +40,25 @@ class NodeRecorder:
             coordinates.append(value)
 
     def vectors(self) -> tuple[Vector, ...]:
-        """Return what was recorded up to now, the tracked variables in the order of their first numbers."""
-        tracked = [Vector("protocol", key_text(name), *vector) for name, vector in self._tracked.items()]
+        """Return what was recorded up to now, the tracked variables in the order of their first numbers.
+
+        These are copies, since an array that somebody has a view of (`numpy.asarray`) cannot grow.
+        """
+        tracked = []
+        for name, (times_ps, values) in self._tracked.items():
+            count = _whole_rows(times_ps, values)
+            tracked.append(Vector("protocol", key_text(name), times_ps[:count], values[:count]))
+        count = _whole_rows(self._position_times, *self._positions)
         positions = [
-            Vector("mobility", f"position{axis}", self._position_times, coordinates, "m")
+            Vector("mobility", f"position{axis}", self._position_times[:count], coordinates[:count], "m")
             for axis, coordinates in zip("XYZ", self._positions, strict=True)
         ]
         return (*tracked, *positions)
+
+
+def _whole_rows(*columns: Sized) -> int:
+    """How many rows there are, without one that Ctrl-C came into."""
+    return min(map(len, columns))
 
 
 def recorders_of(vectors_of: Iterable[int], count: int) -> dict[int, NodeRecorder]:

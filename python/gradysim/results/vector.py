@@ -14,7 +14,8 @@ Values: TypeAlias = "array[float]"
 class Vector:
     """One number over time: a variable that a protocol tracks, or a coordinate. A row for each assignment.
 
-    The arrays go to numpy without a copy (`numpy.asarray(vector.values)`), and still grow if the run does.
+    The arrays are of one length, and go to numpy without a copy (`numpy.asarray(vector.values)`). Of a run
+    that goes on they are what was recorded when its result was taken.
     """
 
     part: str

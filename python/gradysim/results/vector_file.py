@@ -34,7 +34,12 @@ def write_vector_file(vectors: Iterable[tuple[str, Vector]], identity: RunIdenti
     """
     with new_database(path, identity) as connection:
         rows = [
-            zip(vector.times_ps, repeat(_insert(connection, module, vector)), vector.values, strict=False)
+            zip(
+                vector.times_ps,
+                repeat(_insert(connection, module, vector), len(vector.times_ps)),
+                vector.values,
+                strict=True,
+            )
             for module, vector in vectors
         ]
         connection.executemany(

@@ -109,6 +109,20 @@ def test_the_run_is_the_same(make_scenario):
     assert (asked.fingerprint, asked.events) == (unasked.fingerprint, unasked.events)
 
 
+def test_a_view_of_what_was_recorded_does_not_end_the_run(make_scenario):
+    views = []
+
+    def look():
+        views.extend(memoryview(vector.values) for vector in watched.result().nodes[0].vectors)
+        return False
+
+    scenario = make_scenario(FLYING, "*.uavs[*].mobility.telemetryInterval = 10ms")
+    watched = IntegratedRun(scenario, vectors_of=[0])
+    watched.execute(should_stop=look)
+    assert views
+    assert vectors_of(watched.result()) == vectors_of(run(scenario, vectors_of=[0]))
+
+
 def test_a_run_that_was_stopped_has_what_has_been(make_scenario):
     stopped = IntegratedRun(make_scenario(COUNTER), vectors_of=[0])
     stopped.execute(should_stop=lambda: True)

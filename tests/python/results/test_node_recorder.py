@@ -50,6 +50,25 @@ def test_positions_are_three_vectors_with_the_same_times():
     assert {tuple(vector.times_ps) for vector in vectors} == {(5, 9)}
 
 
+def test_who_looks_at_the_arrays_does_not_stop_the_recording():
+    recorder = NodeRecorder()
+    recorder.variable_set(1, "v", 7)
+    recorder.position_told(1, 1.0, 2.0, 3.0)
+    views = [memoryview(array) for vector in recorder.vectors() for array in (vector.times_ps, vector.values)]
+    recorder.variable_set(2, "v", 8)
+    recorder.position_told(2, 1.5, 2.0, 3.0)
+    assert {len(view) for view in views} == {1}
+    assert {len(vector.values) for vector in recorder.vectors()} == {2}
+
+
+def test_a_row_that_is_not_whole_is_left_out():
+    recorder = NodeRecorder()
+    recorder.position_told(1, 1.0, 2.0, 3.0)
+    with pytest.raises(TypeError):
+        recorder.position_told(2, 1.5, None, 3.0)
+    assert [list(vector.values) for vector in recorder.vectors()] == [[1.0], [2.0], [3.0]]
+
+
 def test_a_name_that_is_no_text_becomes_one():
     recorder = NodeRecorder()
     recorder.variable_set(1, 5, 7)

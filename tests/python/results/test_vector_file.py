@@ -93,3 +93,8 @@ def test_the_rows_of_a_vector_are_found_by_an_index(rows):
     assert rows([HEARD], "SELECT name, tbl_name FROM sqlite_master WHERE type = 'index'") == [
         ("vectorData_idx", "vectorData")
     ]
+
+
+def test_times_and_values_that_are_not_as_many_are_an_error(rows):
+    with pytest.raises(ValueError, match="argument 3 is shorter"):
+        rows([("N.a", "protocol", "v", [1, 2], [1.0])], "SELECT * FROM vectorData")
