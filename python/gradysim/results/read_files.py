@@ -20,6 +20,8 @@ Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 
 Row = dict[str, Any]
 
+_COLUMNS = ("runID", "module", "name", "value", "vectime", "vecvalue", "unit", "title", "source")
+
 
 def read_scalars(paths: Paths, names: Names | None = None) -> list[Row]:
     """Return a row for each scalar of `.sca` files; `pandas.DataFrame` makes a table of them.
@@ -120,10 +122,16 @@ def _runs(connection: "sqlite3.Connection") -> dict[int, tuple[str, dict[str, st
     """Return {id: (name of the run, its iteration variables and attributes)}."""
     variables = _texts(connection, "runId, itervarName, itervarValue FROM runItervar")
     attributes = _texts(connection, "runId, attrName, attrValue FROM runAttr")
-    return {
-        run: (name, {**attributes.get(run, {}), **variables.get(run, {})})
-        for run, name in connection.execute("SELECT runId, runName FROM run")
-    }
+    runs = {}
+    for run, name in connection.execute("SELECT runId, runName FROM run"):
+        told = attributes.get(run, {})
+        taken = {*_COLUMNS, *told}
+        iterations = {
+            f"${variable}" if variable in taken else variable: value
+            for variable, value in variables.get(run, {}).items()
+        }
+        runs[run] = (name, {**iterations, **told})
+    return runs
 
 
 def _texts(connection: "sqlite3.Connection", columns: str) -> dict[int, dict[str, str]]:

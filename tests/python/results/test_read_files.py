@@ -14,7 +14,9 @@ from gradysim.results.scalars import Scalar
 from gradysim.results.vector import Vector
 from gradysim.results.vector_file import write_vector_file
 
-IDENTITY = RunIdentity("A-0-20261123-05:00:00-7", {"mode": "prototype", "x": "hidden"}, {"x": "2"}, ())
+IDENTITY = RunIdentity(
+    "A-0-20261123-05:00:00-7", {"mode": "prototype", "x": "an attribute"}, {"x": "2", "y": "3"}, ()
+)
 
 
 @pytest.fixture
@@ -36,8 +38,10 @@ def test_a_row_for_each_scalar(scalar_file):
         "module": "N.uavs[0].protocol",
         "name": "heard:last",
         "value": 5.0,
-        "x": "2",
+        "$x": "2",
+        "y": "3",
         "mode": "prototype",
+        "x": "an attribute",
         "unit": "s",
     }
     assert list(row)[:4] == ["runID", "module", "name", "value"]
@@ -54,7 +58,7 @@ def test_a_row_for_each_vector(tmp_path):
     vector = Vector("protocol", "v", array("q", [1, 2_500_000_000_000]), array("d", [3.0, math.nan]), "m")
     write_vector_file([("N.a.protocol", vector)], IDENTITY, tmp_path / "A.vec")
     (row,) = read_vectors(tmp_path / "A.vec")
-    assert (row["module"], row["name"], row["unit"], row["x"]) == ("N.a.protocol", "v:vector", "m", "2")
+    assert (row["module"], row["name"], row["unit"], row["$x"]) == ("N.a.protocol", "v:vector", "m", "2")
     assert row["vectime"] == array("d", [1e-12, 2.5])
     assert row["vecvalue"][0] == 3.0
     assert math.isnan(row["vecvalue"][1])
