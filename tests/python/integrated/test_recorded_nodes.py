@@ -2,24 +2,7 @@ import pytest
 
 import gradysim.prototype.run
 from gradysim.integrated.run import IntegratedRun, run
-
-COUNTER = """
-class Tested(Quiet):
-    def initialize(self):
-        self.provider.tracked_variables["count"] = 0
-        self.provider.schedule_timer("tick", 0.07)
-    def handle_timer(self, timer):
-        self.provider.tracked_variables["count"] += 1
-        self.provider.schedule_timer("tick", self.provider.current_time() + 0.7)
-    def finish(self):
-        self.provider.tracked_variables = {"finished": True}
-"""
-
-FLYING = """
-class Tested(Quiet):
-    def initialize(self):
-        self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))
-"""
+from python.recorded_protocols import COUNTER, FLYING, vectors_of
 
 EARLY = """
 class Tested(Quiet):
@@ -54,10 +37,6 @@ class Tested(Quiet):
     def handle_packet(self, message):
         self.provider.tracked_variables["heard"] = 1
 """
-
-
-def vectors_of(result, node=0):
-    return {vector.name: vector for vector in result.nodes[node].vectors}
 
 
 def test_a_run_records_nothing_unasked(make_scenario):
