@@ -5,7 +5,7 @@ import csv
 import pytest
 
 from gradysim.simulator import simulation
-from python.simulator.simulation.simulated import build, timers
+from python.simulator.simulator.simulated import build, timers
 
 
 @pytest.mark.parametrize(("real_time", "wall_s"), [(False, 0), (0, 0), (True, 10), (4.0, 2.5)])

@@ -4,9 +4,6 @@ import weakref
 
 from simulated import build, protocol, timers
 
-from gradysim.simulator import simulation
-from gradysim.simulator.simulation import PositionScheme
-
 
 def test_simulations_stepped_in_turn_log_their_own_lines(tmp_path):
     def logs(name):
@@ -125,10 +122,3 @@ def test_the_scope_of_a_line_can_be_set(capsys):
     logging.getLogger().info("hello")
     simulator.finalize()
     assert "[it=41 time=0:01:00 | elsewhere] hello" in capsys.readouterr().err
-
-
-def test_the_names_of_the_published_module_are_here():
-    assert {"PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"} <= set(
-        vars(simulation)
-    )
-    assert simulation.PositionScheme is PositionScheme

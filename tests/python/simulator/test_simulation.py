@@ -1,10 +1,12 @@
 import math
 
 import pytest
-from simulated import Recorder, build, fired, protocol, timers
 
+from gradysim.simulator import simulation
 from gradysim.simulator.handler.timer import TimerHandler
-from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
+from gradysim.simulator.position_scheme import PositionScheme
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.simulator.simulator.simulated import Recorder, fired, protocol, timers
 
 
 def test_ids_count_from_zero():
@@ -54,32 +56,10 @@ def test_nodes_are_prepared_before_their_protocols_are_made():
     assert seen == [(0, False), (1, False)]
 
 
-def test_an_unknown_node_is_an_error():
-    with pytest.raises(KeyError, match=r"no node 5, only \[0\]"):
-        build(protocol()).get_node(5)
-
-
-def test_an_id_is_given_once():
-    simulator = build(protocol())
-    with pytest.raises(ValueError, match="id 0 already"):
-        simulator.create_node((0, 0, 0), protocol(), 0)
-
-
 @pytest.mark.parametrize("position", [(1, 2), (1, 2, math.nan), "123"])
 def test_a_malformed_position_is_refused(position):
     with pytest.raises(ValueError, match="the position of a node must be three finite numbers"):
         SimulationBuilder().add_node(protocol(), position)
-
-
-@pytest.mark.parametrize("wrong", [int, "text", None])
-def test_what_is_no_protocol_class_is_refused(wrong):
-    with pytest.raises(TypeError, match="protocol's class"):
-        SimulationBuilder().add_node(wrong, (0, 0, 0))
-
-
-def test_an_instance_of_a_protocol_is_refused():
-    with pytest.raises(TypeError, match="protocol's class"):
-        SimulationBuilder().add_node(protocol()(), (0, 0, 0))
 
 
 @pytest.mark.parametrize("wrong", [TimerHandler, "text", None])
@@ -88,6 +68,8 @@ def test_what_is_no_handler_is_refused(wrong):
         SimulationBuilder().add_handler(wrong)
 
 
-def test_a_wrong_configuration_is_refused():
-    with pytest.raises(ValueError, match="real_time"):
-        Simulator({}, SimulationConfiguration(real_time=-1))
+def test_the_names_of_the_published_module_are_here():
+    assert {"PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"} <= set(
+        vars(simulation)
+    )
+    assert simulation.PositionScheme is PositionScheme
