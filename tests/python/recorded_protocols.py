@@ -18,6 +18,20 @@ class Tested(Quiet):
         self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))
 """
 
+EARLY = """
+class Tested(Quiet):
+    @classmethod
+    def instantiate(cls, provider):
+        protocol = super().instantiate(provider)
+        protocol.tracked = provider.tracked_variables
+        protocol.tracked["made"] = 1
+        return protocol
+    def initialize(self):
+        self.tracked["begun"] = 2
+    def handle_telemetry(self, telemetry):
+        self.tracked["begun"] += 1
+"""
+
 
 def vectors_of(result, node=0):
     return {vector.name: vector for vector in result.nodes[node].vectors}

@@ -42,8 +42,8 @@ public:
     // Whether all that was added has ended before `now`.
     bool is_over(SimTime now) const { return steps_.back().time < now; }
 
-    // What was told reaches the level from just before now on and until then, or longer if nothing is known to change then; now if it does
-    // not reach it.
+    // What was told reaches the level from just before now on and until then, or longer if nothing is known to change
+    // then; now if it does not reach it.
     SimTime told_until(double level_w) const;
     std::size_t untold_count() const { return untold_.size(); }
     // Tells as many as it takes: calls `tell(coming)` for each. Returns by how many W the sum may still rise before more

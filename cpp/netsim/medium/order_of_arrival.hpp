@@ -16,7 +16,8 @@
 
 namespace netsim {
 
-// `Heard` has a `start`, not before `sent`, and a `radio`, which no two have in common. `spare` may hold anything, then and after.
+// `Heard` has a `start`, not before `sent`, and a `radio`, which no two have in common. `spare` may hold anything,
+// then and after.
 template <typename Heard>
 void put_in_order(std::vector<Heard>& heard, SimTime sent, std::vector<Heard>& spare) {
     constexpr std::size_t few = 64;

@@ -49,8 +49,9 @@ class NodeRecorder:
             count = _whole_rows(times_ps, values)
             tracked.append(Vector("protocol", key_text(name), times_ps[:count], values[:count]))
         count = _whole_rows(self._position_times, *self._positions)
+        times_ps = self._position_times[:count]
         positions = [
-            Vector("mobility", f"position{axis}", self._position_times[:count], coordinates[:count], "m")
+            Vector("mobility", f"position{axis}", times_ps, coordinates[:count], "m")
             for axis, coordinates in zip("XYZ", self._positions, strict=True)
         ]
         return (*tracked, *positions)

@@ -21,6 +21,7 @@ Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 Row = dict[str, Any]
 
 _COLUMNS = ("runID", "module", "name", "value", "vectime", "vecvalue", "unit", "title", "source")
+"""Those that an iteration variable does not take, whether its file has them or not."""
 
 
 def read_scalars(paths: Paths, names: Names | None = None) -> list[Row]:
@@ -28,8 +29,9 @@ def read_scalars(paths: Paths, names: Names | None = None) -> list[Row]:
 
     The columns are `runID`, `module`, `name` and `value`, a float, then, all of them texts, the iteration
     variables, the run attributes (`configname`, `mode`, `repetition`, …) and the attributes of the scalar
-    itself (`unit`, …). Of columns of one name the first is kept. `names` are those of the scalars that are
-    wanted, `"heard:last"` or `["heard:last", "position?:*"]`; None for all.
+    itself (`unit`, …). A variable that is called as another column is `$name`, `$value` and so on. Of
+    other columns of one name the first is kept. `names` are those of the scalars that are wanted,
+    `"heard:last"` or `["heard:last", "position?:*"]`; None for all.
 
     Raises OSError for a file that cannot be read, and ValueError for one that is no such file.
     """

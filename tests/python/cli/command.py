@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -123,3 +124,15 @@ def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[s
 def objects(output: str) -> list[dict]:
     """The JSON objects of an output, one in each line."""
     return [json.loads(line) for line in output.splitlines()]
+
+
+def interrupt_endless_run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run the config `Endless` in a folder, and end it with Ctrl-C once it has begun."""
+    command = [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", *arguments]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen(command, cwd=folder, env=environment(), text=True, **pipes) as process:
+        while "ready" not in (line := process.stderr.readline()):
+            assert line, "it ended before it was ready"
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    return subprocess.CompletedProcess(command, process.returncode, out, err)

@@ -1,31 +1,16 @@
 """What Ctrl-C does to a run."""
 
-import signal
-import subprocess
-import sys
-
-from python.cli.command import both_modes, environment, objects
+from python.cli.command import both_modes, interrupt_endless_run, objects
 
 
 @both_modes
 def test_ctrl_c_ends_a_run_cleanly(folder, mode):
-    with subprocess.Popen(
-        [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", "--mode", mode, "--json"],
-        cwd=folder,
-        env=environment(),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        while "ready" not in (line := process.stderr.readline()):
-            assert line, "it ended before it was ready"
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=60)
-    assert process.returncode == 130
-    (run,) = objects(out)
+    done = interrupt_endless_run(folder, "--mode", mode, "--json")
+    assert done.returncode == 130
+    (run,) = objects(done.stdout)
     assert run["interrupted"]
     assert 0 < run["sim_time_s"] < 9_000_000
-    assert "Traceback" not in err
+    assert "Traceback" not in done.stderr
 
 
 @both_modes

@@ -1,14 +1,12 @@
 """`gradysim run --scalars` and `--vectors`: which files are written, what is in them, and what is refused."""
 
-import signal
-import subprocess
 import sys
 
 import pytest
 
 from gradysim.cli import main
 from gradysim.results import read_scalars, read_vectors
-from python.cli.command import both_modes, compiled, environment, objects
+from python.cli.command import both_modes, compiled, interrupt_endless_run, objects
 
 PROTOTYPE = ("run", "test.ini", "--mode", "prototype")
 
@@ -219,20 +217,8 @@ def test_more_repetitions_leave_what_is_there(resumed):
 
 @both_modes
 def test_an_interrupted_run_keeps_what_was_computed(folder, mode):
-    arguments = ("-c", "Endless", "--mode", mode, "--scalars", "--vectors", "all", "--quiet")
-    with subprocess.Popen(
-        [sys.executable, "-m", "gradysim", "run", "test.ini", *arguments],
-        cwd=folder,
-        env=environment(),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        while "ready" not in (line := process.stderr.readline()):
-            assert line, "it ended before it was ready"
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=60)
-    assert process.returncode == 130
+    done = interrupt_endless_run(folder, "--mode", mode, "--scalars", "--vectors", "all", "--quiet")
+    assert done.returncode == 130
     rows = read_scalars(folder / f"results/Endless-#0.{mode}.sca")
     assert {row["interrupted"] for row in rows} == {"true"}
     vectors = read_vectors(folder / f"results/Endless-#0.{mode}.vec")

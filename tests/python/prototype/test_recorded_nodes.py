@@ -1,28 +1,7 @@
 import pytest
 
-from gradysim.prototype.run import PrototypeRun, run
-from python.recorded_protocols import COUNTER, FLYING, vectors_of
-
-EARLY = """
-class Tested(Quiet):
-    @classmethod
-    def instantiate(cls, provider):
-        protocol = super().instantiate(provider)
-        protocol.tracked = provider.tracked_variables
-        protocol.tracked["made"] = 1
-        return protocol
-    def handle_telemetry(self, telemetry):
-        self.tracked["told"] = self.tracked.get("told", 0) + 1
-"""
-
-
-def test_a_run_records_nothing_unasked(make_scenario):
-    assert [node.vectors for node in run(make_scenario()).nodes] == [None, None]
-
-
-def test_it_records_the_nodes_that_it_is_asked_for(make_scenario):
-    nodes = run(make_scenario(), vectors_of=[1]).nodes
-    assert [node.vectors is not None for node in nodes] == [False, True]
+from gradysim.prototype.run import run
+from python.recorded_protocols import COUNTER, EARLY, FLYING, vectors_of
 
 
 def test_each_assignment_with_its_time(make_scenario):
@@ -51,8 +30,8 @@ def test_variables_that_the_protocol_took_when_it_was_made(make_scenario):
     result = run(make_scenario(EARLY), vectors_of=[0])
     vectors = vectors_of(result)
     assert (list(vectors["made"].times_ps), list(vectors["made"].values)) == ([0], [1])
-    assert list(vectors["told"].values) == [1, 2, 3, 4]
-    assert result.nodes[0].tracked_variables == {"made": 1, "told": 4}
+    assert list(vectors["begun"].values) == [2, 3, 4, 5, 6]
+    assert result.nodes[0].tracked_variables == {"made": 1, "begun": 6}
 
 
 @pytest.mark.parametrize("python", ["class Tested(Talker): pass", EARLY], ids=["late", "early"])
@@ -62,23 +41,3 @@ def test_the_run_is_the_same(make_scenario, python):
     assert [node.tracked_variables for node in asked.nodes] == [
         node.tracked_variables for node in unasked.nodes
     ]
-
-
-def test_a_view_of_what_was_recorded_does_not_end_the_run(make_scenario):
-    views = []
-
-    def look():
-        views.extend(memoryview(vector.values) for vector in watched.result().nodes[0].vectors)
-        return False
-
-    scenario = make_scenario(FLYING, "*.uavs[*].mobility.telemetryInterval = 10ms")
-    watched = PrototypeRun(scenario, vectors_of=[0])
-    watched.execute(should_stop=look)
-    assert views
-    assert vectors_of(watched.result()) == vectors_of(run(scenario, vectors_of=[0]))
-
-
-def test_a_run_that_was_stopped_has_what_has_been(make_scenario):
-    stopped = PrototypeRun(make_scenario(COUNTER), vectors_of=[0])
-    stopped.execute(should_stop=lambda: True)
-    assert vectors_of(stopped.result())["count"].values[0] == 0

@@ -1,12 +1,12 @@
 """The tables are those that OMNeT++ 6.1 makes itself."""
 
 import re
-import sqlite3
 
 import pytest
 
 from gradysim.results.database import new_database
 from gradysim.results.run_identity import RunIdentity
+from python.sqlite_rows import rows_of
 
 IDENTITY = RunIdentity(
     "A-0-20261123-05:00:00-7",
@@ -123,11 +123,7 @@ def rows(path):
         pass
 
     def of(query):
-        connection = sqlite3.connect(path)
-        try:
-            return connection.execute(query).fetchall()
-        finally:
-            connection.close()
+        return rows_of(path, query)
 
     return of
 

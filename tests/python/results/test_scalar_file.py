@@ -1,11 +1,11 @@
 import math
-import sqlite3
 
 import pytest
 
 from gradysim.results.run_identity import RunIdentity
 from gradysim.results.scalar_file import write_scalar_file
 from gradysim.results.scalars import Scalar
+from python.sqlite_rows import rows_of
 
 IDENTITY = RunIdentity("A-0-20261123-05:00:00-7", {}, {}, ())
 
@@ -17,11 +17,7 @@ def rows(tmp_path):
     def of(scalars, query):
         path = tmp_path / "A.sca"
         write_scalar_file(scalars, IDENTITY, path)
-        connection = sqlite3.connect(path)
-        try:
-            return connection.execute(query).fetchall()
-        finally:
-            connection.close()
+        return rows_of(path, query)
 
     return of
 

@@ -1,5 +1,4 @@
 import math
-import sqlite3
 from array import array
 
 import pytest
@@ -7,6 +6,7 @@ import pytest
 from gradysim.results.run_identity import RunIdentity
 from gradysim.results.vector import Vector
 from gradysim.results.vector_file import write_vector_file
+from python.sqlite_rows import rows_of
 
 IDENTITY = RunIdentity("A-0-20261123-05:00:00-7", {}, {}, ())
 SECOND_PS = 10**12
@@ -23,11 +23,7 @@ def rows(tmp_path):
             for module, part, name, times, values in vectors
         ]
         write_vector_file(written, IDENTITY, path)
-        connection = sqlite3.connect(path)
-        try:
-            return connection.execute(query).fetchall()
-        finally:
-            connection.close()
+        return rows_of(path, query)
 
     return of
 
