@@ -1,6 +1,7 @@
 """What tests of several folders use: scenarios of a few lines, a wall clock, a vehicle with MAVLink."""
 
 import json
+import shutil
 import signal
 import stat
 import sys
@@ -78,8 +79,11 @@ def toy_copter(tmp_path: Path) -> Callable[..., Path]:
     folder = tmp_path / "program"
     folder.mkdir()
     program = folder / "arducopter"
-    text = (Path(__file__).parent / "sitl/toy_copter.py").read_text()
+    sources = Path(__file__).parent / "sitl"
+    text = (sources / "toy_copter.py").read_text()
     program.write_text(text.replace("#!/usr/bin/env python3", f"#!{sys.executable}", 1))
+    for part in ("toy_vehicle.py", "toy_lock_step.py"):
+        shutil.copy(sources / part, folder)
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
 
     def with_wrongs(wrongs: dict[int, Any] | None = None) -> Path:
