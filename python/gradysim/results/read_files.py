@@ -1,6 +1,7 @@
 """Reads result files with OMNeT++'s tables, those of gradysim and of OMNeT++ itself, for scripts."""
 
 import contextlib
+import json
 import math
 import os
 from array import array
@@ -110,13 +111,16 @@ def _values(connection: "sqlite3.Connection", items: Collection[int]) -> dict[in
 def _series(connection: "sqlite3.Connection", items: Collection[int]) -> dict[int, Row]:
     exponents = dict(connection.execute("SELECT vectorId, simtimeExp FROM vector JOIN run USING (runId)"))
     found = {item: (array("d"), array("d"), 10 ** -exponents[item]) for item in items}
-    # In one go, by time: OMNeT++'s own files have no index.
-    query = "SELECT vectorId, simtimeRaw, value FROM vectorData ORDER BY rowid"
-    for item, raw, value in connection.execute(query):
-        if item in found:
-            times, values, per_second = found[item]
-            times.append(raw / per_second)
-            values.append(_number(value))
+    # In one go, by time: OMNeT++'s own files have no index. The plus sign keeps SQLite from using that of
+    # ours, which takes twice as long where most vectors are wanted.
+    query = (
+        "SELECT vectorId, simtimeRaw, value FROM vectorData "
+        "WHERE +vectorId IN (SELECT value FROM json_each(?)) ORDER BY rowid"
+    )
+    for item, raw, value in connection.execute(query, (json.dumps(list(items)),)):
+        times, values, per_second = found[item]
+        times.append(raw / per_second)
+        values.append(_number(value))
     return {item: {"vectime": times, "vecvalue": values} for item, (times, values, _) in found.items()}
 
 
