@@ -82,6 +82,26 @@ py::dict message_fates(const Network& network) {
     return result;
 }
 
+py::dict message_delays(const Network& network) {
+    py::dict result;
+    for (std::size_t index = 0; index < message_kind_count; ++index) {
+        const DelayHistogram& delays = network.message_fates().delays(static_cast<MessageKind>(index));
+        if (delays.count() == 0) {
+            continue;
+        }
+        py::list bins;
+        for (const DelayHistogram::Bin& bin : delays.bins()) {
+            bins.append(py::make_tuple(bin.begin.seconds(), bin.end.seconds(), bin.count));
+        }
+        result[message_kind_names[index]] =
+            py::dict(py::arg("count") = delays.count(), py::arg("sum_s") = delays.sum_s(),
+                     py::arg("sum_of_squares_s2") = delays.sum_of_squares_s2(),
+                     py::arg("min_s") = delays.min().seconds(), py::arg("max_s") = delays.max().seconds(),
+                     py::arg("bins") = py::tuple(bins));
+    }
+    return result;
+}
+
 std::string fingerprint(const Network& network) {
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(network.fingerprint()));
@@ -122,7 +142,8 @@ void bind_network(py::module_& module) {
         .def("frame_fates_at", &frame_fates_at, py::arg("receiver"))
         .def("interferers_at", &interferers_at, py::arg("receiver"))
         .def("frames_by_bitrate", &frames_by_bitrate, py::arg("node"))
-        .def("message_fates", &message_fates);
+        .def("message_fates", &message_fates)
+        .def("message_delays", &message_delays);
 }
 
 }  // namespace proxy_protocol

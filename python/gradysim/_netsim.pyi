@@ -382,3 +382,8 @@ class Network:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
     def message_fates(self) -> dict[str, dict[str, int]]:
         """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""
+    def message_delays(self) -> dict[str, dict[str, Any]]:
+        """How long those that protocols got took: {"broadcast" | "unicast": fields of `Delays`}.
+
+        Kinds of which no protocol got any are left out.
+        """

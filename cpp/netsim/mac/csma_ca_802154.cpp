@@ -35,7 +35,7 @@ void CsmaCa802154::send(NodeId destination, Payload payload) {
             std::to_string(narrowband_longest_psdu_bytes) + " bytes less MAC, IPv4 and UDP headers)");
     }
     const int psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
-    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes);
+    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes, simulator_.now());
     if (destination != broadcast_id && config_.use_acks) {
         frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
     }
@@ -150,7 +150,7 @@ void CsmaCa802154::finish(MessageFate fate) {
 void CsmaCa802154::frame_received(const Transmission& transmission) {
     const Frame& frame = *transmission.frame;
     if (frame.kind == FrameKind::broadcast) {
-        listener_.message_received(frame.transmitter, frame.payload);
+        listener_.message_received(frame);
     } else if (frame.receiver != radio_.node()) {
         return;
     } else if (frame.kind == FrameKind::unicast) {
@@ -169,7 +169,7 @@ void CsmaCa802154::unicast_received(const Frame& frame) {
         acknowledge(frame);
     }
     if (!duplicates_.is_duplicate(frame)) {
-        listener_.message_received(frame.transmitter, frame.payload);
+        listener_.message_received(frame);
     }
 }
 

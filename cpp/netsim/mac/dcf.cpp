@@ -36,7 +36,7 @@ void Dcf::send(NodeId destination, Payload payload) {
             std::to_string(parameters_.config.mtu_bytes) + " bytes less IPv4 and UDP headers)");
     }
     const int psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
-    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes);
+    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes, simulator_.now());
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }
@@ -164,7 +164,7 @@ void Dcf::frame_received(const Transmission& transmission) {
         }
     }
     if (frame.kind == FrameKind::broadcast) {
-        listener_.message_received(frame.transmitter, frame.payload);
+        listener_.message_received(frame);
     } else if (for_this_station) {
         addressed_here(frame, *transmission.mode);
     }
@@ -190,7 +190,7 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
     } else if (frame.kind == FrameKind::unicast) {
         respond_after_sifs(make_ack(frame), parameters_.modes.response_mode(mode));
         if (!duplicates_.is_duplicate(frame)) {
-            listener_.message_received(frame.transmitter, frame.payload);
+            listener_.message_received(frame);
         }
     }
 }

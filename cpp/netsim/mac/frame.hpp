@@ -12,6 +12,7 @@
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/node_id.hpp"
 #include "netsim/trace/frame_label.hpp"
+#include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
 
@@ -46,7 +47,13 @@ struct Frame {
     bool retry = false;
     SimTime duration_field;  // how long the exchange goes on after this frame: sets the NAV of others
     int psdu_bytes = 0;
-    Payload payload;  // of data frames only
+    Payload payload;   // of data frames only
+    SimTime accepted;  // of those, too: when their message was handed to the interface
 };
+
+// Of the message in a data frame.
+inline MessageKind message_kind(const Frame& frame) {
+    return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
+}
 
 }  // namespace netsim

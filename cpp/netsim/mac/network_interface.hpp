@@ -15,7 +15,8 @@ namespace netsim {
 
 class NetworkInterfaceListener {
 public:
-    virtual void message_received(NodeId source, const Payload& payload) = 0;
+    // A message for this node, in the frame that carried it.
+    virtual void message_received(const Frame& frame) = 0;
 
 protected:
     ~NetworkInterfaceListener() = default;

@@ -21,8 +21,8 @@ public:
     // Of the interface of `node`. So many frames can wait; the one in progress does not.
     Outbox(NodeId node, int capacity, MessageFates& fates) : queue_(capacity), fates_(fates), node_(node) {}
 
-    // A frame of a message from this node, with the next number; without a duration field.
-    Frame frame_of(NodeId destination, Payload payload, int psdu_bytes) {
+    // A frame of a message from this node that is accepted now, with the next number; without a duration field.
+    Frame frame_of(NodeId destination, Payload payload, int psdu_bytes, SimTime now) {
         Frame frame;
         frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
         frame.transmitter = node_;
@@ -30,6 +30,7 @@ public:
         frame.sequence = next_sequence_++;
         frame.psdu_bytes = psdu_bytes;
         frame.payload = std::move(payload);
+        frame.accepted = now;
         return frame;
     }
     // Accepts the message of a data frame. False if the queue is full and the frame is dropped.
@@ -73,9 +74,6 @@ public:
     }
 
 private:
-    static MessageKind message_kind(const Frame& frame) {
-        return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
-    }
     template <typename Change>
     void change(const Change& change) {
         Frame changed = *in_progress_;

@@ -36,6 +36,11 @@ void UnitDiskInterface::send(NodeId destination, Payload payload) {
     const bool broadcast = destination == broadcast_id;
     const MessageKind kind = broadcast ? MessageKind::broadcast : MessageKind::unicast;
     const FrameLabel label{broadcast ? FrameKind::broadcast : FrameKind::unicast, destination};
+    const auto frame = std::make_shared<const Frame>(Frame{.kind = label.kind,
+                                                           .transmitter = id_,
+                                                           .receiver = destination,
+                                                           .payload = std::move(payload),
+                                                           .accepted = simulator_.now()});
     message_fates_.accept(kind);
     fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
     fingerprint_.add(static_cast<std::uint64_t>(id_));
@@ -57,7 +62,7 @@ void UnitDiskInterface::send(NodeId destination, Payload payload) {
             flight = free_flights_.back();
             free_flights_.pop_back();
         }
-        flights_[flight] = Flight{payload, receiver, label};
+        flights_[flight] = Flight{frame, receiver};
         simulator_.schedule_after(SimTime{}, [this, flight] { deliver(flight); });
     }
     frame_fates_.book_transmission(label, addressed, CopyCount{});
@@ -79,8 +84,9 @@ bool UnitDiskInterface::reaches(const UnitDiskInterface& other) const {
 void UnitDiskInterface::deliver(std::size_t flight) {
     const Flight landed = std::move(flights_[flight]);
     free_flights_.push_back(flight);
-    frame_fates_.book(landed.receiver->id_, landed.label, FrameFate::delivered);
-    landed.receiver->listener_.message_received(id_, landed.payload);
+    frame_fates_.book(landed.receiver->id_, {landed.frame->kind, landed.frame->receiver},
+                      FrameFate::delivered);
+    landed.receiver->listener_.message_received(*landed.frame);
 }
 
 }  // namespace netsim

@@ -58,9 +58,8 @@ private:
     InstantCount sent_;
 
     struct Flight {  // a message between its sending and its delivery within the same instant
-        Payload payload;
+        std::shared_ptr<const Frame> frame;
         UnitDiskInterface* receiver = nullptr;
-        FrameLabel label;
     };
     std::vector<Flight> flights_;
     std::vector<std::size_t> free_flights_;

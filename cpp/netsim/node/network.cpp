@@ -30,7 +30,8 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
 Node& Network::add_node(const NodeConfig& config) {
     config.validate();
     check_with_medium(config);  // all of it before anything is built, so that a refused node leaves no trace
-    Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_, payload_hash_);
+    Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_, payload_hash_,
+                                     message_fates_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {

@@ -17,10 +17,11 @@ constexpr std::uint64_t timer_word = 0x74696D6572;
 }  // namespace
 
 Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-           Fingerprint& fingerprint, PayloadHash& payload_hash)
+           Fingerprint& fingerprint, PayloadHash& payload_hash, MessageFates& message_fates)
     : simulator_(simulator),
       fingerprint_(fingerprint),
       payload_hash_(payload_hash),
+      message_fates_(message_fates),
       id_(id),
       mobility_(make_mobility(config.mobility, config.initial_position)),
       name_(config.name),
@@ -103,14 +104,15 @@ void Node::cancel_timer(const std::string& timer) {
     timers_.cancel(timer, [this](EventHandle event) { simulator_.cancel(event); });
 }
 
-void Node::message_received(NodeId source, const Payload& payload) {
+void Node::message_received(const Frame& frame) {
     if (!protocol_) {
         return;
     }
-    fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(source) << 40) ^
+    message_fates_.receive(message_kind(frame), now() - frame.accepted);
+    fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(frame.transmitter) << 40) ^
                      static_cast<std::uint64_t>(id_));
-    fingerprint_.add(payload_hash_.of(payload));
-    call_protocol("handle_packet", [&payload](Protocol& protocol) { protocol.handle_packet(payload); });
+    fingerprint_.add(payload_hash_.of(frame.payload));
+    call_protocol("handle_packet", [&frame](Protocol& protocol) { protocol.handle_packet(frame.payload); });
 }
 
 void Node::fetch_for_timer() const {

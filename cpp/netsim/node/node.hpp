@@ -21,13 +21,14 @@
 #include "netsim/node/protocol.hpp"
 #include "netsim/node/timers.hpp"
 #include "netsim/node/tracked_variables.hpp"
+#include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
 
 class alignas(64) Node final : private NetworkInterfaceListener {
 public:
     Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-         Fingerprint& fingerprint, PayloadHash& payload_hash);
+         Fingerprint& fingerprint, PayloadHash& payload_hash, MessageFates& message_fates);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
@@ -84,7 +85,7 @@ private:
     NetworkInterface& interface_at(std::int32_t index);
     template <typename Call>
     void call_protocol(const char* callback, Call call);
-    void message_received(NodeId source, const Payload& payload) override;
+    void message_received(const Frame& frame) override;
     // What is due when a timer is.
     struct TimerDue {
         Node* node;
@@ -101,6 +102,7 @@ private:
     Simulator& simulator_;
     Fingerprint& fingerprint_;
     PayloadHash& payload_hash_;
+    MessageFates& message_fates_;
     NodeId id_;
     bool observed_ = false;  // here, where it is at hand: most nodes are not
     const std::int32_t* node_count_ = nullptr;

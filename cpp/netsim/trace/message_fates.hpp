@@ -1,4 +1,5 @@
-// The ledger of messages: what became of each message that a protocol handed to its network interface.
+// The ledger of messages: what became of each message that a protocol handed to its network interface, and how long it was
+// on its way.
 //
 // accepted = sum over the fates; the balance is checked by tests on random scenarios.
 #pragma once
@@ -6,6 +7,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+#include "netsim/trace/delay_histogram.hpp"
 
 namespace netsim {
 
@@ -35,14 +38,19 @@ public:
     void book(MessageKind kind, MessageFate fate) {
         ++counts_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(fate)];
     }
+    // The protocol of a receiver gets one, so long after it was handed to its sender's interface.
+    void receive(MessageKind kind, SimTime delay) { delays_[static_cast<std::size_t>(kind)].add(delay); }
 
     std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
     // What is in no other fate yet is queued.
     Counts counts(MessageKind kind) const;
+    // A broadcast has one for each of its receivers.
+    const DelayHistogram& delays(MessageKind kind) const { return delays_[static_cast<std::size_t>(kind)]; }
 
 private:
     std::array<std::uint64_t, message_kind_count> accepted_{};
     std::array<Counts, message_kind_count> counts_{};
+    std::array<DelayHistogram, message_kind_count> delays_;
 };
 
 }  // namespace netsim

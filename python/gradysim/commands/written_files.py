@@ -54,6 +54,7 @@ def _remove_of_earlier_runs(scenario: "Scenario", mode: Mode, asked: Asked) -> I
 
 
 def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
+    from gradysim.results.histograms import histograms
     from gradysim.results.run_identity import identity_of
     from gradysim.results.scalar_file import write_scalar_file
     from gradysim.results.scalars import scalars
@@ -62,7 +63,8 @@ def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", asked: Asked) 
     identity = identity_of(result, scenario, asked.directory)
     if asked.scalars:
         path = omnetpp_file(scenario, result.mode, asked, ".sca")
-        write_scalar_file(scalars(result, scenario.network), identity, path)
+        distributions = histograms(result, scenario.network)
+        write_scalar_file(scalars(result, scenario.network), identity, path, distributions)
         yield f"scalars in {path}"
     if asked.vectors:
         path = omnetpp_file(scenario, result.mode, asked, ".vec")

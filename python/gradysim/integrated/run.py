@@ -31,6 +31,7 @@ from gradysim.integrated.real_time import RealTimeRun
 from gradysim.integrated.recorded_nodes import record_node, record_protocol
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.protocol.interface import IProtocol
+from gradysim.results.delays import Delays
 from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
 from gradysim.results.run_file import run_name
@@ -223,6 +224,7 @@ class IntegratedRun:
             interrupted=not self._complete,
             fingerprint=network.fingerprint,
             fates={"frames": network.frame_fates(), "messages": network.message_fates()},
+            message_delays={kind: Delays(**told) for kind, told in network.message_delays().items()},
             nodes=with_fates(nodes, self._fates_at, network),
         )
 

@@ -10,6 +10,7 @@ from time import perf_counter, process_time
 
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.prototype.simulation import build_simulation
+from gradysim.results.delays import constant_delays
 from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
 from gradysim.results.run_result import RunResult
@@ -101,6 +102,11 @@ class PrototypeRun:
             fates={
                 "copies": self._ledger.copy_fates(),
                 "messages": self._ledger.message_fates(),
+            },
+            message_delays={
+                kind: constant_delays(counts)
+                for kind, counts in self._ledger.delays().items()
+                if any(counts.values())
             },
             nodes=node_results(
                 scenario,

@@ -13,6 +13,7 @@ from gradysim.protocol.plain_value import plain_value
 from gradysim.protocol.readable_number import readable_number
 from gradysim.report.count_tables import CountTables
 from gradysim.report.fates_at_nodes import fates_at_nodes, interferer_table, kinds_overheard
+from gradysim.results.delays import Delays
 from gradysim.results.run_result import NodeResult, RunResult
 
 MAX_VALUE_LENGTH = 200
@@ -50,6 +51,8 @@ def summary(result: RunResult) -> RenderableType:
     for what, kinds in result.fates.items():
         if has_counts(kinds):
             parts += [title(FATE_TITLES.get(what, what)), CountTables("fate", counted(kinds))]
+    if result.message_delays:
+        parts += [title("Delays of messages, from protocol to protocol"), delay_table(result.message_delays)]
     return Group(*parts, *at_nodes(result))
 
 
@@ -114,6 +117,18 @@ def node_table(nodes: tuple[NodeResult, ...]) -> Table:
             Text(", ".join(map(metres, node.position))),
             Text("\n".join(map(tracked, node.tracked_variables.items()))),
         )
+    return table
+
+
+def delay_table(delays: Mapping[str, Delays]) -> Table:
+    """Return a row per kind of message: how many were received, and how long they took."""
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("kind", no_wrap=True)
+    for column in ("received", "mean", "median", "95 %", "longest"):
+        table.add_column(column, justify="right", no_wrap=True)
+    for kind, each in delays.items():
+        times_s = (each.mean_s, each.quantile_s(0.5), each.quantile_s(0.95), each.max_s)
+        table.add_row(kind, f"{each.count:,}", *(f"{time_s * 1e3:,.4g} ms" for time_s in times_s))
     return table
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from statistics import fmean
 from typing import Any
 
-from gradysim.results.shares import ALWAYS_TOLD, shares
+from gradysim.results.shares import ALWAYS_TOLD, mean_delays, shares
 from gradysim.results.student import mean_with_half_width
 from gradysim.results.tracked_numbers import Tracked, numbers_and_others, numeric_variables, tracked_by_group
 
@@ -26,7 +26,7 @@ class Mean:
     """{name: value}, as the results have it."""
     quantity: str
     """`uavs[*] heard`: a tracked variable, the mean of a group's nodes; `unicast messages retry limit`: a
-    share."""
+    share; `unicast messages delay in s`: the mean of a run's messages."""
     runs: int
     """Those in which there was a number."""
     mean: float | None
@@ -147,10 +147,12 @@ class _Quantities:
 
     tracked: Mapping[str, Sequence[Tracked]]
     shares: Mapping[str, float]
+    """Shares of messages and frames, and the mean delays of messages."""
 
     @classmethod
     def of(cls, result: Mapping[str, Any]) -> "_Quantities":
-        return cls(tracked_by_group(result["nodes"]), dict(shares(result["fates"])))
+        delays = mean_delays(result.get("message_delays") or {})
+        return cls(tracked_by_group(result["nodes"]), {**dict(shares(result["fates"])), **delays})
 
 
 def _mean_of_variable(

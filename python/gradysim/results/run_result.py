@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from gradysim.protocol.plain_value import plain_value
+from gradysim.results.delays import Delays
 from gradysim.results.vector import Vector
 
 Mode = Literal["integrated", "prototype"]
@@ -115,6 +116,8 @@ class RunResult:
     """{what: {kind: {fate: count}}}; `what` is "messages", and "frames" or, in prototype mode, "copies"."""
     nodes: tuple[NodeResult, ...]
     """In the order of their ids."""
+    message_delays: Mapping[str, Delays] = field(default_factory=dict)
+    """{"broadcast" or "unicast": how long they took} of the kinds of which a protocol got any."""
     repetition: int = 0
     """Number among the runs with the same values of iteration variables, from 0."""
     iterations: Mapping[str, str] = field(default_factory=dict)
@@ -139,6 +142,7 @@ class RunResult:
             "fingerprint": self.fingerprint,
             "fates": plain_value(self.fates),
             "nodes": [node.to_json_object() for node in self.nodes],
+            "message_delays": {kind: each.to_json_object() for kind, each in self.message_delays.items()},
             "repetition": self.repetition,
             "iterations": plain_iterations(self.iterations),
             "settings_hash": self.settings_hash,

@@ -33,6 +33,9 @@ def scalars(result: RunResult, network: str) -> Iterator[Scalar]:
         module = f"{network}.{_MEDIUM[what]}" if what in _MEDIUM else network
         suffix = "" if what in _MEDIUM else "Message"
         yield from _fates(module, kinds, suffix)
+    for kind, delays in result.message_delays.items():
+        for mode, value_s in (("mean", delays.mean_s), ("max", delays.max_s)):
+            yield _recorded(network, f"{kind}Message:delay", mode, value_s, {"unit": "s"})
     for node in result.nodes:
         yield from _of_node(node, f"{network}.{node.name}")
 
@@ -57,12 +60,18 @@ def _fates(module: str, kinds: Mapping[str, Mapping[str, int]], suffix: str = ""
 
 
 def _count(module: str, name: str, count: int) -> Scalar:
-    return Scalar(module, f"{name}:count", count, {"source": name, "recordingmode": "count"})
+    return _recorded(module, name, "count", count)
 
 
 def _last(module: str, name: str, value: float, attributes: Mapping[str, str] | None = None) -> Scalar:
-    told = {**(attributes or {}), "source": name, "recordingmode": "last"}
-    return Scalar(module, f"{name}:last", value, told)
+    return _recorded(module, name, "last", value, attributes)
+
+
+def _recorded(
+    module: str, name: str, mode: str, value: float, attributes: Mapping[str, str] | None = None
+) -> Scalar:
+    told = {**(attributes or {}), "source": name, "recordingmode": mode}
+    return Scalar(module, f"{name}:{mode}", value, told)
 
 
 def _camel_case(text: str) -> str:

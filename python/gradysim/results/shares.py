@@ -1,4 +1,4 @@
-"""What became of messages and frames in one run, as shares that can be compared between runs and modes."""
+"""What became of messages and frames in one run, as numbers that can be compared between runs and modes."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -28,6 +28,11 @@ def shares(fates: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
         if not kind.endswith(" overheard"):
             yield from _delivered(f"{kind} frames", counts)
     yield from _delivered("broadcast copies", copies.get("broadcast") or {})
+
+
+def mean_delays(delays: Mapping[str, Any]) -> dict[str, float]:
+    """Return {`unicast messages delay in s`: the mean}, and the like, of the delays that a result tells."""
+    return {f"{kind} messages delay in s": told["mean_s"] for kind, told in delays.items()}
 
 
 def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:

@@ -12,7 +12,7 @@ constexpr int capacity = 2;
 
 class OutboxTest : public testing::Test {
 protected:
-    bool add(NodeId destination) { return outbox.add(outbox.frame_of(destination, text, 164)); }
+    bool add(NodeId destination) { return outbox.add(outbox.frame_of(destination, text, 164, SimTime{})); }
     std::uint64_t booked(MessageKind kind, MessageFate fate) const {
         return fates.counts(kind)[static_cast<std::size_t>(fate)];
     }
@@ -23,11 +23,12 @@ protected:
 };
 
 TEST_F(OutboxTest, FramesAreNumberedAndSayWhomTheyAreFor) {
-    const Frame all = outbox.frame_of(broadcast_id, text, 164);
+    const Frame all = outbox.frame_of(broadcast_id, text, 164, SimTime::from_us(7));
     EXPECT_EQ(all.kind, FrameKind::broadcast);
     EXPECT_EQ(all.transmitter, 7);
     EXPECT_EQ(all.sequence, 0U);
-    const Frame one = outbox.frame_of(3, text, 200);
+    EXPECT_EQ(all.accepted, SimTime::from_us(7));
+    const Frame one = outbox.frame_of(3, text, 200, SimTime{});
     EXPECT_EQ(one.kind, FrameKind::unicast);
     EXPECT_EQ(one.receiver, 3);
     EXPECT_EQ(one.sequence, 1U);

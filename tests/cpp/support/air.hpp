@@ -136,8 +136,8 @@ struct Station final : NetworkInterfaceListener {
         return all;
     }
 
-    void message_received(NodeId source, const Payload& payload) override {
-        received.push_back({simulator.now(), source, *payload});
+    void message_received(const Frame& frame) override {
+        received.push_back({simulator.now(), frame.transmitter, *frame.payload});
     }
 
     Simulator& simulator;

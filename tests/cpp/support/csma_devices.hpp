@@ -52,7 +52,7 @@ struct Device final : NetworkInterfaceListener {
     void send(NodeId destination, std::size_t bytes) {
         csma.send(destination, std::make_shared<const std::string>(bytes, 'x'));
     }
-    void message_received(NodeId, const Payload&) override { received.push_back(air.simulator.now()); }
+    void message_received(const Frame&) override { received.push_back(air.simulator.now()); }
 
     Air& air;
     Trajectory trajectory;

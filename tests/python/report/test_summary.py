@@ -6,6 +6,7 @@ import pytest
 from rich.console import Console
 
 from gradysim.report.summary import MAX_VALUE_LENGTH, print_summary, short
+from gradysim.results.delays import constant_delays
 from gradysim.results.run_result import NodeResult, RunResult
 
 
@@ -55,6 +56,18 @@ def printed(width=100, **changes):
 )
 def test_what_is_in_it(what):
     assert what in printed()
+
+
+def test_delays_of_messages():
+    delays = {"unicast": constant_delays({0.0003: 1999, 1.5: 1})}
+    lines = printed(message_delays=delays).splitlines()
+    assert "Delays of messages, from protocol to protocol" in lines
+    row = next(line for line in lines if line.startswith("unicast"))
+    assert row.split() == ["unicast", "2,000", *["1.05", "ms", "0.3", "ms", "0.3", "ms", "1,500", "ms"]]
+
+
+def test_no_table_of_delays_without_messages():
+    assert "Delays" not in printed()
 
 
 def test_values_of_iteration_variables_are_in_the_heading():

@@ -41,6 +41,17 @@ def test_a_tracked_variable_counts_with_the_mean_of_its_group() -> None:
     )
 
 
+def test_a_delay_counts_with_the_mean_of_each_run() -> None:
+    delays = [{"unicast": {"mean_s": mean_s}} for mean_s in (0.1, 0.3)]
+    results = [result(run, (), message_delays=each) for run, each in enumerate(delays)]
+    assert quantities(results) == {"unicast messages delay in s": pytest.approx(0.2)}
+
+
+def test_a_run_without_messages_has_no_delay() -> None:
+    (mean,) = means([result(0, (), message_delays={"unicast": {"mean_s": 0.1}}), result(1, ())])
+    assert (mean.mean, mean.runs) == (0.1, 1)
+
+
 def test_groups_and_single_nodes_are_apart() -> None:
     nodes = [
         {"name": "groundStation", "tracked_variables": {"heard": 7, "said": 2.5}},

@@ -3,6 +3,7 @@ import json
 
 import pytest
 
+from gradysim.results.delays import constant_delays
 from gradysim.results.run_result import NodeResult, RunResult
 
 
@@ -42,6 +43,7 @@ def test_keys_and_values_that_scripts_rely_on():
         ("interrupted", False),
         ("fingerprint", None),
         ("fates", {"messages": {"broadcast": {"delivered": 3}}}),
+        ("message_delays", {}),
         ("repetition", 1),
         ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
         ("settings_hash", "0123"),
@@ -53,6 +55,12 @@ def test_keys_and_values_that_scripts_rely_on():
 def test_what_is_no_plain_number_stays_a_text(value):
     result = dataclasses.replace(result_with({}), iterations={"key": value})
     assert result.to_json_object()["iterations"] == {"key": value}
+
+
+def test_delays_are_told_by_kind():
+    result = dataclasses.replace(result_with({}), message_delays={"unicast": constant_delays({0.5: 2})})
+    told = result.to_json_object()["message_delays"]
+    assert told == {"unicast": constant_delays({0.5: 2}).to_json_object()}
 
 
 def test_keys_of_a_node():

@@ -3,6 +3,7 @@ import math
 
 import pytest
 
+from gradysim.results.delays import constant_delays
 from gradysim.results.run_result import NodeResult, RunResult
 from gradysim.results.scalars import scalars
 
@@ -42,6 +43,12 @@ def test_fates_of_the_network():
     assert told["Network.radioMedium", "unicastOverheard:belowSensitivity:count"] == 2
     assert told["Network.communicationMedium", "broadcast:delivered:count"] == 3
     assert told["Network", "unicastMessage:retryLimit:count"] == 4
+
+
+def test_delays_of_messages():
+    told = named(dataclasses.replace(RESULT, message_delays={"unicast": constant_delays({0.1: 1, 0.3: 1})}))
+    assert told["Network", "unicastMessage:delay:mean"] == pytest.approx(0.2)
+    assert told["Network", "unicastMessage:delay:max"] == 0.3
 
 
 def test_the_place_of_a_node():

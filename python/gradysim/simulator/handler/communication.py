@@ -196,7 +196,9 @@ class CommunicationHandler(INodeHandler):
         if self._ledger is not None:
             addressed = len(destinations) - (kind == CommunicationCommandType.BROADCAST)
             out_of_range = addressed - len(copies) - lost
-            copies = self._ledger.note(kind, copies, lost=lost, out_of_range=out_of_range)
+            copies = self._ledger.note(
+                kind, copies, lost=lost, out_of_range=out_of_range, delay_s=medium.delay
+            )
         _schedule(copies, source, medium, event_loop)
 
     def _transmit_message(

@@ -86,6 +86,16 @@ def test_a_copy_is_in_the_air_until_it_arrives(delay_s):
     assert world.ledger.copy_fates()["broadcast"]["in_air"] == 0
 
 
+def test_delays_are_of_those_that_arrived():
+    world = World([0, 10, 20], CommunicationMedium(delay=1))
+    world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0])
+    quick = CommunicationMedium(delay=0.5)
+    world.network.handle_command(SendMessageCommand("b", 1), world.nodes[0], quick)
+    assert world.ledger.delays() == {"broadcast": {1: 0}, "unicast": {0.5: 0}}
+    world.run()
+    assert world.ledger.delays() == {"broadcast": {1: 2}, "unicast": {0.5: 1}}
+
+
 def test_a_medium_of_its_own():
     world = World([0, 10], CommunicationMedium())
     short = CommunicationMedium(transmission_range=5)

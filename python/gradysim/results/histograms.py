@@ -1,0 +1,42 @@
+"""The distributions of a run, under names in OMNeT++'s manner."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from gradysim.results.delays import Delays
+from gradysim.results.run_result import RunResult
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """How often which value was met."""
+
+    module: str
+    """The whole path, which begins with the name of the network."""
+    name: str
+    values: Delays
+    attributes: Mapping[str, str] = field(default_factory=dict)
+
+
+def histograms(result: RunResult, network: str) -> Iterator[Histogram]:
+    """Give the distributions of a run; the paths of their modules begin with `network`."""
+    for kind, delays in result.message_delays.items():
+        name = f"{kind}Message:delay"
+        attributes = {"unit": "s", "source": name, "recordingmode": "histogram"}
+        yield Histogram(network, f"{name}:histogram", delays, attributes)
+
+
+def rows_of_bins(values: Delays) -> Iterator[tuple[float, float]]:
+    """Give the rows of OMNeT++'s table of bins: (lower edge, count), without gaps.
+
+    The first one is what is below all bins, the last one what is above them; nothing is.
+    """
+    yield float("-inf"), 0.0
+    last = None
+    for begin, end, count in values.bins:
+        if last is not None and last < begin:
+            yield last, 0.0
+        yield begin, float(count)
+        last = end
+    if last is not None:
+        yield last, 0.0
