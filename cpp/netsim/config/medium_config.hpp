@@ -26,6 +26,8 @@ inline constexpr std::array<std::string_view, 8> path_loss_names{
     "FreeSpacePathLoss",  "BreakpointPathLoss", "TwoRayGroundReflection", "TwoRayInterference",
     "LogNormalShadowing", "RayleighFading",     "RicianFading",           "NakagamiFading"};
 inline constexpr std::span<const std::string_view> fading_names = std::span(path_loss_names).last(4);
+static_assert(fading_names.front() == "LogNormalShadowing",
+              "a path loss without chance goes before those with it");
 inline constexpr std::array<std::string_view, 2> polarization_names{"horizontal", "vertical"};
 inline constexpr std::array<std::string_view, 3> obstacle_loss_names{"", "IdealObstacleLoss",
                                                                      "DielectricObstacleLoss"};

@@ -28,6 +28,9 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing
       medium_(simulator_, medium, frame_fates_, fingerprint_, hearing, seed) {}
 
 Node& Network::add_node(const NodeConfig& config) {
+    if (initialized_) {
+        throw SimulationError(config.name + " comes too late: expected all nodes before initialize()");
+    }
     config.validate();
     check_with_medium(config);  // all of it before anything is built, so that a refused node leaves no trace
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_, payload_hash_,
@@ -191,7 +194,14 @@ void Network::close_captures() {
     }
 }
 
+void Network::check_initialized(const char* call) const {
+    if (!initialized_) {
+        throw SimulationError("nothing runs before initialize(): call it before " + std::string(call) + "()");
+    }
+}
+
 void Network::initialize() {
+    initialized_ = true;
     for (const Node& node : nodes_) {
         node.check_protocol();
     }

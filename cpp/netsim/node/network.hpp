@@ -38,7 +38,8 @@ public:
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;
 
-    // Nodes get the ids 0, 1, … in the order of adding. The reference stays valid as long as the network.
+    // Nodes get the ids 0, 1, … in the order of adding. The reference stays valid as long as the network. Throws
+    // ConfigError for values out of range, and SimulationError after initialize().
     Node& add_node(const NodeConfig& config);
     Node& node(NodeId id) { return nodes_.at(static_cast<std::size_t>(id)); }
     const Node& node(NodeId id) const { return nodes_.at(static_cast<std::size_t>(id)); }
@@ -51,14 +52,19 @@ public:
     // Completes the capture files. Throws SimulationError, after all are closed, if one could not be written.
     void close_captures();
 
-    // Calls the protocols' initialize, in the order of ids, at time 0. Throws what their check finds wrong before that.
+    // Calls the protocols' initialize, in the order of ids, at time 0. Once, before anything runs. Throws what their check
+    // finds wrong before that.
     void initialize();
     // Runs the events up to and including `limit`; false if `max_events` ran before that.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
+        check_initialized("run_until");
         return simulator_.run_until(limit, max_events);
     }
     // Runs one event, if there is one up to and including `limit`; otherwise returns false, and the clock stays.
-    bool step(SimTime limit) { return simulator_.step(limit); }
+    bool step(SimTime limit) {
+        check_initialized("step");
+        return simulator_.step(limit);
+    }
     // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
     // run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
@@ -76,6 +82,7 @@ public:
     const MessageFates& message_fates() const { return message_fates_; }
 
 private:
+    void check_initialized(const char* call) const;
     // What nodes of one configuration share, made for the first of them. Both throw ConfigError for what cannot be.
     std::shared_ptr<const RadioKind> radio_kind(RadioConfig config);
     std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);
@@ -106,6 +113,7 @@ private:
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
     ScheduledCalls scheduled_calls_{simulator_};
     std::int32_t node_count_ = 0;
+    bool initialized_ = false;
 };
 
 }  // namespace netsim

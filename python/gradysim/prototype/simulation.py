@@ -5,6 +5,7 @@ from typing import Any
 
 from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.keys.mobility import MASSLESS, STATIONARY
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeProtocol, text_of_only_integrated
 from gradysim.config.protocol.parametrize import parametrize
@@ -115,8 +116,7 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
-    typename = spec.mobility.get("typename")
-    stationary = typename is not None and typename.value == "StationaryMobility"
+    stationary = _stands_still(spec)
     mobility.configure_node(spec.id, stationary=stationary)
     numbers: dict[str, float] = {}
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
@@ -126,3 +126,14 @@ def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> Non
                 mobility.configure_node(spec.id, stationary=stationary, **numbers)
             except ValueError as error:  # those before it are right
                 raise ConfigError.at(setting.source, str(error)) from error
+
+
+def _stands_still(spec: NodeSpec) -> bool:
+    typename = spec.mobility.get("typename")
+    if typename is None or typename.value == MASSLESS:
+        return False
+    if typename.value == STATIONARY:
+        return True
+    raise ConfigError.at(
+        typename.source, f'prototype mode has no {typename.value}; expected "{MASSLESS}" or "{STATIONARY}"'
+    )

@@ -98,6 +98,22 @@ TEST(Network, InitializesAndFinishesInTheOrderOfIds) {
                                                "finish 1", "finish 2"}));
 }
 
+TEST(Network, NothingRunsBeforeInitialize) {
+    Network network(MediumConfig(), 1);
+    network.add_node(silent_node());
+    EXPECT_THROW(network.run_until(s(1)), SimulationError);
+    EXPECT_THROW(network.step(s(1)), SimulationError);
+    network.initialize();
+    EXPECT_NO_THROW(network.run_until(s(1)));
+}
+
+TEST(Network, ANodeThatComesAfterInitializeIsRefused) {
+    Network network(MediumConfig(), 1);
+    network.initialize();
+    EXPECT_THROW(network.add_node(silent_node()), SimulationError);
+    EXPECT_EQ(network.node_count(), 0);
+}
+
 TEST(Network, MessagesSentInInitializeAreDelivered) {
     for (const std::string_view medium : medium_type_names) {
         Network network(MediumConfig(std::string(medium)), 1);

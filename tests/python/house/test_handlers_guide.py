@@ -85,6 +85,12 @@ def test_heights_once_a_second(watch: Any) -> None:
         assert heights == pytest.approx([min(10 * time, 50)] * 3, abs=0.01)
 
 
+def test_each_message_with_when_and_who_got_it(watch: Any) -> None:
+    rows = watch.messages("watch.ini")
+    assert sorted(node for _, node, _ in rows) == [0, 0, 1, 1, 2, 2]
+    assert all(2 < time < 3.1 and message == "climbing" for time, _, message in rows)
+
+
 def test_careful_climbers_are_on_the_ground_in_both_modes(watch: Any) -> None:
     assert watch.heights_at_the_end("watch.ini") == pytest.approx([0] * 6, abs=0.01)
 

@@ -1,3 +1,4 @@
+import math
 import re
 
 import pytest
@@ -37,13 +38,17 @@ def a_valid_obstacle():
     return obstacle
 
 
+def validate_with(target, value):
+    struct, _, field = target.partition(".")
+    config = a_valid_obstacle() if struct == "obstacle" else engine_defaults()[struct][""]
+    setattr(config, field, value)
+    config.validate(*([2.4e9] if struct == "antenna" else []))
+
+
 def give_a_wrong_name(target):
     if target in MADE_WITH:
         MADE_WITH[target]("?")
-    struct, _, field = target.partition(".")
-    config = a_valid_obstacle() if struct == "obstacle" else engine_defaults()[struct][""]
-    setattr(config, field, "?")
-    config.validate(*([2.4e9] if struct == "antenna" else []))
+    validate_with(target, "?")
 
 
 @pytest.mark.parametrize("target", CHOICES)
@@ -53,6 +58,23 @@ def test_names_that_a_file_may_write_are_those_of_the_engine(target):
     told = re.search(r"expected (?:one of )?(.*?)(?:; did you mean .*)?$", str(error.value))
     known = [name.removeprefix('"" (none)') for name in told[1].split(", ")]
     assert CHOICES[target] == known
+
+
+OF_OTHER_ANTENNAS = {"antenna.beam_width_rad", "antenna.min_gain"}
+"""Which the default one has no use for, and does not check."""
+
+NUMBERS = sorted(
+    f"{struct}.{field}"
+    for struct, named in engine_defaults().items()
+    for field in dir(named[""])
+    if isinstance(getattr(named[""], field), float) and getattr(type(named[""]), field).fset
+)
+
+
+@pytest.mark.parametrize("target", [each for each in NUMBERS if each not in OF_OTHER_ANTENNAS])
+def test_no_number_is_taken_unchecked(target):
+    with pytest.raises(ValueError, match="nan"):
+        validate_with(target, math.nan)
 
 
 def test_every_default_is_known() -> None:

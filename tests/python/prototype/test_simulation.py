@@ -1,12 +1,16 @@
+import re
 from dataclasses import replace
 
 import pytest
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
+from gradysim.config.keys.mobility import ARDUPILOT, MOBILITY_KEYS
 from gradysim.config.scenario import CommunicationMediumSpec
 from gradysim.config.value.setting import Setting
 from gradysim.prototype.simulation import build_simulation, communication_medium
+
+TYPENAME = next(key for key in MOBILITY_KEYS if key.path == "mobility.typename")
 
 
 def run_of(scenario):
@@ -52,6 +56,22 @@ def test_a_stationary_node_refuses_to_move(make_scenario):
     )
     with pytest.raises(Exception, match="stationary"):
         run_of(scenario)
+
+
+@pytest.mark.parametrize("typename", re.findall(r'"(\w+)"', TYPENAME.kind.expected))
+def test_each_way_to_move_is_known(flown_scenario, make_scenario, typename):
+    settings = f'*.uavs[0].mobility.typename = "{typename}"', "*.uavs[0].mobility.separationX = 10m"
+    make, of_it = (flown_scenario, ()) if typename == ARDUPILOT else (make_scenario, settings)
+    build_simulation(make("class Tested(Quiet): pass", *of_it))
+
+
+def test_a_way_to_move_that_it_does_not_have_is_refused(make_scenario):
+    scenario = make_scenario("class Tested(Quiet): pass", '*.uavs[1].mobility.typename = "MasslessMobility"')
+    other, spec = scenario.nodes
+    typename = replace(spec.mobility["typename"], value="CircleMobility")
+    nodes = (other, replace(spec, mobility={"typename": typename}))
+    with pytest.raises(ConfigError, match=r"override .*: prototype mode has no CircleMobility"):
+        build_simulation(replace(scenario, nodes=nodes))
 
 
 def test_parameters_are_in_force_when_the_protocol_is_made(make_scenario):

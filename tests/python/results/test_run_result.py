@@ -57,6 +57,19 @@ def test_what_is_no_plain_number_stays_a_text(value):
     assert result.to_json_object()["iterations"] == {"key": value}
 
 
+def test_every_field_of_a_node_is_told_but_its_vectors():
+    node = NodeResult(
+        *(0, "uavs[0]", "Mobile", (1.0, 2.0, 3.0), {"x": 1}),
+        frames_by_bitrate={1: 2},
+        frame_fates={},
+        interferers={},
+        vectors=(),
+    )
+    given = {field.name for field in dataclasses.fields(node) if getattr(node, field.name) is not None}
+    assert given == {field.name for field in dataclasses.fields(node)}
+    assert given - node.to_json_object().keys() == {"vectors"}
+
+
 def test_delays_are_told_by_kind():
     result = dataclasses.replace(result_with({}), message_delays={"unicast": constant_delays({0.5: 2})})
     told = result.to_json_object()["message_delays"]

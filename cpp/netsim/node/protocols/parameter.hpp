@@ -28,7 +28,7 @@ struct Parameter {
     std::string_view meaning;
 };
 
-// What is given; what is not has its default.
+// What is given; what is not has its default. A whole number will do for a number.
 using Parameters = std::map<std::string, ParameterValue, std::less<>>;
 
 // One row of the table of native protocols.
@@ -90,11 +90,14 @@ NativeProtocol native_protocol(std::string_view name, std::string_view meaning, 
             std::visit(
                 [&](auto member) {
                     using Value = std::remove_reference_t<decltype(config.*member)>;
-                    const Value* value = std::get_if<Value>(&found->second);
-                    if (value == nullptr) {
+                    const auto* whole = std::get_if<std::int64_t>(&found->second);
+                    if (const Value* value = std::get_if<Value>(&found->second)) {
+                        config.*member = *value;
+                    } else if (std::is_same_v<Value, double> && whole != nullptr) {
+                        config.*member = static_cast<Value>(*whole);
+                    } else {
                         refuse_kind_of_parameter(field.name, ParameterValue(config.*member));
                     }
-                    config.*member = *value;
                 },
                 field.member);
         }

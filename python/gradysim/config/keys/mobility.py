@@ -5,6 +5,7 @@ from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.value.kinds import boolean, choice, coordinate, file_name, integer, quantity, text
 
 MASSLESS = "MasslessMobility"
+STATIONARY = "StationaryMobility"
 ARDUPILOT = "ArdupilotMobility"
 """A node flown by an ArduCopter of its own."""
 
@@ -20,7 +21,7 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     _own(
         "typename",
         "typename",
-        choice(MASSLESS, "StationaryMobility", STATIC_GRID, ARDUPILOT),
+        choice(MASSLESS, STATIONARY, STATIC_GRID, ARDUPILOT),
         "How it moves: as its protocol says (missions, random waypoints: docs/guides/plugins.md), or not;"
         " StaticGridMobility: it does not, and starts in a grid; ArdupilotMobility: as its protocol says,"
         " flown by a real autopilot (docs/guides/ardupilot.md)",

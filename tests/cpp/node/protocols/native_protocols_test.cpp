@@ -63,8 +63,13 @@ TEST_F(NativeProtocols, AnUnknownParameterIsRefusedWithTheNearest) {
 TEST_F(NativeProtocols, AValueOfAnotherKindIsRefused) {
     EXPECT_EQ(error_of("BeaconProtocol", {{"payload_bytes", 1.5}}),
               "protocol.payload_bytes: expected a whole number");
-    EXPECT_EQ(error_of("BeaconProtocol", {{"interval", std::int64_t{1}}}),
-              "protocol.interval: expected a number");
+    EXPECT_EQ(error_of("BeaconProtocol", {{"interval", true}}), "protocol.interval: expected a number");
+}
+
+TEST_F(NativeProtocols, AWholeNumberWillDoForANumber) {
+    EXPECT_EQ(error_of("BeaconProtocol", {{"interval", std::int64_t{1}}}), "no error");
+    EXPECT_EQ(error_of("BeaconProtocol", {{"interval", std::int64_t{0}}}),
+              error_of("BeaconProtocol", {{"interval", 0.0}}));
 }
 
 // The error of each protocol that has messages of a size to choose, if they are one byte longer than the longest; none may
