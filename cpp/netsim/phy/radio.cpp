@@ -169,13 +169,27 @@ void Radio::end_header() {
 void Radio::arrival_ended(const Arrival& arrival) {
     present_.remove(arrival.transmission);
     if (locked_ == arrival.transmission) {
-        end_reception(arrival);
-    } else if (is_candidate(arrival.transmission)) {
+        reports_ = true;
+        try {
+            end_reception(arrival);
+        } catch (...) {  // a protocol's: the channel is free all the same
+            end_report();
+            throw;
+        }
+        end_report();
+        return;
+    }
+    if (is_candidate(arrival.transmission)) {
         const auto unnoticed = candidate_of(arrival.transmission);
         simulator_.cancel(unnoticed->detection);
         candidates_.erase(unnoticed);
         book(*arrival.transmission, FrameFate::preamble_undetected);
     }
+    update_busy();
+}
+
+void Radio::end_report() {
+    reports_ = false;
     update_busy();
     others_are_weak_ = false;
 }
@@ -264,7 +278,7 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 }
 
 void Radio::update_busy() {
-    bool busy = transmitting_ || locked_ != nullptr;
+    bool busy = transmitting_ || reports_ || locked_ != nullptr;
     if (!busy && !present_.empty()) {
         double energy_w = kind_.reception.noise_w;
         for (const PresentArrival& present : present_.all()) {

@@ -136,6 +136,7 @@ private:
     void give_up_reception();
     void end_header();
     void end_reception(const Arrival& arrival);
+    void end_report();
     // Both draw, and find interferers only if interference is to blame.
     FrameFate decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     FrameFate decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers);
@@ -154,6 +155,7 @@ private:
     bool transmitting_ : 1 = false;
     bool turned_ : 1 = false;  // to transmit, which it does not yet
     bool busy_ : 1 = false;
+    bool reports_ : 1 = false;  // the end of a frame, before its channel may be free
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
     bool tells_of_channel_ : 1 = true;

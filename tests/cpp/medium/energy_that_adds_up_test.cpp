@@ -163,6 +163,45 @@ TEST_P(EnergyThatAddsUp, OfManyIsNoticedIfItArrivesAfterALoudFrameBesideWhichThe
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(21), us(135)}));
 }
 
+// Watches its channel from its first frame on, as a station that answers it.
+class WatcherOfItsFrame final : public RadioListener {
+public:
+    explicit WatcherOfItsFrame(Radio& radio) : radio_(radio) {
+        radio_.set_listener(*this);
+        radio_.stop_watching_channel();
+    }
+    bool was_told_it_is_free() const { return was_told_; }
+    bool found_it_busy() const { return found_it_busy_; }
+
+private:
+    void channel_busy_changed(bool busy) override { was_told_ |= reports_ && !busy; }
+    void frame_received(const Transmission&) override {
+        reports_ = true;
+        radio_.watch_channel(SimTime());
+        found_it_busy_ = radio_.is_channel_busy();
+        reports_ = false;
+    }
+    void frame_corrupted() override {}
+    void transmission_ended() override {}
+
+    Radio& radio_;
+    bool reports_ = false;
+    bool was_told_ = false;
+    bool found_it_busy_ = false;
+};
+
+// The others are enough together, but one of them is still on its way.
+TEST_P(EnergyThatAddsUp, DoesNotMakeTheChannelFreeWhileAFrameIsReported) {
+    WatcherOfItsFrame watcher(receiver->radio);
+    sends_at(add_sender({1, 0, 0}, 5e-9), us(10), us(50));
+    sends_at(add_sender({0, 1, 0}, 3.5e-11), us(20), us(400));
+    sends_at(add_sender({0, 2, 0}, 3.5e-11), us(21), us(400));
+    sends_at(add_sender({0, 30, 0}, 3.5e-11), us(50), us(400));
+    air.run();
+    EXPECT_TRUE(watcher.found_it_busy());
+    EXPECT_FALSE(watcher.was_told_it_is_free());
+}
+
 // A station that gets its message in an instant in which something changes; its channel is busy before and after it.
 class EnergyOfOneInstant : public testing::TestWithParam<Hearing> {
 protected:
