@@ -119,7 +119,7 @@ double EnergyWatch::missing_beside_those_coming(RadioId radio, const Position& p
     return missing_at(radio, place);
 }
 
-// Adds up in the order in which they began.
+// Adds up in the order of their transmissions, as the radio does.
 SimTime EnergyWatch::over_at(RadioId radio, const Position& place, SimTime since) {
     const ReceiverKind& here = links_.kind(radio);
     const SimTime now = simulator_.now();
@@ -143,7 +143,7 @@ SimTime EnergyWatch::over_at(RadioId radio, const Position& place, SimTime since
             break;
         }
         if (change.begins) {
-            present_.push_back(change.passing);
+            present_.insert(std::ranges::upper_bound(present_, change.passing), change.passing);
         } else {
             std::erase(present_, change.passing);
         }

@@ -1,4 +1,5 @@
-// The arrivals that last at one radio at the moment, in the order in which they began.
+// The arrivals that last at one radio at the moment, in the order of their transmissions, whenever the radio is told of them:
+// how their sum is rounded must not depend on that.
 //
 // Mostly there is one. That lies in the radio itself: a store to memory that is in no cache holds up what
 // comes after it, and in a large network any memory beside the radio is in none.
@@ -34,7 +35,12 @@ public:
             if (count_ == few_.size()) {
                 move_to_many();
             }
-            many_->push_back(arrival);
+            // Mostly the last place.
+            const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
+                return id < other.transmission->id;
+            };
+            many_->insert(std::upper_bound(many_->begin(), many_->end(), arrival.transmission->id, is_later),
+                          arrival);
         }
         ++count_;
     }

@@ -24,10 +24,11 @@ TEST(PresentArrivals, AreNoneAtFirst) {
     EXPECT_TRUE(present.all().empty());
 }
 
-TEST(PresentArrivals, KeepTheOrderOfTheirBeginnings) {
-    const std::array<Transmission, 5> sent;
+TEST(PresentArrivals, HaveTheOrderOfTheirTransmissions) {
+    std::array<Transmission, 5> sent;
     PresentArrivals present;
-    for (std::size_t i = 0; i < sent.size(); ++i) {
+    for (const std::size_t i : {3, 1, 4, 0, 2}) {
+        sent[i].id = i;
         present.add({&sent[i], static_cast<double>(i)});
     }
     present.remove(&sent[1]);
