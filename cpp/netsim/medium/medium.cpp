@@ -111,7 +111,9 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
     const double within_m = links_.reach_m(audience, sent);
     audience.members.prepare(sent.start, links_.odometer(), within_m);
     entry.reach_m = std::max(entry.reach_m, within_m);
-    const double search_m = std::max(within_m, ring.radius_m());
+    // Up to there the delay may be rounded to 0: also of those that matter only together.
+    constexpr double at_once_m = 1e-3;
+    const double search_m = std::max({within_m, ring.radius_m(), at_once_m});
     const double least_w = std::min(audience.noticed_w(sent), ring.least_power_w());
     const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
     for (const auto& [radio, place] : near) {
@@ -125,7 +127,6 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
         if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
             continue;
         }
-        constexpr double at_once_m = 1e-3;  // or less: the delay may be rounded to 0
         entry.arrives_at_once |= squared_m2 <= at_once_m * at_once_m;
         const ReceiverKind& there = links_.kind(radio);
         const double distance_m = std::sqrt(squared_m2);

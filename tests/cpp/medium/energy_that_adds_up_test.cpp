@@ -202,6 +202,26 @@ TEST_P(EnergyThatAddsUp, DoesNotMakeTheChannelFreeWhileAFrameIsReported) {
     EXPECT_FALSE(watcher.was_told_it_is_free());
 }
 
+// So near that they arrive at once, though none is in the place of another, and too weak to be noticed anywhere.
+TEST_P(EnergyThatAddsUp, OfManyIsNoticedInTheInstantInWhichTheyAreSent) {
+    RadioConfig config = test::radio_of_power(1.8e-11);
+    config.sensitivity_w = 1e-9;
+    config.energy_detection_w = 1e-10;
+    std::vector<BareRadio*> senders;
+    for (int i = 1; i <= 6; ++i) {
+        senders.push_back(&air.add_radio({i * 2e-5, 0, 0}, config));
+    }
+    bool is_busy = false;
+    air.at(us(10), [&] {
+        for (BareRadio* sender : senders) {
+            sender->send(us(100));
+        }
+        air.simulator.schedule_at(us(10), [&] { is_busy = receiver->radio.is_channel_busy(); });
+    });
+    air.run();
+    EXPECT_TRUE(is_busy);
+}
+
 // A station that gets its message in an instant in which something changes; its channel is busy before and after it.
 class EnergyOfOneInstant : public testing::TestWithParam<Hearing> {
 protected:
