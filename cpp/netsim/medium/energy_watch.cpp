@@ -20,7 +20,7 @@ void EnergyWatch::begin_ring(OnAir& here, std::size_t index) {
     const Transmission& sent = here.transmission;
     EnergyRing& ring = here.rings[index];
     const double level_w = audience.noticed_energy_w();
-    if (level_w <= 0) {
+    if (level_w < std::numeric_limits<double>::min()) {  // of less there may be no parts, and so no zones
         ring.begin_without_zones();
         return;
     }

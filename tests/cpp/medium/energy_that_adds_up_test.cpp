@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -275,6 +276,23 @@ INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp,
 
 INSTANTIATE_TEST_SUITE_P(Hearings, EnergyOfOneInstant,
                          testing::Values(Hearing::what_matters, Hearing::everything), name_of);
+
+// The least level that there is: so many parts of it as it is divided into there are not.
+TEST(EnergyOfAnySize, IsNoticedByWhoNoticesTheLeast) {
+    MediumConfig config;
+    config.background_noise_w = 0;
+    Air air(config);
+    RadioConfig keen;
+    keen.energy_detection_w = std::numeric_limits<double>::denorm_min();
+    BareRadio& receiver = air.add_radio({0, 0, 0}, keen);
+    BareRadio& first = air.add_radio({0, light_microsecond_m, 0}, keen);
+    BareRadio& second = air.add_radio({0, 2 * light_microsecond_m, 0}, keen);
+    air.at(us(10), [&] { first.send(us(100)); });
+    air.at(us(20), [&] { second.send(us(100)); });
+    air.run();
+    EXPECT_EQ(receiver.log.times_of(RadioWord::busy), std::vector{us(11)});
+    EXPECT_EQ(receiver.log.times_of(RadioWord::free), std::vector{us(122)});
+}
 
 // Very many frames at once, of which it takes some to make a channel busy.
 TEST(EnergyOfVeryMany, LooksAtEachTransmissionAFewTimesAtEachRadio) {
