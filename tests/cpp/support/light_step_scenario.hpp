@@ -1,11 +1,12 @@
 // Random scenarios on a line of places a light-microsecond apart, where all begin to send in whole microseconds: frames arrive,
-// end and are sent in the same instants, in every order of their turns.
+// end and are sent in the same instants, in every order of their turns. Some are answered in the instant in which they end.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "netsim/medium/path_loss.hpp"
 #include "support/random_scenario.hpp"
 
 namespace netsim::test {
@@ -54,6 +55,26 @@ inline RandomScenario make_light_step_scenario(std::uint64_t seed) {
     scenario.talk.broadcast_share = between(0, 0.6);
     scenario.talk.until = SimTime::from_us(20'000 + draws.uniform_int(60'000));
     scenario.talk.beat = SimTime::from_us(1);
+    scenario.talk.late = chance(0.5) ? 0.5 : 0;
+    scenario.talk.answers = chance(0.6) ? between(0, 0.6) : 0;
+    if (chance(0.5)) {
+        // Some frames bring to each exactly what it takes, if they come together: then their sum may not depend on the model.
+        const PathLoss path_loss = make_path_loss(scenario.medium);
+        for (NodeConfig& node : scenario.nodes) {
+            RadioConfig& radio = node.wlan[0].radio;
+            radio.energy_detection_w = 1.05 * scenario.medium.background_noise_w;
+            double sum_w = scenario.medium.background_noise_w;
+            for (std::uint32_t i = 0; i < 4; ++i) {
+                const NodeConfig& other =
+                    scenario.nodes[draws.uniform_int(static_cast<std::uint32_t>(count))];
+                const double distance_m = distance(node.initial_position, other.initial_position);
+                if (distance_m > 0) {
+                    sum_w += other.wlan[0].radio.tx_power_w * path_loss.gain(distance_m, radio.carrier_hz);
+                    radio.energy_detection_w = sum_w;
+                }
+            }
+        }
+    }
     return scenario;
 }
 

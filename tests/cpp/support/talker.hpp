@@ -33,6 +33,8 @@ struct Talk {
     bool moves = false;
     double movers = 1;  // the share of nodes that do
     SimTime beat;       // if not zero, bursts are at multiples of it, so that nodes start in the same instant
+    double late = 0;  // the share of bursts whose timer is set a beat before: after what is due then already
+    double answers = 0;  // the share of messages that it answers with a burst, at once
 };
 
 class Talker final : public Protocol {
@@ -52,10 +54,31 @@ public:
             if (talk_.beat > SimTime()) {
                 time = SimTime::from_ps(time.ps() / talk_.beat.ps() * talk_.beat.ps());
             }
-            node_.schedule_timer("talk", time);
+            if (time >= talk_.beat && draws_below(talk_.late)) {
+                node_.schedule_timer("set", SimTime::from_ps(time.ps() - talk_.beat.ps()));
+            } else {
+                node_.schedule_timer("talk", time);
+            }
         }
     }
-    void handle_timer(const std::string&) override {
+    void handle_timer(const std::string& timer) override {
+        if (timer == "set") {
+            node_.schedule_timer("talk", node_.now() + talk_.beat);
+        } else {
+            speak();
+        }
+    }
+    void handle_packet(const Payload& message) override {
+        deliveries_.push_back({node_.now(), node_.id(), *message});
+        if (node_.now() < talk_.until && draws_below(talk_.answers)) {
+            speak();
+        }
+    }
+    void handle_telemetry(const Position&) override {}
+    void finish() override {}
+
+private:
+    void speak() {
         if (moves_) {
             node_.set_speed(draws_.uniform() * talk_.top_speed_mps);
             node_.go_to(talk_.corner +
@@ -74,14 +97,9 @@ public:
             }
         }
     }
-    void handle_packet(const Payload& message) override {
-        deliveries_.push_back({node_.now(), node_.id(), *message});
-    }
-    void handle_telemetry(const Position&) override {}
-    void finish() override {}
-
-private:
-    // Who has only one draws nothing, so that scenarios without further ones stay as they are.
+    // Draws nothing for a share of 0, so that scenarios without what it is the share of stay as they are.
+    bool draws_below(double share) { return share > 0 && draws_.uniform() < share; }
+    // Who has only one draws nothing, likewise.
     std::int32_t interface() {
         const auto count = static_cast<std::uint32_t>(node_.interfaces().size());
         return count == 1 ? 0 : static_cast<std::int32_t>(draws_.uniform_int(count));
