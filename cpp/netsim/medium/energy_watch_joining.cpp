@@ -29,7 +29,7 @@ SimTime EnergyWatch::watch(RadioId radio, SimTime since) {
 bool EnergyWatch::may_be_in_a_ring(const Position& place, SimTime since) const {
     const double odometer_m = links_.odometer().reading_m(simulator_.now());
     return std::ranges::any_of(airwaves_.entries(), [&](const std::unique_ptr<OnAir>& on_air) {
-        const double within_m = on_air->ring_m + (odometer_m - on_air->odometer_m);
+        const double within_m = (on_air->ring_m + (odometer_m - on_air->odometer_m)) * (1 + rounding_margin);
         return on_air->last_end > since &&
                squared_distance(on_air->transmission.origin, place) <= within_m * within_m;
     });

@@ -294,6 +294,33 @@ TEST(EnergyOfAnySize, IsNoticedByWhoNoticesTheLeast) {
     EXPECT_EQ(receiver.log.times_of(RadioWord::free), std::vector{us(122)});
 }
 
+// With next to no path loss but at the sender's place, whoever leaves that flies along the border of where the frames are noticed.
+TEST(EnergyAtABorder, IsNoticedByWhoFliesAsFastAsItMoves) {
+    MediumConfig config;
+    config.alpha = 1e-7;
+    Air air(config);
+    RadioConfig radio = test::radio_of_power(6e-11);
+    radio.sensitivity_w = 1e-9;
+    radio.energy_detection_w = 1e-10;
+    for (const int i : {1, 2}) {
+        BareRadio& sender = air.add_radio({0, 0, 0}, radio);
+        air.at(us(10 * i), [&sender] { sender.send(us(1000)); });
+    }
+    int busy_count = 0;
+    for (int i = 0; i < 50; ++i) {
+        BareRadio& flier = air.add_radio({0, 0, 0}, radio);
+        flier.radio.stop_watching_channel();
+        air.at(us(30), [&flier] { flier.trajectory.go_to(us(30), {33, 0, 7}, 5620.61); });
+        const SimTime now = us(100 + 7 * i);
+        air.at(now, [&flier, &busy_count, now] {
+            flier.radio.watch_channel(now);
+            busy_count += flier.radio.is_channel_busy() ? 1 : 0;
+        });
+    }
+    air.run();
+    EXPECT_EQ(busy_count, 50);
+}
+
 // Very many frames at once, of which it takes some to make a channel busy.
 TEST(EnergyOfVeryMany, LooksAtEachTransmissionAFewTimesAtEachRadio) {
     Air air;
