@@ -168,6 +168,7 @@ TEST(Network, AfterAnExceptionOfOneReceiverTheOthersGetTheFrame) {
 TEST(Network, RunsWhatIsScheduledBesideItsNodes) {
     Network network(MediumConfig{}, 1);
     SimTime ran;
+    network.initialize();
     network.schedule(s(2), [&] { ran = network.now(); });
     EXPECT_EQ(network.pending_count(), 1U);
     EXPECT_TRUE(network.step(s(5)));

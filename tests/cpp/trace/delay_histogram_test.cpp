@@ -49,7 +49,7 @@ TEST(DelayHistogram, ABinHoldsItsDelayAndIsNarrow) {
         const std::int64_t begin_ps = std::int64_t{1} << octave;
         const auto inside = static_cast<std::int64_t>(draws.uniform() * static_cast<double>(begin_ps));
         for (const std::int64_t delay_ps :
-             {begin_ps - 1, begin_ps, begin_ps + inside, begin_ps + begin_ps - 1}) {
+             {begin_ps - 1, begin_ps, begin_ps + inside, begin_ps + (begin_ps - 1)}) {
             const auto bins = of({delay_ps}).bins();
             ASSERT_EQ(bins.size(), 1U);
             EXPECT_LE(bins[0].begin.ps(), delay_ps);
