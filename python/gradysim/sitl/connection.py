@@ -25,6 +25,7 @@ class StreamConnection(asyncio.Protocol):
         self.explain = explain
         self.made = asyncio.Event()
         self._is_taken = False
+        self._is_closed = False
         self._transport: asyncio.Transport | None = None
 
     def accept(self) -> asyncio.Protocol:
@@ -35,8 +36,11 @@ class StreamConnection(asyncio.Protocol):
         return self
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Take the connection."""
+        """Take the connection, unless it was closed after it had been accepted."""
         assert isinstance(transport, asyncio.Transport)
+        if self._is_closed:
+            transport.abort()
+            return
         self._transport = transport
         self._link.send_bytes = transport.write
         self.made.set()
@@ -52,7 +56,8 @@ class StreamConnection(asyncio.Protocol):
             self._link.lose(reason if self.explain is None else self.explain())
 
     def close(self) -> None:
-        """Close the connection, and the link with it."""
+        """Close the connection, even one that is about to be made, and the link with it."""
+        self._is_closed = True
         self._link.lose(_CLOSED)
         if self._transport is not None:
             self._transport.abort()

@@ -145,10 +145,11 @@ def test_no_object_of_python_is_kept_for_each_run(
         for _ in range(runs):
             make(scenario)
         gc.collect()
+        sys._clear_type_cache()  # it keeps up to 4,096 names of attributes, which ones is chance
         return sys.getallocatedblocks()
 
     before = blocks_after(10)  # what is made once has been made by then
-    assert blocks_after(RUNS) - before < RUNS
+    assert blocks_after(RUNS) - before < RUNS / 10
 
 
 def test_no_thread_is_left() -> None:

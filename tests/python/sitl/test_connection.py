@@ -1,4 +1,5 @@
 import asyncio
+import contextlib
 import socket
 
 import pytest
@@ -117,3 +118,22 @@ def test_who_comes_second_is_refused_and_does_not_end_the_first():
         return refused, message.get_type(), lost
 
     assert asyncio.run(visit()) == (b"", "HEARTBEAT", None)
+
+
+def test_a_connection_that_is_closed_while_it_is_accepted_is_not_made():
+    connection = StreamConnection(MavlinkLink("node 0"))
+
+    def accept():
+        asyncio.get_running_loop().call_soon(connection.close)  # asyncio makes the connection after that
+        return connection.accept()
+
+    async def vehicle():
+        server = await asyncio.get_running_loop().create_server(accept, "127.0.0.1", 0)
+        async with server:
+            reader, writer = await asyncio.open_connection(*server.sockets[0].getsockname())
+            with contextlib.suppress(ConnectionResetError):
+                assert await asyncio.wait_for(reader.read(), 5) == b""
+            writer.close()
+
+    asyncio.run(vehicle())
+    assert not connection.made.is_set()

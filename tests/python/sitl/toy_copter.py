@@ -41,6 +41,13 @@ def end_once(number, frame):
     sys.exit()
 
 
+def write_whole(file, state):
+    """Who reads it meanwhile, or after the process was killed, finds no half of it."""
+    draft = file.with_suffix(".draft")
+    draft.write_text(json.dumps(state))
+    draft.replace(file)
+
+
 def main():
     if sys.argv[1:] == ["--help"]:
         print(
@@ -73,9 +80,9 @@ def main():
         copter.run()
     finally:
         try:
-            final.write_text(json.dumps(copter.state()))
+            write_whole(final, copter.state())
         finally:  # again: the signal may come between the end of the connection and that of the writing
-            final.write_text(json.dumps(copter.state()))
+            write_whole(final, copter.state())
 
 
 if __name__ == "__main__":
