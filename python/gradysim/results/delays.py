@@ -28,12 +28,12 @@ class Delays:
     @property
     def mean_s(self) -> float:
         """Their mean."""
-        return self.sum_s / self.count
+        return self._between_extremes(self.sum_s / self.count)
 
     @property
     def stddev_s(self) -> float:
-        """Their sample standard deviation; 0 for a single one."""
-        if self.count < 2:
+        """Their sample standard deviation; 0 for a single one, and for equal ones."""
+        if self.min_s == self.max_s:  # else what rounding has left of a difference of sums
             return 0.0
         squares = self.sum_of_squares_s2 - self.sum_s * self.mean_s
         return math.sqrt(max(0.0, squares) / (self.count - 1))
@@ -47,9 +47,12 @@ class Delays:
         for begin, end, count in self.bins:
             if before + count >= rank:
                 within = begin + (end - begin) * (rank - before) / count
-                return min(max(within, self.min_s), self.max_s)
+                return self._between_extremes(within)
             before += count
         return self.max_s
+
+    def _between_extremes(self, time_s: float) -> float:
+        return min(max(time_s, self.min_s), self.max_s)
 
     def to_json_object(self) -> dict[str, object]:
         """Return what results tell of them."""

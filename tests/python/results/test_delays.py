@@ -26,6 +26,12 @@ def test_a_single_delay_does_not_vary():
     assert constant_delays({0.3: 1}).stddev_s == 0
 
 
+@given(times_s, st.integers(2, 10**6))
+def test_equal_delays_do_not_vary(delay_s, count):
+    delays = constant_delays({delay_s: count})
+    assert (delays.mean_s, delays.stddev_s) == (delay_s, 0)
+
+
 def test_quantiles_of_constant_delays_are_exact():
     delays = constant_delays({0.1: 9, 2.0: 1})
     assert [delays.quantile_s(share) for share in (0, 0.5, 0.9, 1)] == pytest.approx([0.1, 0.1, 0.1, 2])
