@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-ALWAYS_TOLD = (" acknowledged", " delivered")
+ALWAYS_TOLD = (" acknowledged", " delivered", " delay in s")
 """Ends of the quantities that say something when they are 0, too."""
 
 _UNDECIDED = {"queued", "in_air"}

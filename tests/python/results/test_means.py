@@ -52,6 +52,11 @@ def test_a_run_without_messages_has_no_delay() -> None:
     assert (mean.mean, mean.runs) == (0.1, 1)
 
 
+def test_a_delay_of_0_is_told() -> None:
+    (mean,) = means([result(0, (), message_delays={"unicast": {"mean_s": 0.0}})])
+    assert (mean.quantity, mean.mean) == ("unicast messages delay in s", 0)
+
+
 def test_groups_and_single_nodes_are_apart() -> None:
     nodes = [
         {"name": "groundStation", "tracked_variables": {"heard": 7, "said": 2.5}},
