@@ -128,8 +128,14 @@ def delay_table(delays: Mapping[str, Delays]) -> Table:
         table.add_column(column, justify="right", no_wrap=True)
     for kind, each in delays.items():
         times_s = (each.mean_s, each.quantile_s(0.5), each.quantile_s(0.95), each.max_s)
-        table.add_row(kind, f"{each.count:,}", *(f"{time_s * 1e3:,.4g} ms" for time_s in times_s))
+        table.add_row(kind, f"{each.count:,}", *map(milliseconds, times_s))
     return table
+
+
+def milliseconds(time_s: float) -> str:
+    """Return a time to four digits, or to the millisecond if it is longer than that."""
+    time_ms = time_s * 1e3
+    return f"{time_ms:,.0f} ms" if time_ms >= 1000 else f"{time_ms:.4g} ms"
 
 
 def metres(coordinate: float) -> str:

@@ -66,6 +66,11 @@ def test_delays_of_messages():
     assert row.split() == ["unicast", "2,000", *["1.05", "ms", "0.3", "ms", "0.3", "ms", "1,500", "ms"]]
 
 
+def test_a_delay_of_many_seconds_is_written_out():
+    lines = printed(message_delays={"unicast": constant_delays({12.3456: 1})}).splitlines()
+    assert next(line for line in lines if line.startswith("unicast")).endswith("12,346 ms")
+
+
 def test_no_table_of_delays_without_messages():
     assert "Delays" not in printed()
 
