@@ -7,7 +7,7 @@ namespace netsim {
 void Odometer::watch(const Trajectory& trajectory, SimTime now) {
     trajectories_.push_back(&trajectory);
     trajectory.set_listener(*this);
-    course_changed(now, trajectory.speed_mps(now), 0);
+    course_changed(now, trajectory.speed_mps(now));
 }
 
 void Odometer::renew(SimTime now) {
@@ -18,10 +18,9 @@ void Odometer::renew(SimTime now) {
     }
 }
 
-void Odometer::course_changed(SimTime now, double speed_mps, double leap_m) {
+void Odometer::course_changed(SimTime now, double speed_mps) {
     advance(now);
     ++course_changes_;
-    reading_m_ += leap_m;
     fastest_mps_ = std::max(fastest_mps_, speed_mps);
 }
 

@@ -28,7 +28,7 @@ public:
     void renew(SimTime now);
 
 private:
-    void course_changed(SimTime now, double speed_mps, double leap_m) override;
+    void course_changed(SimTime now, double speed_mps) override;
     void advance(SimTime now);
 
     std::vector<const Trajectory*> trajectories_;

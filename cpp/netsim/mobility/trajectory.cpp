@@ -1,5 +1,7 @@
 #include "netsim/mobility/trajectory.hpp"
 
+#include <algorithm>
+
 namespace netsim {
 
 const Trajectory::Leg& Trajectory::past_leg_at(SimTime time) const {
@@ -44,7 +46,7 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
         return;
     }
     add(Leg{.start = now,
-            .arrival = now + SimTime::from_seconds(travel_s),
+            .arrival = now + std::max(SimTime::from_seconds(travel_s), SimTime::from_ps(1)),
             .target = target,
             .origin = origin,
             .course = {}});
@@ -71,9 +73,7 @@ void Trajectory::add(Leg leg) {
     }
     past_.erase(past_.begin(), needed);
     if (listener_ != nullptr) {
-        const bool leaps = leg.arrival == leg.start;
-        listener_->course_changed(leg.start, leaps ? 0 : speed_on(leg),
-                                  leaps ? distance(leg.origin, leg.target) : 0);
+        listener_->course_changed(leg.start, speed_on(leg));
     }
 }
 

@@ -14,8 +14,8 @@ namespace netsim {
 // Learns of every new leg of the trajectories that it watches, before anybody asks for a position on it.
 class CourseListener {
 public:
-    // From `now` on at `speed_mps`, after a leap of `leap_m`: so short a leg that it takes no time.
-    virtual void course_changed(SimTime now, double speed_mps, double leap_m) = 0;
+    // From `now` on at `speed_mps`.
+    virtual void course_changed(SimTime now, double speed_mps) = 0;
 
 protected:
     ~CourseListener() = default;
@@ -39,7 +39,8 @@ public:
         return (time > current_.start ? current_ : leg_begun_before(time)).course;
     }
 
-    // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is.
+    // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is. However short the
+    // way and high the speed, it takes the shortest time that there is: nobody is at two places in one instant.
     void go_to(SimTime now, Position target, double speed_mps);
     // From `now` on stand still.
     void stop(SimTime now);
@@ -68,7 +69,9 @@ private:
         return leg.origin + (leg.target - leg.origin) * fraction;
     }
     static double speed_on(const Leg& leg) {
-        return distance(leg.origin, leg.target) / (leg.arrival - leg.start).seconds();
+        return leg.arrival == leg.start
+                   ? 0
+                   : distance(leg.origin, leg.target) / (leg.arrival - leg.start).seconds();
     }
     const Leg& past_leg_at(SimTime time) const;
     const Leg& leg_begun_before(SimTime time) const;
