@@ -34,13 +34,13 @@ void UnitDiskInterface::send(NodeId destination, Payload payload) {
                               " s on a medium without delay: time stands still; expected answers that end");
     }
     const bool broadcast = destination == broadcast_id;
-    const MessageKind kind = broadcast ? MessageKind::broadcast : MessageKind::unicast;
     const FrameLabel label{broadcast ? FrameKind::broadcast : FrameKind::unicast, destination};
     const auto frame = std::make_shared<const Frame>(Frame{.kind = label.kind,
                                                            .transmitter = id_,
                                                            .receiver = destination,
                                                            .payload = std::move(payload),
                                                            .accepted = simulator_.now()});
+    const MessageKind kind = message_kind(*frame);
     message_fates_.accept(kind);
     fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
     fingerprint_.add(static_cast<std::uint64_t>(id_));

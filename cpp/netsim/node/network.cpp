@@ -201,10 +201,13 @@ void Network::check_initialized(const char* call) const {
 }
 
 void Network::initialize() {
-    initialized_ = true;
+    if (initialized_) {
+        throw SimulationError("initialize() was called before: expected once");
+    }
     for (const Node& node : nodes_) {
         node.check_protocol();
     }
+    initialized_ = true;
     for (const Radio& radio : radios_) {
         Node& node = nodes_[radio.node()];
         medium_.set_touched(radio.id(), node.interfaces()[radio.interface().index].get(), &node,

@@ -52,8 +52,8 @@ public:
     // Completes the capture files. Throws SimulationError, after all are closed, if one could not be written.
     void close_captures();
 
-    // Calls the protocols' initialize, in the order of ids, at time 0. Once, before anything runs. Throws what their check
-    // finds wrong before that.
+    // Calls the protocols' initialize, in the order of ids, at time 0. Throws what their check finds wrong before that, and
+    // SimulationError the second time.
     void initialize();
     // Runs the events up to and including `limit`; false if `max_events` ran before that.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
