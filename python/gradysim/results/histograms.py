@@ -1,10 +1,14 @@
 """The distributions of a run, under names in OMNeT++'s manner."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from gradysim.results.delays import Delays
 from gradysim.results.run_result import RunResult
+
+_NARROWEST_S = 1e-12
+"""Of a bin for a single value, so that a density can be told of it."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +36,9 @@ def rows_of_bins(values: Delays) -> Iterator[tuple[float, float]]:
     The first one is what is below all bins, the last one what is above them; nothing is.
     """
     yield float("-inf"), 0.0
-    last = None
-    for begin, end, count in values.bins:
-        if last is not None and last < begin:
-            yield last, 0.0
+    following = [begin for begin, _, _ in values.bins[1:]] + [math.inf]
+    for (begin, end, count), next_begin in zip(values.bins, following, strict=True):
         yield begin, float(count)
-        last = end
-    if last is not None:
-        yield last, 0.0
+        edge = max(end, min(begin + _NARROWEST_S, next_begin))
+        if edge < next_begin:
+            yield edge, 0.0

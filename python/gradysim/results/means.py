@@ -68,15 +68,15 @@ def means(results: Iterable[Mapping[str, Any]]) -> list[Mean]:
         told = {
             quantity: None
             for run in runs.values()
-            for quantity, share in run.shares.items()
-            if share or quantity.endswith(ALWAYS_TOLD)
+            for quantity, figure in run.figures.items()
+            if figure or quantity.endswith(ALWAYS_TOLD)
         }
         for alike in _by(study, _values_of):
             of_runs = [runs[id(result)] for result in alike]
             for group, name in variables:
                 found += _mean_of_variable(alike[0], of_runs, group, name)
             for quantity in told:
-                if values := [run.shares[quantity] for run in of_runs if quantity in run.shares]:
+                if values := [run.figures[quantity] for run in of_runs if quantity in run.figures]:
                     found.append(_mean(alike[0], quantity, values))
     return found
 
@@ -146,7 +146,7 @@ class _Quantities:
     """What means are made of, of one run."""
 
     tracked: Mapping[str, Sequence[Tracked]]
-    shares: Mapping[str, float]
+    figures: Mapping[str, float]
     """Shares of messages and frames, and the mean delays of messages."""
 
     @classmethod

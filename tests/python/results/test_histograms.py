@@ -20,7 +20,14 @@ def test_of_each_kind_of_messages():
     assert histogram.attributes["unit"] == "s"
 
 
-@pytest.mark.parametrize("counts", [{0.0: 1}, {0.5: 2, 0.5000001: 7, 3.0: 1}])
+def test_a_bin_of_a_single_value_is_wide_enough_for_a_density():
+    edges, found = zip(*rows_of_bins(constant_delays({0.0: 3})), strict=True)
+    assert found[1] / (edges[2] - edges[1]) == pytest.approx(3e12)
+
+
+@pytest.mark.parametrize(
+    "counts", [{0.0: 1}, {0.5: 2, 0.5000001: 7, 3.0: 1}, {0.5: 1, 0.5 + 1e-13: 2, 0.5 + 2e-13: 1, 5e5: 1}]
+)
 def test_edges_are_strictly_increasing_and_all_values_are_between_them(counts):
     edges, found = zip(*rows_of_bins(constant_delays(counts)), strict=True)
     assert all(one < other for one, other in itertools.pairwise(edges))
