@@ -47,6 +47,9 @@ class PythonProvider(IProvider):
     Attributes:
         node: The protocol's node.
         handlers: Every handler of the simulation by its label.
+        communication_handler: The one labelled "communication"; None if there is none.
+        mobility_handler: The one labelled "mobility", or None.
+        timer_handler: The one labelled "timer", or None.
         mode: Name of the mode, for people.
     """
 
@@ -56,45 +59,45 @@ class PythonProvider(IProvider):
         self.node = node
         self.handlers: Mapping[str, Any] = handlers
         self.tracked_variables: dict[str, Any] = {}
-        self._communication = cast("_CommunicationHandler | None", handlers.get("communication"))
-        self._mobility = cast("_MobilityHandler | None", handlers.get("mobility"))
-        self._timer = cast("_TimerHandler | None", handlers.get("timer"))
+        self.communication_handler = cast("_CommunicationHandler | None", handlers.get("communication"))
+        self.mobility_handler = cast("_MobilityHandler | None", handlers.get("mobility"))
+        self.timer_handler = cast("_TimerHandler | None", handlers.get("timer"))
         self._random: Random | None = None
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
         """Send a message; the handler's CommunicationException tells of a command that makes no sense."""
-        if self._communication is None:
+        if self.communication_handler is None:
             self._warn_without("communication", "a message was not sent")
         else:
-            self._communication.handle_command(command, self.node)
+            self.communication_handler.handle_command(command, self.node)
 
     def send_mobility_command(self, command: MobilityCommand) -> None:
         """Order the vehicle; the handler's MobilityException tells of a command that makes no sense."""
-        if self._mobility is None:
+        if self.mobility_handler is None:
             self._warn_without("mobility", "a command was not carried out")
         else:
-            self._mobility.handle_command(command, self.node)
+            self.mobility_handler.handle_command(command, self.node)
 
     def schedule_timer(self, timer: str, timestamp: float) -> None:
         """Set a timer; the handler's TimerException tells of a time in the past."""
-        if self._timer is None:
+        if self.timer_handler is None:
             self._warn_without("timer", f"the timer {timer!r} was not set")
         else:
-            self._timer.set_timer(timer, timestamp, self.node)
+            self.timer_handler.set_timer(timer, timestamp, self.node)
 
     def cancel_timer(self, timer: str) -> None:
         """Forget every pending timer of that name."""
-        if self._timer is None:
+        if self.timer_handler is None:
             self._warn_without("timer", f"the timer {timer!r} was not cancelled")
         else:
-            self._timer.cancel_timer(timer, self.node)
+            self.timer_handler.cancel_timer(timer, self.node)
 
     def current_time(self) -> float:
         """Return the simulated time in seconds."""
-        if self._timer is None:
+        if self.timer_handler is None:
             self._warn_without("timer", "the time is unknown")
             return 0
-        return self._timer.get_current_time()
+        return self.timer_handler.get_current_time()
 
     def get_id(self) -> int:
         """Return the id of the node."""

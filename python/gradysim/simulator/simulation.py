@@ -8,10 +8,11 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
+from gradysim.simulator.event import EventLoop as EventLoop  # Scripts of 0.8 import it, and Node, from here.
 from gradysim.simulator.full_speed import FullSpeed
 from gradysim.simulator.handler.given import label_of
 from gradysim.simulator.handler.interface import INodeHandler
-from gradysim.simulator.node import Node
+from gradysim.simulator.node import Node as Node
 from gradysim.simulator.position_scheme import PositionScheme
 from gradysim.simulator.protocol_class import checked_protocol_class
 from gradysim.simulator.simulator import Simulator

@@ -14,6 +14,7 @@ from gradysim.simulator.extension.extension import Extension
 from gradysim.simulator.extension.radio import Radio
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MobilityHandler
+from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from python.quiet_protocol import Quiet
 
@@ -33,6 +34,16 @@ def test_a_provider_shows_its_node_and_handlers(node: Node[Any]) -> None:
         node,
         {"mobility": mobility},
         {},
+    )
+
+
+def test_a_provider_shows_the_handlers_that_take_its_commands(node: Node[Any]) -> None:
+    communication, timer = CommunicationHandler(), TimerHandler()
+    provider = PythonProvider(node, communication=communication, timer=timer)
+    assert (provider.communication_handler, provider.mobility_handler, provider.timer_handler) == (
+        communication,
+        None,
+        timer,
     )
 
 

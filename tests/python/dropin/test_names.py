@@ -151,6 +151,13 @@ def test_a_published_name_is_as_it_was(row: Row) -> None:
     assert described(row) == (row.what if is_elsewhere else DELIBERATE.get(row.name, (row.what,))[0])
 
 
+def test_environments_of_learning_get_what_their_annotations_need_where_they_get_the_simulator() -> None:
+    from gradysim.simulator import event, node
+    from gradysim.simulator.simulation import EventLoop, Node
+
+    assert (EventLoop, Node) == (event.EventLoop, node.Node)
+
+
 @pytest.mark.parametrize("name", DELIBERATE)
 def test_a_use_that_was_right_still_is(name: str) -> None:
     (before,) = [row.what for row in PUBLISHED if row.name == name and not row.what.startswith(" is ")]

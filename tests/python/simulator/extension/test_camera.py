@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 
 from gradysim.encapsulator.python import PythonEncapsulator
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+from gradysim.simulator.event import EventLoop
 from gradysim.simulator.extension.camera import CameraConfiguration, CameraHardware
 from gradysim.simulator.handler.mobility import (
     DynamicVelocityMobilityConfiguration,
@@ -132,6 +133,7 @@ def protocols_at(idle):
 
     def make(points):
         handler, made = MobilityHandler(), []
+        handler.inject(EventLoop())
         for identifier, point in enumerate(points):
             node = Node()
             node.id, node.position = identifier, point

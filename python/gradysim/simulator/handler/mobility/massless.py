@@ -131,7 +131,13 @@ class MasslessMobilityHandler(INodeHandler):
         self._schedule_update(event_loop)
 
     def register_node(self, node: Node[Any]) -> None:
-        """Let the node move."""
+        """Let the node move.
+
+        Raises:
+            MasslessMobilityException: There is no event loop yet.
+        """
+        if self._event_loop is None:
+            raise MasslessMobilityException(f"cannot register node {node.id}: inject an event loop first")
         settings = self._settings.get(node.id, _NodeSettings())
         configuration = self._configuration
         self.nodes[node.id] = node

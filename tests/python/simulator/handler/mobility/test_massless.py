@@ -230,6 +230,11 @@ def test_a_stranger_is_refused(world, handler):
         handler.handle_command(SetSpeedMobilityCommand(1), world.node(7))
 
 
+def test_nodes_come_after_the_event_loop(world):
+    with pytest.raises(MasslessMobilityException, match="cannot register node 0: inject an event loop first"):
+        MasslessMobilityHandler().register_node(world.node(0))
+
+
 def test_a_new_event_loop_forgets_the_nodes(world, handler):
     node = world.node(0, handler=handler)
     handler.inject(EventLoop())
