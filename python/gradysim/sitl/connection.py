@@ -25,7 +25,6 @@ class StreamConnection(asyncio.Protocol):
         self.explain = explain
         self.made = asyncio.Event()
         self._is_taken = False
-        self._is_closed = False
         self._transport: asyncio.Transport | None = None
 
     def accept(self) -> asyncio.Protocol:
@@ -36,9 +35,9 @@ class StreamConnection(asyncio.Protocol):
         return self
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Take the connection, unless it was closed after it had been accepted."""
+        """Take the connection, unless the link was given up after it had been accepted."""
         assert isinstance(transport, asyncio.Transport)
-        if self._is_closed:
+        if self._link.lost is not None:
             transport.abort()
             return
         self._transport = transport
@@ -57,7 +56,6 @@ class StreamConnection(asyncio.Protocol):
 
     def close(self) -> None:
         """Close the connection, even one that is about to be made, and the link with it."""
-        self._is_closed = True
         self._link.lose(_CLOSED)
         if self._transport is not None:
             self._transport.abort()

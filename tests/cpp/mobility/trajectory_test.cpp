@@ -146,9 +146,11 @@ TEST(Trajectory, TellsItsListenerOfEachChangeOfCourse) {
     trajectory.set_listener(course);
     trajectory.go_to(s(1), {100, 0, 0}, 10);
     trajectory.stop(s(2));
-    ASSERT_EQ(course.changes.size(), 2U);
+    trajectory.go_to(s(3), {10 + 1e-8, 0, 0}, 1e6);  // in a picosecond
+    ASSERT_EQ(course.changes.size(), 3U);
     EXPECT_EQ(course.changes[0], (std::array{1.0, 10.0}));
     EXPECT_EQ(course.changes[1], (std::array{2.0, 0.0}));
+    EXPECT_NEAR(course.changes[2][1], 1e4, 0.1);
 }
 
 }  // namespace
