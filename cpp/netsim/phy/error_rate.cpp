@@ -11,7 +11,7 @@
 #include "netsim/config/radio_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/phy/ber_table.hpp"
-#include "netsim/phy/bit_error_ceiling.hpp"
+#include "netsim/phy/bit_error_bounds.hpp"
 #include "netsim/phy/oqpsk_error_rate.hpp"
 
 namespace netsim {
@@ -121,22 +121,44 @@ double cck_11_fit(double snir) {
 constexpr double ofdm_header_bits = 24;
 constexpr double dsss_header_bits = 48;
 
-const BitErrorCeiling& ofdm_ceiling(Constellation constellation, CodeRate code_rate) {
-    static const auto ceilings = [] {
-        std::array<std::array<std::unique_ptr<const BitErrorCeiling>, 4>, 4>
+// Of what bounds are worked out from, and of what they bound.
+constexpr double bounds_rounding = 1e-9;
+
+const BitErrorBounds& ofdm_bounds(Constellation constellation, CodeRate code_rate) {
+    static const auto bounds = [] {
+        std::array<std::array<std::unique_ptr<const BitErrorBounds>, 4>, 4>
             all;  // [constellation][code rate]
         using enum Constellation;
         using enum CodeRate;
         for (const Constellation each : {bpsk, qpsk, qam16, qam64}) {
             for (const CodeRate rate : {one_half, two_thirds, three_quarters}) {
                 all[static_cast<std::size_t>(each)][static_cast<std::size_t>(rate)] =
-                    std::make_unique<const BitErrorCeiling>(
+                    std::make_unique<const BitErrorBounds>(
                         [each, rate](double snir) { return coded_bit_error(each, rate, snir); });
             }
         }
         return all;
     }();
-    return *ceilings[static_cast<std::size_t>(constellation)][static_cast<std::size_t>(code_rate)];
+    return *bounds[static_cast<std::size_t>(constellation)][static_cast<std::size_t>(code_rate)];
+}
+
+const BitErrorBounds& dsss_bounds(std::int64_t bitrate_bps) {
+    static const BitErrorBounds slow(dsss_1_bit_error);
+    static const BitErrorBounds fast(dsss_2_bit_error);
+    return bitrate_bps == 1'000'000 ? slow : fast;
+}
+
+// How many bits of a frame are lost on average, its header included, by a bound of the rate:
+// `rate(const BitErrorBounds&)`. Not of CCK, whose fits need not fall with the SNIR.
+template <typename Rate>
+double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
+    const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
+    if (mode.family == ModeFamily::ofdm) {
+        return ofdm_header_bits * rate(ofdm_bounds(Constellation::bpsk, CodeRate::one_half)) +
+               bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
+    }
+    NETSIM_ASSERT(mode.family == ModeFamily::dsss);
+    return dsss_header_bits * rate(dsss_bounds(1'000'000)) + bits * rate(dsss_bounds(mode.bitrate_bps));
 }
 
 double log_success(double bit_error, double bits) {
@@ -177,29 +199,23 @@ double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
 
 // Of n bits that fail independently, each with at most b, all survive with at least 1 − n b.
 double NistErrorModel::least_success(const Mode& mode, double snir, int psdu_bytes) const {
-    const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
-    double lost = 1;
-    switch (mode.family) {
-        case ModeFamily::ofdm: {
-            static const BitErrorCeiling& header = ofdm_ceiling(Constellation::bpsk, CodeRate::one_half);
-            lost = ofdm_header_bits * header.at(snir) +
-                   bits * ofdm_ceiling(mode.constellation, mode.code_rate).at(snir);
-            break;
-        }
-        case ModeFamily::dsss: {
-            static const BitErrorCeiling slow(dsss_1_bit_error);
-            static const BitErrorCeiling fast(dsss_2_bit_error);
-            lost = dsss_header_bits * slow.at(snir) +
-                   bits * (mode.bitrate_bps == 1'000'000 ? slow : fast).at(snir);
-            break;
-        }
-        case ModeFamily::cck:    // its fits need not fall with the SNIR
-        case ModeFamily::oqpsk:  // not of 802.11
-            return 0;
+    if (mode.family == ModeFamily::cck) {
+        return 0;
     }
+    const double lost =
+        lost_bits(mode, psdu_bytes, [snir](const BitErrorBounds& rate) { return rate.ceiling(snir); });
     constexpr double nothing = 0x1p-60;  // a chance of 1 − that is 1 as a double
-    constexpr double rounding = 1e-9;
-    return lost < nothing ? 1 : 1 - rounding - lost;
+    return lost < nothing ? 1 : 1 - bounds_rounding - lost;
+}
+
+// Each with at least b, with at most (1 − b)^n ≤ e^(−n b) ≤ 1 / (1 + n b + (n b)² / 2).
+double NistErrorModel::most_success(const Mode& mode, double snir, int psdu_bytes) const {
+    if (mode.family == ModeFamily::cck) {
+        return 1;
+    }
+    const double lost =
+        lost_bits(mode, psdu_bytes, [snir](const BitErrorBounds& rate) { return rate.floor(snir); });
+    return (1 + bounds_rounding) / (1 + lost + lost * lost / 2);
 }
 
 double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {

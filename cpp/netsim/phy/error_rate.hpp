@@ -40,6 +40,9 @@ public:
         return 0;
     }
 
+    // Known nearly at once: no less than success_probability at that SNIR and at every smaller one. 1, if that is all.
+    virtual double most_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const { return 1; }
+
     // Natural logarithms, ≤ 0, of the chances of the PHY header and of the rest: their sum is that of the above. A share
     // of a part survives with the share of its logarithm. A model that knows no header has all in the data.
     virtual double log_header_success(const Mode& /*mode*/, double /*snir*/) const { return 0; }
@@ -53,8 +56,9 @@ public:
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
     double log_header_success(const Mode& mode, double snir) const override;
     double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
-    // Of all but CCK.
+    // Both of all but CCK.
     double least_success(const Mode& mode, double snir, int psdu_bytes) const override;
+    double most_success(const Mode& mode, double snir, int psdu_bytes) const override;
 
     // Of one data bit after decoding, in [0, 1].
     static double bit_error_rate(const Mode& mode, double snir);

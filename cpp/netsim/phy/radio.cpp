@@ -235,10 +235,10 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId
     }
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
     const double interference_w = interference.worst_w();
-    if (draw < kind_.reception.success(arrival, interference_w)) {
+    if (kind_.reception.survives(draw, arrival, interference_w)) {
         return FrameFate::delivered;
     }
-    if (interference_w > 0 && draw < kind_.reception.success(arrival, 0)) {
+    if (interference_w > 0 && kind_.reception.survives(draw, arrival, 0)) {
         interferers = &interference.interferers();
         return FrameFate::interference;
     }

@@ -23,6 +23,17 @@ double ReceptionModel::success(const Arrival& arrival, double interference_w) co
                                  : 0;
 }
 
+bool ReceptionModel::survives(double draw, const Arrival& arrival, double interference_w) const {
+    const double snir = arrival.power_w / (noise_w + interference_w);
+    if (!(snir > snir_threshold)) {
+        return false;
+    }
+    const Transmission& sent = *arrival.transmission;
+    return draw < errors->least_success(*sent.mode, snir, sent.psdu_bytes) ||
+           (draw < errors->most_success(*sent.mode, snir, sent.psdu_bytes) &&
+            draw < errors->success_probability(*sent.mode, snir, sent.psdu_bytes));
+}
+
 double ReceptionModel::success(FramePart part, const Arrival& arrival, InterferenceSum& interference) const {
     const Period period = period_of(part, arrival);
     const auto& steps = interference.steps();

@@ -40,6 +40,8 @@ struct ReceptionModel {
                                                              arrival.transmission->psdu_bytes)
                                      : 0;
     }
+    // Whether a number drawn from [0, 1) is below `success`, which mostly need not be worked out for that.
+    bool survives(double draw, const Arrival& arrival, double interference_w) const;
     // Of one part, in mode "chunks", beside the interference of its period.
     double success(FramePart part, const Arrival& arrival, InterferenceSum& interference) const;
     double success_undisturbed(FramePart part, const Arrival& arrival) const;

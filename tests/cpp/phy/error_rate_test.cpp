@@ -219,6 +219,20 @@ TEST(NistErrorModel, SuccessIsNeverBelowItsBoundAtThatSnirOrALargerOne) {
     }
 }
 
+TEST(NistErrorModel, SuccessIsNeverAboveItsBoundAtThatSnirOrASmallerOne) {
+    for (const Mode& each : bounded_modes()) {
+        for (const int psdu_bytes : {14, 164, 1536}) {
+            double least_bound = 2;
+            for (int step = 23'036; step >= 0; --step) {  // from 1e4
+                const double snir = 1e-6 * std::pow(1.001, step);
+                least_bound = std::min(least_bound, NistErrorModel().most_success(each, snir, psdu_bytes));
+                EXPECT_LE(NistErrorModel().success_probability(each, snir, psdu_bytes), least_bound)
+                    << each.name << " at " << snir;
+            }
+        }
+    }
+}
+
 // Where 1000 bytes fail once in a thousand times, the bound knows that they succeed 99 times in 100.
 TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
     for (const Mode& each : bounded_modes()) {
@@ -227,6 +241,24 @@ TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
             snir *= 1.001;
         }
         EXPECT_GT(NistErrorModel().least_success(each, snir, 1000), 0.99) << each.name;
+    }
+}
+
+// Where one frame in a hundred succeeds, the bound knows that less than one in five does.
+TEST(NistErrorModel, TheBoundFromAboveIsCloseWhereNearlyAllFails) {
+    for (const Mode& each : bounded_modes()) {
+        double snir = 1000;
+        while (NistErrorModel().success_probability(each, snir, 1000) > 0.01) {
+            snir /= 1.001;
+        }
+        EXPECT_LT(NistErrorModel().most_success(each, snir, 1000), 0.2) << each.name;
+    }
+}
+
+TEST(NistErrorModel, OfCckThereIsNoBound) {
+    for (const double mbps : {5.5, 11.0}) {
+        EXPECT_EQ(NistErrorModel().least_success(mode(mbps), infinity, 100), 0) << mbps;
+        EXPECT_EQ(NistErrorModel().most_success(mode(mbps), 0, 100), 1) << mbps;
     }
 }
 

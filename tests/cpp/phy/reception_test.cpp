@@ -62,6 +62,27 @@ TEST(Reception, BelowTheThresholdTheLeastSuccessIsNone) {
     EXPECT_EQ(model(50).least_success(frame.arrival, noise_w), 0);
 }
 
+// Also where its success is worked out from bounds, as of all but CCK, or is none, or is certain.
+TEST(Reception, SurvivesWhatItsDrawIsBelow) {
+    RandomStream draws(1, 2, Purpose{1});
+    for (const double bitrate_bps : {2e6, 11e6, 6e6, 24e6, 54e6}) {
+        const Mode& mode = mode_set("g(mixed)").mode_for_bitrate(bitrate_bps);
+        for (double snr = 0.1; snr < 1000; snr *= 1.03) {
+            const Frame100 frame(mode, snr);
+            const ReceptionModel reception = model(0.5);
+            for (int i = 0; i < 20; ++i) {
+                const double interference_w = draws.uniform() * noise_w;
+                const double success = reception.success(frame.arrival, interference_w);
+                for (const double draw :
+                     {0.0, draws.uniform(), success, success * (1 - 1e-12), success * (1 + 1e-12)}) {
+                    EXPECT_EQ(reception.survives(draw, frame.arrival, interference_w), draw < success)
+                        << mode.name << " at " << snr << ", " << draw << " of " << success;
+                }
+            }
+        }
+    }
+}
+
 TEST(Reception, PartsOfAFrameFollowEachOther) {
     const Frame100 frame(mode_set("g(erp)").mode_for_bitrate(6e6), 1);
     EXPECT_EQ(period_of(FramePart::header, frame.arrival).start, us(1016));

@@ -1,6 +1,7 @@
-// A bit error rate from above, without working it out: steps over the SNIR, 32 to each factor of two.
+// A bit error rate from above and from below, without working it out: steps over the SNIR, 32 to each factor of two.
 //
-// Most frames are so much stronger than what disturbs them that a look into this table decides about them.
+// Most frames are so much stronger than what disturbs them, and most of the others so much weaker, that a look into this
+// table decides about them.
 #pragma once
 
 #include <algorithm>
@@ -11,20 +12,26 @@
 
 namespace netsim {
 
-class BitErrorCeiling {
+class BitErrorBounds {
 public:
     // `rate_at(snir)` is in [0, 1] and does not rise with the SNIR, a linear ratio.
     template <typename Rate>
-    explicit BitErrorCeiling(const Rate& rate_at) {
+    explicit BitErrorBounds(const Rate& rate_at) {
         for (std::size_t i = 0; i < rates_.size(); ++i) {
             rates_[i] = rate_at(std::bit_cast<double>((first_step + i) << step_shift));
         }
     }
 
     // No less than the rate at `snir` ≥ 0 and at every larger one.
-    double at(double snir) const {
+    double ceiling(double snir) const {
         const std::uint64_t step = std::bit_cast<std::uint64_t>(snir) >> step_shift;
         return step < first_step ? 1 : rates_[std::min(step - first_step, step_count - 1)];
+    }
+    // No more than the rate at `snir` ≥ 0 and at every smaller one.
+    double floor(double snir) const {
+        const std::uint64_t next =
+            std::max((std::bit_cast<std::uint64_t>(snir) >> step_shift) + 1, first_step);
+        return next > last_step ? 0 : rates_[next - first_step];
     }
 
 private:
