@@ -1,47 +1,46 @@
 #include "beacon_network.hpp"
 
 #include <cmath>
+#include <limits>
 #include <string>
-#include <utility>
 
 #include "netsim/kernel/random.hpp"
+#include "netsim/node/protocols/beacon_protocol.hpp"
 
 namespace {
 
+using netsim::BeaconConfig;
+using netsim::BeaconProtocol;
 using netsim::Node;
 using netsim::NodeConfig;
 using netsim::Payload;
 using netsim::Position;
-using netsim::SimTime;
 
 constexpr netsim::Purpose scenario_draws{1002};
 
-class Beacon final : public netsim::Protocol {
+// The engine's beacons from a node that flies on to another place with one in ten of them.
+class FlyingBeacon final : public netsim::Protocol {
 public:
-    Beacon(Node& node, SimTime first, Payload text, double flight_area_m)
-        : node_(node),
-          next_(first),
-          text_(std::move(text)),
+    FlyingBeacon(Node& node, const BeaconConfig& config, double flight_area_m)
+        : beacon_(node, config),
+          node_(node),
           flight_area_m_(flight_area_m),
           draws_(2, static_cast<std::uint32_t>(node.id()), scenario_draws) {}
 
-    void initialize() override { node_.schedule_timer("beacon", next_); }
-    void handle_timer(const std::string&) override {
-        node_.broadcast(text_);
-        next_ += SimTime::from_us(1'000'000);
-        node_.schedule_timer("beacon", next_);
-        if (flight_area_m_ > 0 && draws_.uniform_int(10) == 0) {
+    void initialize() override { beacon_.initialize(); }
+    void handle_timer(const std::string& timer) override {
+        beacon_.handle_timer(timer);
+        if (draws_.uniform_int(10) == 0) {
             node_.go_to({draws_.uniform() * flight_area_m_, draws_.uniform() * flight_area_m_, 0});
         }
     }
-    void handle_packet(const Payload&) override {}
+    void handle_packet(const Payload& message) override { beacon_.handle_packet(message); }
     void handle_telemetry(const Position&) override {}
-    void finish() override {}
+    void finish() override { beacon_.finish(); }
 
 private:
+    BeaconProtocol beacon_;
     Node& node_;
-    SimTime next_;
-    Payload text_;
     double flight_area_m_;
     netsim::RandomStream draws_;
 };
@@ -53,7 +52,10 @@ std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double 
     auto network = std::make_unique<netsim::Network>(netsim::MediumConfig(), 1);
     netsim::RandomStream draws(1, 0, scenario_draws);
     const double side_m = 100 * std::sqrt(static_cast<double>(nodes));
-    const auto text = std::make_shared<const std::string>(100, 'x');
+    BeaconConfig beacons;
+    beacons.first_send_s = 0;
+    beacons.spread_s = spread_s;
+    beacons.stop_s = std::numeric_limits<double>::max();
     for (std::int64_t i = 0; i < nodes; ++i) {
         NodeConfig config("node " + std::to_string(i));
         config.initial_position = {draws.uniform() * side_m, draws.uniform() * side_m, 0};
@@ -62,8 +64,11 @@ std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double 
         config.mobility.speed_mps = speed_mps;
         config.mobility.telemetry_interval_s = 0;
         Node& node = network->add_node(config);
-        node.set_protocol(std::make_unique<Beacon>(node, SimTime::from_seconds(draws.uniform() * spread_s),
-                                                   text, speed_mps > 0 ? side_m : 0));
+        if (speed_mps > 0) {
+            node.set_protocol(std::make_unique<FlyingBeacon>(node, beacons, side_m));
+        } else {
+            node.set_protocol(std::make_unique<BeaconProtocol>(node, beacons));
+        }
     }
     network->initialize();
     return network;

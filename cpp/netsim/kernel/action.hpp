@@ -3,8 +3,8 @@
 // Events are made and dropped by the million, so an Action never allocates: it takes trivially copyable callables of
 // at most 32 bytes (a lambda that captures a few pointers and numbers), which is checked when it is compiled.
 //
-// One that is due again and again in a large network may have a `fetch() const` beside its call operator: it is called
-// shortly before the event is due, and again perhaps, or not at all (kernel/fetch.hpp).
+// One that is due again and again in a large network may have a `fetch(int step) const` beside its call operator: it is
+// called shortly before the event is due for step 0, 1, … of `fetch_steps`, and again perhaps, or not at all (kernel/fetch.hpp).
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,10 @@ public:
         static_assert(std::is_trivially_copyable_v<Callable>,
                       "an event's lambda captures only pointers and numbers");
         invoke_ = [](void* storage) { (*static_cast<Callable*>(storage))(); };
-        if constexpr (requires { callable.fetch(); }) {
-            fetch_ = [](const void* storage) { static_cast<const Callable*>(storage)->fetch(); };
+        if constexpr (requires { callable.fetch(0); }) {
+            fetch_ = [](const void* storage, int step) {
+                static_cast<const Callable*>(storage)->fetch(step);
+            };
         } else {
             fetch_ = nullptr;
         }
@@ -42,9 +44,9 @@ public:
     }
 
     void operator()() { invoke_(storage_); }
-    void fetch() const {
+    void fetch(int step) const {
         if (fetch_ != nullptr) {
-            fetch_(storage_);
+            fetch_(storage_, step);
         }
     }
 
@@ -52,7 +54,7 @@ private:
     static constexpr std::size_t capacity_bytes = 32;
 
     void (*invoke_)(void*) = nullptr;
-    void (*fetch_)(const void*) = nullptr;
+    void (*fetch_)(const void*, int) = nullptr;
     alignas(std::max_align_t) std::byte storage_[capacity_bytes];
 };
 

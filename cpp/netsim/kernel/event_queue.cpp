@@ -137,9 +137,11 @@ void EventQueue::fetch_ahead() const {
     for (const EventKey& key : heap_) {
         netsim::fetch(slots_[key.slot]);
     }
-    for (const EventKey& key : heap_) {
-        if (!is_dead(key)) {
-            slots_[key.slot].action.fetch();
+    for (int step = 0; step < fetch_steps; ++step) {
+        for (const EventKey& key : heap_) {
+            if (!is_dead(key)) {
+                slots_[key.slot].action.fetch(step);
+            }
         }
     }
 }

@@ -2,11 +2,16 @@
 //
 // In a large network what one event touches is in no cache by the time it runs: the others have pushed it out since the
 // last time. Whoever knows a while before what it will be says so with this. It changes nothing but the time that a run takes.
+//
+// What a pointer leads to can be asked for only when the pointer is there. So what many events will touch is asked for in
+// steps, each for all of them: a step reads no more than what those before it asked for.
 #pragma once
 
 #include <cstddef>
 
 namespace netsim {
+
+constexpr int fetch_steps = 5;
 
 inline void fetch_bytes(const void* object, std::size_t bytes) {
     // GCC takes a function that does nothing else for one without any effect, and leaves out calls of it.

@@ -50,9 +50,11 @@ public:
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
     void send(NodeId destination, Payload payload) override;
-    void fetch() const override {
-        netsim::fetch(*this);
-        radio_.fetch();
+    void fetch(int step) const override {
+        if (step == 0) {
+            netsim::fetch(*this);
+        }
+        radio_.fetch(step);
     }
     std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
     std::size_t queued_messages() const override { return outbox_.size(); }

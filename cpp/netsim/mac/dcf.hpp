@@ -50,9 +50,11 @@ public:
     Dcf& operator=(const Dcf&) = delete;
 
     void send(NodeId destination, Payload payload) override;
-    void fetch() const override {
-        fetch_before(*this, owned_parameters_);
-        radio_.fetch();
+    void fetch(int step) const override {
+        if (step == 0) {
+            fetch_before(*this, owned_parameters_);
+        }
+        radio_.fetch(step);
     }
     std::size_t longest_message_bytes() const override {
         return parameters_.config.mtu_bytes - datagram_bytes(0);

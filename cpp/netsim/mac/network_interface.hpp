@@ -30,7 +30,7 @@ public:
     virtual void send(NodeId destination, Payload payload) = 0;
     virtual std::size_t longest_message_bytes() const = 0;
     // A message will probably be sent soon: has what that touches brought into the cache (kernel/fetch.hpp).
-    virtual void fetch() const = 0;
+    virtual void fetch(int step) const = 0;
     // Messages that were accepted and are in no other fate yet: a census to check the ledger with.
     virtual std::size_t queued_messages() const = 0;
     // {bitrate in bps: unicast frames sent with it, retries included} of a station that has a rate control.

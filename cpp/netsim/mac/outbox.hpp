@@ -5,11 +5,13 @@
 //     +--the queue is full--> gone: queue_overflow
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
 
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/mac/frame.hpp"
 #include "netsim/mac/tx_queue.hpp"
 #include "netsim/trace/message_fates.hpp"
@@ -23,6 +25,8 @@ public:
 
     // A frame of a message from this node that is accepted now, with the next number; without a duration field.
     Frame frame_of(NodeId destination, Payload payload, int psdu_bytes, SimTime now) {
+        constexpr std::size_t most_fetched = 256;
+        fetch_bytes(payload->data(), std::min(payload->size(), most_fetched));  // its receivers will read it
         Frame frame;
         frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
         frame.transmitter = node_;

@@ -38,7 +38,7 @@ public:
 
     // Throws SimulationError, too, if messages that answer each other at one instant never end.
     void send(NodeId destination, Payload payload) override;
-    void fetch() const override { netsim::fetch(*this); }
+    void fetch(int /*step*/) const override { netsim::fetch(*this); }
     std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
     std::size_t queued_messages() const override { return 0; }
 

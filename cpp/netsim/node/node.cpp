@@ -115,15 +115,24 @@ void Node::message_received(const Frame& frame) {
     call_protocol("handle_packet", [&frame](Protocol& protocol) { protocol.handle_packet(frame.payload); });
 }
 
-void Node::fetch_for_timer() const {
-    fetch_before(*this, name_);
-    timers_.fetch();
-    if (protocol_) {
-        fetch(*protocol_);
-    }
-    fetch(*mobility_);
-    if (!interfaces_.empty()) {
-        interfaces_.front()->fetch();
+void Node::fetch_for_timer(int step) const {
+    constexpr std::size_t cache_line = 64;
+    if (step == 0) {
+        fetch_before(*this, name_);
+    } else if (step == 1) {
+        timers_.fetch();
+        fetch_bytes(protocol_.get(), 2 * cache_line);
+        fetch(*mobility_);
+        fetch_bytes(interfaces_.data(), cache_line);
+    } else if (step == 2) {
+        if (protocol_) {
+            protocol_->fetch();
+        }
+        if (!interfaces_.empty()) {
+            fetch_bytes(interfaces_.front().get(), cache_line);
+        }
+    } else if (!interfaces_.empty()) {
+        interfaces_.front()->fetch(step - 3);
     }
 }
 

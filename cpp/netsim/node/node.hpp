@@ -92,11 +92,11 @@ private:
         std::size_t number;
 
         void operator()() const { node->timer_due(number); }
-        void fetch() const { node->fetch_for_timer(); }
+        void fetch(int step) const { node->fetch_for_timer(step); }
     };
     void timer_due(std::size_t number);
     // Most timers send something.
-    void fetch_for_timer() const;
+    void fetch_for_timer(int step) const;
 
     // First what every message touches: one cache line, which the medium fetches ahead. Then what every timer does.
     Simulator& simulator_;

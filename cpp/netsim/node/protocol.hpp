@@ -29,6 +29,10 @@ public:
     virtual void handle_telemetry(const Position& position) = 0;
     // Once, at the end of the run, in the order of node ids.
     virtual void finish() = 0;
+
+    // A timer will be due soon: may have what it touches brought into the cache, beside the first two lines of the protocol
+    // itself, which are there (kernel/fetch.hpp).
+    virtual void fetch() const {}
 };
 
 }  // namespace netsim

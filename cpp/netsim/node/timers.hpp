@@ -52,7 +52,7 @@ public:
 private:
     static constexpr std::size_t none = ~std::size_t{0};
 
-    struct Timer {
+    struct alignas(64) Timer {
         std::string name;
         EventHandle event;
         bool pending = false;

@@ -103,9 +103,12 @@ public:
     bool are_others_weak() const { return others_are_weak_; }
 
     // It will probably send soon (NetworkInterface::fetch).
-    void fetch() const {
-        fetch_before(*this, observer_);
-        medium_.fetch_sender(id_);
+    void fetch(int step) const {
+        if (step == 0) {
+            fetch_before(*this, observer_);
+        } else {
+            medium_.fetch_sender(id_);
+        }
     }
 
     bool is_transmitting() const { return transmitting_; }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,28 +49,29 @@ TEST(Action, CanBeReplaced) {
 
 struct Fetching {
     int* calls;
-    int* fetches;
+    std::vector<int>* steps;
 
     void operator()() const { ++*calls; }
-    void fetch() const { ++*fetches; }
+    void fetch(int step) const { steps->push_back(step); }
 };
 
 TEST(Action, PassesOnThatItWillRunSoon) {
     int calls = 0;
-    int fetches = 0;
-    const Action action = Fetching{&calls, &fetches};
-    action.fetch();
-    EXPECT_EQ(fetches, 1);
+    std::vector<int> steps;
+    const Action action = Fetching{&calls, &steps};
+    action.fetch(0);
+    action.fetch(1);
+    EXPECT_EQ(steps, (std::vector{0, 1}));
     EXPECT_EQ(calls, 0);
 }
 
 TEST(Action, WhatHasNoFetchNeedNotKnow) {
     int calls = 0;
-    int fetches = 0;
-    Action action = Fetching{&calls, &fetches};
+    std::vector<int> steps;
+    Action action = Fetching{&calls, &steps};
     action = [&calls] { ++calls; };
-    action.fetch();
-    EXPECT_EQ(fetches, 0);
+    action.fetch(0);
+    EXPECT_TRUE(steps.empty());
     EXPECT_EQ(calls, 0);
 }
 

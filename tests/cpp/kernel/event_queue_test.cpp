@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "netsim/kernel/fetch.hpp"
+
 namespace netsim {
 namespace {
 
@@ -204,38 +206,58 @@ TEST(EventQueue, WhatIsBeforeAllThatWaitBehindTheOneTakenOutWouldBeNext) {
     EXPECT_FALSE(events.queue.would_be_next(at(35), turn));
 }
 
-// Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
+struct Fetched {
+    int name;
+    int step;
+};
+
 struct Fetching {
-    std::vector<int>* fetched;
+    std::vector<Fetched>* fetched;
     int name;
 
     void operator()() const {}
-    void fetch() const { fetched->push_back(name); }
+    void fetch(int step) const { fetched->push_back({name, step}); }
 };
 
 TEST(EventQueue, ALargeOneSaysWhatIsDueSoonBeforeItRuns) {
     constexpr int count = 5000;
     EventQueue queue;
-    std::vector<int> fetched;
-    std::vector<bool> was_fetched(count);
+    std::vector<Fetched> fetched;
+    std::vector<int> steps(count);  // [name]
     for (int name = 0; name < count; ++name) {
         queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
     }
     for (int name = 0; name < count; ++name) {
         ASSERT_EQ(queue.next_time(), at(std::int64_t{1000} * name));
-        for (const int each : std::exchange(fetched, {})) {
-            EXPECT_GE(each, name);
-            was_fetched[each] = true;
+        for (const Fetched& each : std::exchange(fetched, {})) {
+            EXPECT_GE(each.name, name);
+            EXPECT_EQ(each.step, steps[each.name]++) << each.name;
         }
-        EXPECT_TRUE(was_fetched[name]) << name;
+        EXPECT_EQ(steps[name], fetch_steps) << name;
         queue.pop();
     }
+}
+
+TEST(EventQueue, SaysSoStepByStepForAllThatAreDueSoon) {
+    EventQueue queue;
+    std::vector<Fetched> fetched;
+    for (int name = 0; name < 5000; ++name) {
+        queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
+    }
+    std::size_t most = 0;
+    for (; !queue.empty(); queue.pop()) {
+        queue.next_time();
+        EXPECT_TRUE(std::ranges::is_sorted(fetched, {}, &Fetched::step));
+        most = std::max(most, fetched.size());
+        fetched.clear();
+    }
+    EXPECT_GT(most, 5U * fetch_steps);
 }
 
 TEST(EventQueue, SaysNothingOfWhatWasCancelled) {
     constexpr int count = 5000;
     EventQueue queue;
-    std::vector<int> fetched;
+    std::vector<Fetched> fetched;
     std::vector<EventHandle> odd;
     for (int name = 0; name < count; ++name) {
         const EventHandle handle =
@@ -251,9 +273,10 @@ TEST(EventQueue, SaysNothingOfWhatWasCancelled) {
         queue.pop();
     }
     EXPECT_FALSE(fetched.empty());
-    EXPECT_TRUE(std::ranges::none_of(fetched, [](int name) { return name % 2 == 1; }));
+    EXPECT_TRUE(std::ranges::none_of(fetched, [](const Fetched& each) { return each.name % 2 == 1; }));
 }
 
+// Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
 class EventQueueOracle : public testing::TestWithParam<unsigned> {};
 
 TEST_P(EventQueueOracle, AgreesWithASortedMap) {

@@ -16,8 +16,8 @@ void BeaconConfig::validate() const {
 
 BeaconProtocol::BeaconProtocol(Node& node, const BeaconConfig& config)
     : node_(node),
-      config_(config),
-      message_(std::make_shared<const std::string>(static_cast<std::size_t>(config.payload_bytes), 'x')) {}
+      message_(std::make_shared<const std::string>(static_cast<std::size_t>(config.payload_bytes), 'x')),
+      config_(config) {}
 
 NativeProtocol BeaconProtocol::description() {
     using Config = BeaconConfig;

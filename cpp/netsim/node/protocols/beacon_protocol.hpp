@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "netsim/kernel/fetch.hpp"
 #include "netsim/node/protocols/parameter.hpp"
 
 namespace netsim {
@@ -19,7 +20,7 @@ struct BeaconConfig {
 
 // Message number k goes out at first_send + offset + k · interval. The offset is drawn at the start, between 0 and
 // spread. Tracked in the end: "sent", "received".
-class BeaconProtocol final : public Protocol {
+class alignas(64) BeaconProtocol final : public Protocol {
 public:
     BeaconProtocol(Node& node, const BeaconConfig& config);
     static NativeProtocol description();
@@ -29,16 +30,18 @@ public:
     void handle_packet(const Payload&) override { ++received_; }
     void handle_telemetry(const Position&) override {}
     void finish() override;
+    void fetch() const override { netsim::fetch(*message_); }
 
 private:
     void schedule();
 
-    Node& node_;
-    BeaconConfig config_;
-    Payload message_;
-    double start_s_ = 0;
-    std::int64_t sent_ = 0;
+    // First what every message that is heard touches: the cache line that the medium fetches ahead.
     std::int64_t received_ = 0;
+    std::int64_t sent_ = 0;
+    double start_s_ = 0;
+    Node& node_;
+    Payload message_;
+    BeaconConfig config_;
 };
 
 }  // namespace netsim

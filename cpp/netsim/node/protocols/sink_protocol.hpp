@@ -14,7 +14,7 @@ struct SinkConfig {
 };
 
 // Tracked in the end, of the messages from `count_from` on: "received" and "received_bytes".
-class SinkProtocol final : public Protocol {
+class alignas(64) SinkProtocol final : public Protocol {
 public:
     SinkProtocol(Node& node, const SinkConfig& config) : node_(node), config_(config) {}
     static NativeProtocol description();
