@@ -14,7 +14,7 @@ namespace netsim {
 inline constexpr std::array<std::string_view, 3> backoff_method_names{"exponential", "linear", "constant"};
 
 struct CsmaConfig {
-    bool use_acks = true;       // unicast frames are acknowledged; if not, they count as sent once on the air
+    bool use_acks = true;       // its unicast frames ask for ACKs; if not, they count as sent once on the air
     int max_frame_retries = 3;  // repetitions of a frame that is not acknowledged; 0 … 255
     double ack_wait_s = 560e-6;  // from the end of a frame until its sender gives up waiting; 1e-6 … 1
     double sifs_s = 192e-6;      // from the end of a received frame until its ACK begins; 0 … 1

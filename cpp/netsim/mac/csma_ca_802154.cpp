@@ -165,7 +165,7 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
 }
 
 void CsmaCa802154::unicast_received(const Frame& frame) {
-    if (config_.use_acks && state_ != State::awaiting_ack) {
+    if (asks_for_ack(frame) && state_ != State::awaiting_ack) {
         acknowledge(frame);
     }
     if (!duplicates_.is_duplicate(frame)) {

@@ -26,6 +26,11 @@ constexpr int narrowband_psdu_bytes(int payload_bytes) {
     return narrowband_overhead_bytes + datagram_bytes(payload_bytes);
 }
 
+// Whether its sender waits for an ACK: of a unicast, perhaps.
+inline bool asks_for_ack(const Frame& data) {
+    return data.duration_field > SimTime();
+}
+
 // The answer to `data`.
 inline Frame make_narrowband_ack(const Frame& data) {
     Frame ack;

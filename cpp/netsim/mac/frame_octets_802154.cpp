@@ -6,6 +6,7 @@
 #include "netsim/error.hpp"
 #include "netsim/mac/checksums.hpp"
 #include "netsim/mac/datagram_octets.hpp"
+#include "netsim/mac/frame_802154.hpp"
 
 namespace netsim {
 
@@ -27,8 +28,7 @@ void append_narrowband_frame(Octets& octets, const Frame& frame, bool intact) {
         append_le16(octets, ack_type);
         append_u8(octets, frame.sequence);
     } else {
-        const bool asks_for_ack = frame.duration_field > SimTime();
-        append_le16(octets, data_type | short_destination | (asks_for_ack ? ack_request : 0));
+        append_le16(octets, data_type | short_destination | (asks_for_ack(frame) ? ack_request : 0));
         append_u8(octets, frame.sequence);
         append_le16(octets, pan);
         append_le16(octets, static_cast<unsigned>(frame.receiver) & 0xffff);  // a broadcast: 0xffff

@@ -73,6 +73,23 @@ TEST_F(CsmaCa802154Test, WithoutAcksUnicastsAreSentOnce) {
     EXPECT_EQ(messages(MessageKind::unicast, MessageFate::sent), 1U);
 }
 
+// Each of the two asks for ACKs or does not, and answers those who do.
+TEST_F(CsmaCa802154Test, AFrameIsAcknowledgedIfItAsksForThat) {
+    CsmaConfig does_not_ask;
+    does_not_ask.use_acks = false;
+    Device& asking = add_device({0, 0, 0});
+    Device& other = add_device({30, 0, 0}, does_not_ask);
+    asking.send(other.id(), 50);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    other.send(asking.id(), 50);
+    air.run(SimTime::from_seconds(200));
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::sent), 1U);
+    EXPECT_EQ(asking.received.size() + other.received.size(), 2U);
+}
+
 TEST_F(CsmaCa802154Test, TheLongestMessageFillsAFrameOf127Bytes) {
     Device& sender = add_device({0, 0, 0}, without_backoff());
     Sniffer& sniffer = add_sniffer({0, 0, 0});
