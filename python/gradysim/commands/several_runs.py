@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
 from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK, say_mistake
+from gradysim.commands.fresh_protocols import with_fresh_protocols
 from gradysim.commands.sudden_end import tell_of_crashes, told_of_exit
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
             say_failed = partial(say_unfinished, scenarios, {**codes, done: FAILED})
             try:
                 with told_of_exit(f"{scenario.config} run {scenario.run_number}", say_failed):
-                    code = carry_out(scenario, interrupt, output)
+                    code = carry_out(with_fresh_protocols(scenario) if done else scenario, interrupt, output)
             except KeyboardInterrupt:  # while it was built
                 say_unfinished(scenarios, codes)
                 return INTERRUPTED

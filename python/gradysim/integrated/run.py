@@ -12,6 +12,7 @@ from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 from gradysim.config.protocol.parametrize import parametrize
+from gradysim.config.protocol.siblings import siblings_importable
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
@@ -99,7 +100,8 @@ class IntegratedRun:
         self._handlers = EngineHandlers(handlers, self._network)
         self._flown = FlownNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
-        self._make_protocols()
+        with siblings_importable(spec.protocol for spec in scenario.nodes):
+            self._make_protocols()
         self._flown.take_off()
 
     def _make_protocols(self) -> None:
@@ -141,7 +143,8 @@ class IntegratedRun:
         an assertion that failed. Handlers are finalized in any case. A capture file that could not be written
         to its end raises CaptureError when all else is done, or adds a note to what was raised before.
         """
-        with captures_completed_after_failure(self._network):
+        siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
+        with captures_completed_after_failure(self._network), siblings:
             self._execute(progress, should_stop)
 
     def _execute(

@@ -8,6 +8,7 @@ import random
 from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
+from gradysim.config.protocol.siblings import siblings_importable
 from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.delays import constant_delays
@@ -50,7 +51,8 @@ class PrototypeRun:
         self._complete = False
         random.seed(scenario.seed)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
-        self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
+        with siblings_importable(node.protocol for node in scenario.nodes):
+            self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
 
     def execute(
         self,
@@ -63,23 +65,29 @@ class PrototypeRun:
         passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
         handler raises, as for an assertion that failed. Handlers are finalized in any case.
         """
-        simulator = self._simulator
         try:
-            try:
-                self._complete = run_in_slices(
-                    lambda max_events: not simulator.run_events(max_events),
-                    lambda: simulator.current_time,
-                    progress,
-                    should_stop,
-                )
-            except KeyboardInterrupt:
-                self._complete = False
-            simulator.finalize(complete=self._complete)
+            with siblings_importable(node.protocol for node in self._scenario.nodes):
+                self._execute(progress, should_stop)
         except BaseException:
             self._complete = False
             raise
         finally:
             self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
+
+    def _execute(
+        self, progress: Callable[[float], None] | None, should_stop: Callable[[], bool] | None
+    ) -> None:
+        simulator = self._simulator
+        try:
+            self._complete = run_in_slices(
+                lambda max_events: not simulator.run_events(max_events),
+                lambda: simulator.current_time,
+                progress,
+                should_stop,
+            )
+        except KeyboardInterrupt:
+            self._complete = False
+        simulator.finalize(complete=self._complete)
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""

@@ -11,7 +11,12 @@ _window = _mac.only_for("csma.backoff_method", "linear", "constant", shown="802.
 _queue = Below(f"{WLAN}.queue", "csma", IEEE802154)
 
 CSMA_KEYS: tuple[Key, ...] = (
-    _mac("useMACAcks", "use_acks", boolean(), "whether the interface asks for an ACK of each unicast frame that it sends, and repeats it without"),
+    _mac(
+        "useMACAcks",
+        "use_acks",
+        boolean(),
+        "whether the interface asks for an ACK of each unicast that it sends",
+    ),
     _mac(
         "macMaxFrameRetries",
         "max_frame_retries",

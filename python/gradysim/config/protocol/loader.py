@@ -22,10 +22,10 @@ from gradysim.protocol.interface import IProtocol
 class ProtocolLoader:
     """Loads each file and module once for a configuration."""
 
-    def __init__(self, name: str = "") -> None:
+    def __init__(self, name: str = "", modules: ModuleLoader | None = None) -> None:
         """`name` tells it from other loaders in Origin; it makes one of its own if there is none."""
         self._name = name or uuid.uuid4().hex
-        self._modules = ModuleLoader()
+        self._modules = modules or ModuleLoader()
         self._files: dict[tuple[Path, Path], tuple[Path, ...]] = {}
 
     def load(self, reference: str, folder: Path) -> type[IProtocol]:
@@ -40,7 +40,8 @@ class ProtocolLoader:
         if not _is_file(place):
             return _protocol_in(_from_name(place, folder, class_name), class_name, place)
         protocol = _protocol_in(self._from_file(place, folder), class_name, place)
-        remember_origin(protocol, Origin((folder / place).resolve(), class_name, self._name))
+        origin = Origin((folder / place).resolve(), class_name, self._name)
+        remember_origin(protocol, origin, self._modules)
         return protocol
 
     def files(self, reference: str, folder: Path) -> tuple[Path, ...]:

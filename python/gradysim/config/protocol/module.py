@@ -1,9 +1,9 @@
 """Loads the Python file of a protocol, as a module that collides with no other.
 
 The module's name is made of its whole path, so that files of one name are different modules. While it loads,
-its folder is importable, for sibling files. These siblings are shared by the protocols of that folder only:
-afterwards they are taken out of `sys.modules`, where a sibling of the same name in another folder would find
-them.
+and while a run goes on (see siblings), its folder is importable, for sibling files. These siblings are shared
+by the protocols of that folder only: afterwards they are taken out of `sys.modules`, where a sibling of the
+same name in another folder would find them.
 """
 
 import hashlib
@@ -12,10 +12,12 @@ import importlib.util
 import os
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 
 _lock = threading.RLock()
 """`sys.path` and `sys.modules` belong to the whole process."""
@@ -37,12 +39,19 @@ class BeingLoadedError(ImportError):
 
 
 class ModuleLoader:
-    """Loads each file once. Another loader loads it anew, as it is then."""
+    """Loads each file once. Another loader loads it anew, as it is then; that of `anew`, as it was."""
 
     def __init__(self) -> None:
         self._modules: dict[Path, ModuleType] = {}
         self._siblings: dict[Path, dict[str, ModuleType]] = {}
+        self._code: dict[Path, CodeType] = {}
         importlib.invalidate_caches()
+
+    def anew(self) -> "ModuleLoader":
+        """Return one for which nothing has run yet of the files that this one read; it does not read them."""
+        other = ModuleLoader()
+        other._code = self._code
+        return other
 
     def load(self, file: Path) -> ModuleType:
         """The module of a file. Whatever its code raises passes through.
@@ -53,12 +62,16 @@ class ModuleLoader:
         file = file.resolve()
         module = self._modules.get(file)
         if module is None:
-            with _lock, _loaded_once(file), self._siblings_importable(file.parent):
-                module = self._modules[file] = _execute(file)
+            with _lock, _loaded_once(file), self.siblings_importable(file.parent, also_stdlib=True):
+                module = self._modules[file] = self._execute(file)
         return module
 
     @contextmanager
-    def _siblings_importable(self, folder: Path) -> Iterator[None]:
+    def siblings_importable(self, folder: Path, *, also_stdlib: bool = False) -> Iterator[None]:
+        """Inside, the files of a folder can be imported, and are those of this loader.
+
+        With `also_stdlib`, files with names of the standard library, too, as for a script of that folder.
+        """
         siblings = self._siblings.setdefault(folder, {})
         # Lists, since to look at a module may import others, and so may other threads.
         hidden = {
@@ -69,12 +82,19 @@ class ModuleLoader:
         before = set(sys.modules) - hidden.keys()
         for name in hidden:
             del sys.modules[name]
-        sys.modules.update(siblings)
-        sys.path.insert(0, str(folder))
+        sys.modules.update(
+            {name: module for name, module in siblings.items() if also_stdlib or not _is_stdlib(name)}
+        )
+        if also_stdlib:
+            sys.path.insert(0, str(folder))
+        finder = _SiblingFinder(folder, self, also_stdlib)
+        place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)
+        sys.meta_path.insert(place, finder)
         try:
             yield
         finally:
-            if str(folder) in sys.path:
+            sys.meta_path.remove(finder)
+            if also_stdlib and str(folder) in sys.path:
                 sys.path.remove(str(folder))
             loaded = {
                 name: module
@@ -85,6 +105,71 @@ class ModuleLoader:
                 del sys.modules[name]
             siblings.update(loaded)
             sys.modules.update(hidden)
+
+    def _execute(self, file: Path) -> ModuleType:
+        digest = hashlib.sha256(os.fsencode(file)).hexdigest()[:12]
+        name = f"_gradysim_protocol_{digest}_{file.stem}"
+        spec = _of_kept_code(importlib.util.spec_from_file_location(name, file), self)
+        if spec is None or spec.loader is None:
+            raise ImportError(f"{file.name} is no Python source file")
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module
+        try:
+            spec.loader.exec_module(module)
+        except BaseException:
+            del sys.modules[name]
+            raise
+        return module
+
+    def code_of(self, file: Path, read: Callable[[], CodeType | None]) -> CodeType | None:
+        """The code of a file as it was when it was read for the first time."""
+        if file not in self._code:
+            code = read()
+            if code is None:
+                return None
+            self._code[file] = code
+        return self._code[file]
+
+
+class _KeptCode(SourceFileLoader):
+    """Lets a file run as it was when its loader read it. A module keeps its loader by this."""
+
+    def __init__(self, name: str, path: str, loader: ModuleLoader) -> None:
+        super().__init__(name, path)
+        self._loader = loader
+
+    def get_code(self, fullname: str) -> CodeType | None:
+        read = super().get_code
+        return self._loader.code_of(Path(self.path).resolve(), lambda: read(fullname))
+
+
+class _SiblingFinder(MetaPathFinder):
+    """Finds the source files of a folder, as the path would."""
+
+    def __init__(self, folder: Path, loader: ModuleLoader, also_stdlib: bool) -> None:
+        self._folder = folder
+        self._loader = loader
+        self._also_stdlib = also_stdlib
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        if _is_stdlib(fullname) and not self._also_stdlib:
+            return None
+        spec = PathFinder.find_spec(fullname, [str(self._folder)] if path is None else path, target)
+        if spec is None or spec.origin is None or not Path(spec.origin).is_relative_to(self._folder):
+            return None
+        return _of_kept_code(spec, self._loader)
+
+
+def _of_kept_code(spec: ModuleSpec | None, loader: ModuleLoader) -> ModuleSpec | None:
+    if spec is not None and type(spec.loader) is SourceFileLoader:
+        spec.loader = _KeptCode(spec.loader.name, spec.loader.path, loader)
+    return spec
+
+
+def _is_stdlib(name: str) -> bool:
+    return name.partition(".")[0] in sys.stdlib_module_names
 
 
 @contextmanager
@@ -98,25 +183,9 @@ def _loaded_once(file: Path) -> Iterator[None]:
         _being_loaded.remove(file)
 
 
-def _execute(file: Path) -> ModuleType:
-    digest = hashlib.sha256(os.fsencode(file)).hexdigest()[:12]
-    name = f"_gradysim_protocol_{digest}_{file.stem}"
-    spec = importlib.util.spec_from_file_location(name, file)
-    if spec is None or spec.loader is None:
-        raise ImportError(f"{file.name} is no Python source file")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    return module
-
-
 def _is_shadowed(top_level: str, folder: Path) -> bool:
     """Whether the folder has a module of that name which should be found in its place."""
-    if top_level in sys.stdlib_module_names or top_level in ("__main__", "gradysim"):
+    if _is_stdlib(top_level) or top_level in ("__main__", "gradysim"):
         return False
     return (folder / f"{top_level}.py").is_file() or (folder / top_level / "__init__.py").is_file()
 

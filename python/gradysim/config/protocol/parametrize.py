@@ -17,6 +17,11 @@ def parametrize(cls: type[IProtocol], parameters: Mapping[str, object]) -> type[
     return _parametrized(cls, tuple((name, type(value), value) for name, value in sorted(parameters.items())))
 
 
+def forget_parametrized() -> None:
+    """Let go of the subclasses: with them go the classes, and modules, that nobody else has any more."""
+    _parametrized.cache_clear()
+
+
 @lru_cache(maxsize=1024)
 def _parametrized(cls: type[IProtocol], parameters: tuple[tuple[str, type, object], ...]) -> type[IProtocol]:
     """As above. The types are part of the key since 1, 1.0 and True are equal."""

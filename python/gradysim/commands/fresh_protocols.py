@@ -1,0 +1,22 @@
+"""Each run of a command begins with protocols that no run before it has touched."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gradysim.config.scenario import Scenario
+
+
+def with_fresh_protocols(scenario: "Scenario") -> "Scenario":
+    """Return the scenario with the files of its protocols loaded anew, as they were when it was read.
+
+    What runs before it have left in the bodies of classes, or in modules beside them, makes no difference
+    then: a run is the same as in a process of its own.
+    """
+    from gradysim.config.protocol.anew import loaded_anew
+    from gradysim.config.protocol.parametrize import forget_parametrized
+
+    forget_parametrized()
+    anew = loaded_anew({node.protocol for node in scenario.nodes})
+    nodes = (replace(node, protocol=anew.get(node.protocol, node.protocol)) for node in scenario.nodes)
+    return replace(scenario, nodes=tuple(nodes))
