@@ -3,6 +3,7 @@
 import logging
 import math
 from dataclasses import dataclass
+from random import Random
 
 from gradysim.protocol.checked_values import checked_number, checked_range
 from gradysim.protocol.interface import IProtocol
@@ -33,10 +34,11 @@ class RandomMobilityConfig:
 
 
 class RandomMobilityPlugin:
-    """Draws waypoints from the node's own random stream: the same seed gives the same ones, in every mode.
+    """Draws waypoints from a random stream of its own: the same seed gives the same ones, in every mode.
 
-    Create it in `initialize` or later. A trip goes from waypoint to waypoint, driven by the node's telemetry,
-    at the speed that the vehicle has.
+    What else the protocol draws makes no difference, but for what it drew before the plugin was created: that
+    takes one number of `provider.random`. Create it in `initialize` or later. A trip goes from waypoint to
+    waypoint, driven by the node's telemetry, at the speed that the vehicle has.
     """
 
     def __init__(self, protocol: IProtocol, config: RandomMobilityConfig | None = None) -> None:
@@ -55,6 +57,7 @@ class RandomMobilityPlugin:
             "tolerance", config.tolerance, lambda m: 0 <= m < math.inf, "finite and >= 0 m", ValueError
         )
         self._squared_tolerance = tolerance * tolerance
+        self._random = Random(protocol.provider.random.getrandbits(64))
         self._dispatcher = create_dispatcher(protocol)
         self._target: Position | None = None
 
@@ -73,8 +76,7 @@ class RandomMobilityPlugin:
 
         During a trip it takes the place of the trip's target.
         """
-        random = self._protocol.provider.random
-        x, y, z = (random.uniform(lowest, highest) for lowest, highest in self._ranges)
+        x, y, z = (self._random.uniform(lowest, highest) for lowest, highest in self._ranges)
         _logger.info("Random mobility: Going to (%.2f, %.2f, %.2f)", x, y, z)
         self._protocol.provider.send_mobility_command(GotoCoordsMobilityCommand(x, y, z))
         if self.trip_ongoing:

@@ -199,3 +199,18 @@ def test_both_modes_fly_the_same_trip(make_scenario, run_prototype, run_integrat
     assert [node.tracked_variables for node in run_prototype(scenario)] == [
         node.tracked_variables for node in run_integrated(scenario)
     ]
+
+
+def test_what_the_protocol_draws_on_the_way_makes_no_difference(protocol):
+    trips = []
+    for draws in (0, 3):
+        protocol.provider.random.seed(1)
+        plugin = RandomMobilityPlugin(protocol)
+        targets = []
+        for _ in range(3):
+            targets.append(plugin.travel_to_random_waypoint())
+            for _ in range(draws):
+                protocol.provider.random.random()
+        trips.append(targets)
+    assert trips[0] == trips[1]
+    assert len(set(trips[0])) == 3
