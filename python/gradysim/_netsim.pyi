@@ -80,7 +80,7 @@ class Propagation:
 class LinkBudget:
     """The chances of one broadcast frame over a distance, with nobody else on the air.
 
-    Where the gain is random, the share is the mean over many states of the link. Antennas look at each other
+    Where the gain is random, the share is the mean over all states of the link. Antennas look at each other
     with their largest gain, and no obstacle is between them.
     """
 
@@ -99,7 +99,11 @@ class LinkBudget:
     def reception_ratio(self, distance_m: float, tx_power_w: float) -> float:
         """The share of frames sent with that power that are decoded at that distance, 0 to 1."""
     def tx_power_w_for(self, range_m: float, ratio: float) -> float:
-        """The least power at which at least that share is decoded; ConfigError: no power would do."""
+        """The least power at which at least that share is decoded; ConfigError: no power would do.
+
+        To 0.01 dB where the gain is random; elsewhere a few billionths more, lest rounding make it too
+        little.
+        """
     def mean_gain(self, distance_m: float) -> float:
         """Mean received power of 1 W."""
     @property

@@ -15,6 +15,33 @@ constexpr double rare_normal = 5.9978070150076869;
 // And by the power of a complex Gaussian of mean power 1, which is exponentially distributed: 9 ln 10.
 constexpr double rare_scattered = 9 * std::numbers::ln10;
 
+double normal_density(double x) {
+    return std::exp(-x * x / 2) * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
+}
+
+// Of a standard normal number, to be at least `x`.
+double normal_above(double x) {
+    return std::erfc(x / std::numbers::sqrt2) / 2;
+}
+
+// Of a pair of standard normal numbers, to lie less than `radius` from (−line, 0): over the height r sin θ of a chord of
+// that disc, half as long as r cos θ, the density of the height times the chance of lying between the chord's ends. As a function
+// of θ that is smooth and periodic, so that a few equal steps are exact to many digits.
+double chance_within(double radius, double line) {
+    constexpr int steps = 16;
+    constexpr double far = 8;  // no pair lies that high
+    const double width =
+        (radius > far ? std::asin(far / radius) : std::numbers::pi / 2) / static_cast<double>(steps);
+    double sum = 0;
+    for (int step = 0; step < steps; ++step) {
+        const double angle = width * (step + 0.5);
+        const double half_chord = radius * std::cos(angle);
+        sum += normal_density(radius * std::sin(angle)) * half_chord *
+               (normal_above(line - half_chord) - normal_above(line + half_chord));
+    }
+    return 2 * width * sum;  // above the middle, and below
+}
+
 }  // namespace
 
 Fading::Fading(const MediumConfig& config, std::uint64_t seed)
@@ -51,6 +78,31 @@ double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_
     }
     const auto normal = gaussians_.at_if_beyond(rare_.chance_beyond(least), a, b, time, transmission);
     return normal ? std::min(untruncated(*normal), most_) : 0;
+}
+
+double Fading::chance_of(double gain) const {
+    if (gain > most_) {
+        return 0;
+    }
+    switch (kind_) {
+        case Kind::log_normal:
+            return sigma_ > 0 ? normal_above(std::log(gain) / sigma_) : 1;
+        case Kind::rician:
+            return k_ > 0 ? 1 - chance_within(std::sqrt(2 * (k_ + 1) * gain), std::sqrt(2 * k_))
+                          : std::exp(-gain);
+        case Kind::nakagami:
+            return gamma_ ? gamma_->above(shape_ * gain) : std::exp(-gain);
+        case Kind::none:
+            break;
+    }
+    return 1;
+}
+
+double Fading::mean() const {
+    // All means are 1, but for this one, to which what is cut off matters if sigma is large.
+    return kind_ == Kind::log_normal ? std::exp(sigma_ * sigma_ / 2) * normal_above(sigma_ - rare_normal) +
+                                           most_ * normal_above(rare_normal)
+                                     : 1;
 }
 
 double Fading::untruncated(const GaussianPair& normal) const {

@@ -38,6 +38,9 @@ public:
 
     // Never more than that.
     double most() const { return most_; }
+    // Over all states of a link: the chance of at least `gain` ≥ 0, and the mean.
+    double chance_of(double gain) const;
+    double mean() const;
     bool is_none() const { return kind_ == Kind::none; }
 
 private:

@@ -12,12 +12,10 @@ Propagation::Propagation(const MediumConfig& config, std::uint64_t seed)
 
 double Propagation::other_gain(const Transmission& sent, InterfaceId receiver, const Position& place,
                                double distance_m, double least) const {
-    const double path_gain = two_ray_.is_none()
-                                 ? path_loss_.gain(distance_m, sent.band.carrier_hz)
-                                 : two_ray_.gain(sent.origin, place, distance_m, sent.band.carrier_hz);
+    const double of_path = path_gain(sent.origin, place, distance_m, sent.band.carrier_hz);
     // Every factor of the gain stands here, and its largest value in most_factor_; that of obstacles is 1.
-    const double gain = path_gain * fading_.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id,
-                                                 least / path_gain);
+    const double gain =
+        of_path * fading_.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id, least / of_path);
     return obstacles_.empty() ? gain : gain * obstacles_.gain(sent.origin, place, sent.band.carrier_hz);
 }
 

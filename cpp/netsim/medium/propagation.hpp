@@ -51,6 +51,12 @@ public:
         return most_factor_ * path_loss_.most_gain_beyond(distance_m, carrier_hz);
     }
 
+    // Of that, the path loss alone, between two places: without fading and obstacles.
+    double path_gain(const Position& from, const Position& to, double distance_m, double carrier_hz) const {
+        return two_ray_.is_none() ? path_loss_.gain(distance_m, carrier_hz)
+                                  : two_ray_.gain(from, to, distance_m, carrier_hz);
+    }
+    const Fading& fading() const { return fading_; }
     // Whether gains are drawn from a distribution.
     bool is_random() const { return !fading_.is_none(); }
 

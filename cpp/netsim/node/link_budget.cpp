@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
@@ -12,12 +11,11 @@
 #include "netsim/node/known_formats.hpp"
 #include "netsim/phy/antenna.hpp"
 #include "netsim/phy/oqpsk_mode.hpp"
+#include "netsim/units.hpp"
 
 namespace netsim {
 
 namespace {
-
-constexpr int states_of_a_random_link = 2000;
 
 MediumConfig without_obstacles(MediumConfig config) {
     config.validate();
@@ -82,10 +80,8 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
       antenna_gain_(most_antenna_gain(sender_.radio) * most_antenna_gain(receiver_)),
       noise_w_(BackgroundNoise(medium).power_w(receiver_.bandwidth_hz, receiver_.noise_figure)),
       error_model_(make_error_model(receiver_)),
-      preamble_detection_(receiver_),
       mode_(&broadcast_mode(sender_)),
-      psdu_bytes_(psdu_bytes_of(sender_, payload_bytes)),
-      states_(propagation_.is_random() ? states_of_a_random_link : 1) {
+      psdu_bytes_(psdu_bytes_of(sender_, payload_bytes)) {
     if (!band_.fits_in(Band{receiver_.carrier_hz, receiver_.bandwidth_hz})) {
         throw ConfigError("radio.carrier_hz: " + receiver.name + " does not receive the channel of " +
                           sender.name);
@@ -94,48 +90,70 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
         throw ConfigError("mac.op_mode: " + receiver.name + " cannot decode " + std::string(mode_->name) +
                           ", in which " + sender.name + " broadcasts");
     }
+    if (propagation_.is_random()) {
+        needs_ = needs();
+    }
 }
 
-std::vector<double> LinkBudget::gains(double distance_m) const {
-    check_at_least("distance_m", distance_m, 0, "m");
-    const double rise_m = receiver_height_m_ - sender_height_m_;
-    const double level_m = std::sqrt(std::max(distance_m * distance_m - rise_m * rise_m, 0.0));
-    Transmission sent;
-    sent.band = band_;
-    sent.origin = {0, 0, sender_height_m_};
-    const Position place{level_m, 0, receiver_height_m_};
-    std::vector<double> all(static_cast<std::size_t>(states_));
-    for (int state = 0; state < states_; ++state) {
-        // Each from another pair of nodes, so that they are independent.
-        sent.sender.node = 2 * state;
-        sent.id = static_cast<std::uint64_t>(state);
-        all[static_cast<std::size_t>(state)] =
-            antenna_gain_ * propagation_.gain(sent, InterfaceId{2 * state + 1, 0}, place, distance_m);
+double LinkBudget::least_power_w() const {
+    double least_w = std::max(receiver_.sensitivity_w, receiver_.snir_threshold * noise_w_);
+    if (!receiver_.preamble_detection.empty()) {
+        least_w =
+            std::max({least_w, receiver_.preamble_minimum_power_w, receiver_.preamble_threshold * noise_w_});
+    }
+    return least_w;
+}
+
+double LinkBudget::success_probability(double power_w) const {
+    return error_model_->success_probability(*mode_, power_w / noise_w_, psdu_bytes_);
+}
+
+// In steps: what a frame needs is known to half of one, and so is each power that is worked out from it, whatever the fading.
+std::vector<LinkBudget::Need> LinkBudget::needs() const {
+    constexpr double step_db = 0.02;
+    constexpr double far_db = 100;  // as far above the noise, or below it, no chance changes
+    constexpr double too_small = 1e-12;
+    const double least_w = least_power_w();
+    double known = success_probability(least_w);
+    std::vector<Need> all{{least_w, known}};
+    const double first_w = std::max(least_w, noise_w_ * ratio_from_db(-far_db));
+    const double steps = (db_from_ratio(noise_w_ / first_w) + far_db) / step_db;  // none without noise
+    for (int step = 1; step <= steps; ++step) {
+        const double success = success_probability(first_w * ratio_from_db(step_db * step));
+        if (std::abs(success - known) > too_small) {
+            all.push_back({first_w * ratio_from_db(step_db * (step - 0.5)), success - known});
+            known = success;
+        }
     }
     return all;
 }
 
+double LinkBudget::steady_gain(double distance_m) const {
+    check_at_least("distance_m", distance_m, 0, "m");
+    const double rise_m = receiver_height_m_ - sender_height_m_;
+    const double level_m = std::sqrt(std::max(distance_m * distance_m - rise_m * rise_m, 0.0));
+    return antenna_gain_ * propagation_.path_gain({0, 0, sender_height_m_}, {level_m, 0, receiver_height_m_},
+                                                  distance_m, band_.carrier_hz);
+}
+
 double LinkBudget::mean_gain(double distance_m) const {
-    const std::vector<double> all = gains(distance_m);
-    return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+    return steady_gain(distance_m) * propagation_.fading().mean();
 }
 
 double LinkBudget::reception_ratio(double distance_m, double tx_power_w) const {
     check_at_least("tx_power_w", tx_power_w, 0, "W");
-    return reception_ratio(gains(distance_m), tx_power_w);
+    return ratio_at(tx_power_w * steady_gain(distance_m));
 }
 
-double LinkBudget::reception_ratio(const std::vector<double>& gains, double tx_power_w) const {
-    double sum = 0;
-    for (const double gain : gains) {
-        const double power_w = tx_power_w * gain;
-        const double snir = power_w / noise_w_;
-        if (power_w >= receiver_.sensitivity_w && snir > receiver_.snir_threshold &&
-            (!preamble_detection_.is_on() || preamble_detection_.detects(power_w, snir))) {
-            sum += error_model_->success_probability(*mode_, snir, psdu_bytes_);
-        }
+double LinkBudget::ratio_at(double power_w) const {
+    if (!propagation_.is_random()) {
+        return power_w >= least_power_w() ? success_probability(power_w) : 0;
     }
-    return sum / static_cast<double>(gains.size());
+    double sum = 0;
+    for (const Need& need : needs_) {
+        sum += need.share * propagation_.fading().chance_of(need.power_w / power_w);
+    }
+    return std::clamp(sum, 0.0, 1.0);
 }
 
 double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
@@ -146,8 +164,8 @@ double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
     if (!(ratio > 0) || !(ratio < 1)) {
         throw ConfigError("ratio = " + text_of(ratio) + ": expected more than 0 and less than 1");
     }
-    const std::vector<double> all = gains(range_m);
-    if (reception_ratio(all, strongest_w) < ratio) {
+    const double gain = steady_gain(range_m);
+    if (ratio_at(strongest_w * gain) < ratio) {
         throw ConfigError("no power reaches " + text_of(range_m) + " m: even of " + text_of(strongest_w) +
                           " W, too little is left there");
     }
@@ -156,9 +174,10 @@ double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
     double enough_w = strongest_w;
     while (enough_w > too_weak_w * (1 + precision)) {
         const double middle_w = std::sqrt(too_weak_w) * std::sqrt(enough_w);
-        (reception_ratio(all, middle_w) >= ratio ? enough_w : too_weak_w) = middle_w;
+        (ratio_at(middle_w * gain) >= ratio ? enough_w : too_weak_w) = middle_w;
     }
-    return enough_w;
+    // A run rounds in other places; where a limit decides, all or nothing hangs on the last digit.
+    return std::min(enough_w * (1 + precision), strongest_w);
 }
 
 }  // namespace netsim

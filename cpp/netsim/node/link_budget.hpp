@@ -2,12 +2,13 @@
 // shows on average, worked out with the run's own models of path loss, noise and errors. Used to find the transmitter
 // power for a wanted range.
 //
-// Where the gain is random, the share is the mean over many states of the link, the same ones at each call. Antennas
-// look at each other with their largest gain, and no obstacle is between them.
+// Where the gain is random, the share is the mean over all states of the link. Each frame needs some power to be decoded: a
+// share s(p) of them no more than p, the chance of success without fading. With C(x) the chance that the fading is at least
+// x, and q the power that would arrive without it, the share is ∫ C(p / q) ds(p): integration by parts of the mean of
+// s(x q). Antennas look at each other with their largest gain, and no obstacle is between them.
 #pragma once
 
-#include <cstdint>
-#include <functional>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -16,8 +17,6 @@
 #include "netsim/medium/propagation.hpp"
 #include "netsim/phy/error_rate.hpp"
 #include "netsim/phy/modes.hpp"
-#include "netsim/phy/preamble_detection.hpp"
-#include "netsim/phy/reception.hpp"
 
 namespace netsim {
 
@@ -32,8 +31,9 @@ public:
     // The share of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0, from 0 to 1.
     double reception_ratio(double distance_m, double tx_power_w) const;
 
-    // The least power in W at which at least the share `ratio` (0 < ratio < 1) is decoded at `range_m`. Throws
-    // ConfigError for numbers out of their range, and if no power would do.
+    // The least power in W at which at least the share `ratio` (0 < ratio < 1) is decoded at `range_m`, to 0.01 dB where
+    // the gain is random, and elsewhere a few billionths more, lest it be too little by rounding. Throws ConfigError for
+    // numbers out of their range, and if no power would do.
     double tx_power_w_for(double range_m, double ratio) const;
 
     double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
@@ -44,8 +44,21 @@ public:
     double noise_w() const { return noise_w_; }
 
 private:
-    std::vector<double> gains(double distance_m) const;
-    double reception_ratio(const std::vector<double>& gains, double tx_power_w) const;
+    // What a share of the frames needs to be decoded.
+    struct Need {
+        double power_w;
+        double share;
+    };
+
+    // Less is too little for any frame, whatever it is above the noise.
+    double least_power_w() const;
+    // Of a frame that arrives with at least that.
+    double success_probability(double power_w) const;
+    std::vector<Need> needs() const;
+    // The part of the mean gain that does not fade.
+    double steady_gain(double distance_m) const;
+    // Of frames that would arrive with `power_w` if nothing faded.
+    double ratio_at(double power_w) const;
 
     Propagation propagation_;
     InterfaceConfig sender_;
@@ -56,10 +69,9 @@ private:
     double antenna_gain_ = 1;
     double noise_w_;
     std::shared_ptr<const ErrorModel> error_model_;
-    PreambleDetection preamble_detection_;
     const Mode* mode_;
     int psdu_bytes_;
-    int states_;  // of the link that are looked at
+    std::vector<Need> needs_;  // where the gain is random
 };
 
 }  // namespace netsim

@@ -1,7 +1,10 @@
 #include "netsim/medium/fading.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +112,141 @@ TEST(Fading, ShadowingWithoutASpreadIsNone) {
     const Fading fading(shadowing, 1);
     EXPECT_EQ(fading.gain(0, 1, SimTime(), 5), 1);
     EXPECT_EQ(fading.most(), 1);
+}
+
+TEST(Fading, ChancesOfShadowingAreThoseOfANormalNumber) {
+    for (const double sigma_db : {0.05, 1.0, 6.0, 40.0}) {
+        MediumConfig shadowing = config_of("LogNormalShadowing");
+        shadowing.sigma_db = sigma_db;
+        const Fading fading(shadowing, 1);
+        for (const double z : {-5.0, -1.0, 0.0, 0.3, 5.0}) {
+            EXPECT_NEAR(fading.chance_of(ratio_from_db(sigma_db * z)), std::erfc(z / std::numbers::sqrt2) / 2,
+                        1e-12)
+                << sigma_db << " dB, " << z;
+        }
+    }
+}
+
+// Γ(m, x) / Γ(m) for whole and half m. Source: M. Abramowitz, I. A. Stegun, "Handbook of Mathematical Functions",
+// 1964, 6.5.13, 6.5.17 and 6.5.22.
+double gamma_above(double shape, double x) {
+    const bool is_whole = shape == std::floor(shape);
+    double above = is_whole ? std::exp(-x) : std::erfc(std::sqrt(x));
+    const double first = is_whole ? 1 : 0.5;
+    for (int step = 0; first + step < shape; ++step) {
+        const double m = first + step;
+        above += std::exp(m * std::log(x) - x - std::lgamma(m + 1));
+    }
+    return above;
+}
+
+TEST(Fading, ChancesOfNakagamiAreClosedFormsForWholeAndHalfShapes) {
+    for (const double shape : {0.5, 1.0, 1.5, 2.0, 3.0, 7.5, 20.0}) {
+        MediumConfig nakagami = config_of("NakagamiFading");
+        nakagami.shape_factor = shape;
+        const Fading fading(nakagami, 1);
+        for (const double gain : {1e-6, 0.01, 0.3, 1.0, 2.5, 2.8}) {
+            EXPECT_NEAR(fading.chance_of(gain), gamma_above(shape, shape * gain), 1e-12)
+                << shape << " " << gain;
+        }
+    }
+}
+
+TEST(Fading, ChancesOfRayleighAreExponentialAndThoseOfNakagamiWithAShapeOf1) {
+    const Fading rayleigh(config_of("RayleighFading"), 1);
+    const Fading nakagami(config_of("NakagamiFading"), 1);
+    for (const double gain : {0.0, 1e-6, 0.01, 0.3, 1.0, 2.5, 20.0}) {
+        EXPECT_DOUBLE_EQ(rayleigh.chance_of(gain), std::exp(-gain));
+        EXPECT_EQ(nakagami.chance_of(gain), rayleigh.chance_of(gain));
+    }
+}
+
+// The power of k + 1 complex numbers, k drawn from Poisson's distribution of mean K. Source: M. Abramowitz, I. A. Stegun, as
+// above, 26.4.25.
+TEST(Fading, ChancesOfRicianAreThoseOfGammaWithAShapeFromPoisson) {
+    for (const double k_db : {-100.0, -10.0, 0.0, 8.0, 20.0}) {
+        MediumConfig rician = config_of("RicianFading");
+        rician.k_db = k_db;
+        const Fading fading(rician, 1);
+        const double k = ratio_from_db(k_db);
+        for (const double gain : {1e-6, 0.01, 0.1, 0.3, 0.7, 1.0, 1.3, 2.5, 6.0}) {
+            double expected = 0;
+            for (int drawn = 0; drawn < 300; ++drawn) {
+                expected += std::exp(drawn * std::log(k) - k - std::lgamma(drawn + 1)) *
+                            gamma_above(drawn + 1, (k + 1) * gain);
+            }
+            if (gain < fading.most()) {
+                EXPECT_NEAR(fading.chance_of(gain), expected, 1e-12) << k_db << " dB, " << gain;
+            }
+        }
+    }
+}
+
+TEST(Fading, ChancesOfAStrongLineOfSightAreThoseOfANormalNumber) {
+    MediumConfig rician = config_of("RicianFading");
+    rician.k_db = 100;
+    const Fading fading(rician, 1);
+    for (const double z : {-5.0, -1.0, 0.0, 0.3, 5.0}) {
+        const double gain = 1 + z * std::sqrt(2 / ratio_from_db(100));
+        EXPECT_NEAR(fading.chance_of(gain), std::erfc(z / std::numbers::sqrt2) / 2, 1e-5) << z;
+    }
+}
+
+TEST(Fading, NothingHasAChanceBeyondWhereItIsCutOff) {
+    for (const char* name : {"LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading"}) {
+        const Fading fading(config_of(name), 1);
+        EXPECT_GT(fading.chance_of(fading.most()), 0) << name;
+        EXPECT_EQ(fading.chance_of(fading.most() * 1.001), 0) << name;
+        EXPECT_EQ(fading.chance_of(0), 1) << name;
+    }
+    EXPECT_EQ(Fading(config_of("FreeSpacePathLoss"), 1).chance_of(1), 1);
+    EXPECT_EQ(Fading(config_of("FreeSpacePathLoss"), 1).chance_of(1.001), 0);
+}
+
+MediumConfig with_parameters(const char* name) {
+    MediumConfig config = config_of(name);
+    config.k_db = 3;
+    config.shape_factor = 1.7;
+    config.sigma_db = 5;
+    return config;
+}
+
+TEST(Fading, GainsAreDrawnWithTheChancesThatItTells) {
+    constexpr int draws = 20'000;
+    for (const char* name : {"LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading"}) {
+        const Fading fading(with_parameters(name), 3);
+        std::vector<double> gains;
+        for (int id = 0; id < draws; ++id) {
+            gains.push_back(fading.gain(0, 1, SimTime(), static_cast<std::uint64_t>(id)));
+        }
+        std::ranges::sort(gains, std::greater());
+        double farthest = 0;
+        for (int i = 0; i < draws; ++i) {
+            const double share = (i + 0.5) / draws;  // has at least that gain
+            farthest =
+                std::max(farthest, std::abs(share - fading.chance_of(gains[static_cast<std::size_t>(i)])));
+        }
+        // Kolmogorov's limit: exceeded once in a million samples.
+        EXPECT_LT(farthest, 2.7 / std::sqrt(draws)) << name;
+    }
+}
+
+TEST(Fading, TheMeanIsThatOfTheChances) {
+    MediumConfig wide = config_of("LogNormalShadowing");
+    wide.sigma_db = 40;
+    for (const MediumConfig& config :
+         {with_parameters("LogNormalShadowing"), with_parameters("RayleighFading"),
+          with_parameters("RicianFading"), with_parameters("NakagamiFading"), wide}) {
+        const Fading fading(config, 1);
+        constexpr double step = 0.005;  // of the natural logarithm
+        double sum = 0;
+        for (int i = 0; i < 10'000; ++i) {
+            const double log = std::log(fading.most()) - step * (i + 0.5);
+            sum += fading.chance_of(std::exp(log)) * std::exp(log) * step;
+        }
+        EXPECT_NEAR(sum / fading.mean(), 1, 1e-5) << config.path_loss;
+    }
+    EXPECT_DOUBLE_EQ(Fading(config_of("FreeSpacePathLoss"), 1).mean(), 1);
 }
 
 }  // namespace

@@ -1,0 +1,91 @@
+"""`gradysim calibrate`: with the line that it prints, a run receives what was promised."""
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+
+from gradysim.cli import main
+from gradysim.config.scenario import load_scenarios
+from gradysim.integrated.run import run
+
+INI = """[General]
+*.sender.protocol.typename = "BeaconProtocol"
+*.sender.protocol.payload_bytes = 50
+*.sender.protocol.interval = 5ms
+*.receiver.protocol.typename = "BeaconProtocol"
+*.receiver.protocol.stop = 0s
+**.mobility.typename = "StationaryMobility"
+**.mobility.telemetryInterval = 0s
+**.mobility.initialZ = 3m
+"""
+
+PATH_LOSS = "*.radioMedium.pathLoss.typename"
+NOISE_DECIDES = ("**.radio.receiver.sensitivity = -150dBm",)
+
+Received = Callable[..., float]
+
+
+@pytest.fixture
+def received(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Received:
+    """`received(200.0, 0.5, 2000, *settings)`: the share of 2000 frames at 200 m, calibrated for half."""
+    file = tmp_path / "pair.ini"
+
+    def share(range_m: float, ratio: float, frames: int, *settings: str) -> float:
+        lines = (
+            f"*.receiver.mobility.initialX = {0.6 * range_m!r}m",
+            f"*.receiver.mobility.initialY = {0.8 * range_m!r}m",
+            f"*.sender.protocol.stop = {1 + 0.005 * (frames - 0.5)!r}s",
+            f"sim-time-limit = {1 + 0.005 * (frames + 1)!r}s",
+        )
+        file.write_text("\n".join([INI, *settings, *lines]), encoding="utf-8")
+        options = f"--range {range_m!r}m --ratio {ratio} --sender sender --receiver receiver"
+        assert main(["calibrate", str(file), *options.split()]) == 0
+        printed = capsys.readouterr().out
+        (line,) = re.findall(r"^    (\S+ = \S+mW)$", printed, re.MULTILINE)
+        (scenario,) = load_scenarios(file, overrides=[line])
+        sender, receiver = (node.tracked_variables for node in run(scenario).nodes)
+        assert sender["sent"] == frames
+        return float(receiver["received"]) / frames
+
+    return share
+
+
+FADING = [
+    ("RayleighFading", ""),
+    ("NakagamiFading", "shapeFactor = 0.5"),
+    ("NakagamiFading", "shapeFactor = 1"),
+    ("NakagamiFading", "shapeFactor = 3"),
+    ("RicianFading", "k = 8dB"),
+    ("LogNormalShadowing", "sigma = 6"),
+]
+
+
+@pytest.mark.parametrize("decides", [(), NOISE_DECIDES], ids=["sensitivity", "noise"])
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.95])
+@pytest.mark.parametrize(("path_loss", "parameter"), FADING)
+def test_with_fading_the_promised_share_is_received(
+    received: Received, path_loss: str, parameter: str, ratio: float, decides: tuple[str, ...]
+) -> None:
+    settings = [f'{PATH_LOSS} = "{path_loss}"', "*.radioMedium.pathLoss.coherenceTime = 0s", *decides]
+    if parameter:
+        settings.append(f"*.radioMedium.pathLoss.{parameter}")
+    frames = 4000
+    standard_error = math.sqrt(ratio * (1 - ratio) / frames)
+    assert received(100.0, ratio, frames, *settings) == pytest.approx(ratio, abs=4.5 * standard_error)
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.5, 0.95])
+@pytest.mark.parametrize("mbps", [6, 24, 54])
+def test_where_the_noise_decides_the_promised_share_is_received(
+    received: Received, mbps: int, ratio: float
+) -> None:
+    frames = 4000
+    standard_error = math.sqrt(ratio * (1 - ratio) / frames)
+    threshold = "**.radio.receiver.snirThreshold = -20dB"
+    share = received(100.0, ratio, frames, *NOISE_DECIDES, threshold, f"**.wlan[*].bitrate = {mbps}Mbps")
+    assert share == pytest.approx(ratio, abs=4.5 * standard_error)
