@@ -1,6 +1,7 @@
 """A calibration for people: the power, the line for the .ini file, and reception over distance."""
 
 import math
+from decimal import ROUND_CEILING, Context
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,6 @@ BAR_WIDTH = 40
 def text(calibration: Calibration, encoding: str = "utf-8") -> str:
     """Return all of it as text, for an output of that encoding."""
     c = calibration
-    power_dbm = 10 * math.log10(c.tx_power_w * 1000)
     snr_db = 10 * math.log10(c.snr_at_range)
     to = "another one like it" if c.receiver == c.sender else c.receiver
     wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
@@ -23,9 +23,9 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
         f"{_sender(c)} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
         f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
         f" {c.bitrate_bps / 1e6:g} Mbps;",
-        f"{snr_db:.2f} dB above the noise), with a power of {power_dbm:.3f} dBm:",
+        f"{snr_db:.2f} dB above the noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
         "",
-        f"    *.{c.sender}.{wlan}.radio.transmitter.power = {c.tx_power_w * 1000:.6g}mW",
+        f"    *.{c.sender}.{wlan}.radio.transmitter.power = {_in_mw(c.tx_power_w)}mW",
         "",
         *_what_decides(c.deciding_sensitivity_w),
         *_what_is_left_out(c.obstacles_left_out),
@@ -41,6 +41,17 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
 def _sender(c: Calibration) -> str:
     """Its name, with that of its interface unless it is the first one, as receivers have it."""
     return f"{c.sender}.wlan[{c.sender_interface}]" if c.sender_interface else c.sender
+
+
+def _in_mw(power_w: float) -> str:
+    """Six digits, rounded up: where the sensitivity decides, nothing at all is received with less."""
+    rounded_w = Context(prec=6, rounding=ROUND_CEILING).create_decimal(repr(power_w))
+    return f"{float(rounded_w.scaleb(3)):.6g}"
+
+
+def _in_dbm(power_w: float) -> str:
+    """Three digits after the point, rounded up."""
+    return f"{math.ceil(10_000 * math.log10(power_w * 1000)) / 1000:.3f}"
 
 
 def _in_metres(distance_m: float) -> str:
@@ -97,9 +108,7 @@ def draw(calibration: Calibration, path: Path) -> None:
     axes.axvline(c.range_m, linestyle=":", color="gray")
     axes.axhline(c.ratio, linestyle=":", color="gray")
     axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
-    axes.set_title(
-        f"{_sender(c)} to {c.receiver}, {c.tx_power_w * 1000:.4g} mW, {c.bitrate_bps / 1e6:g} Mbps"
-    )
+    axes.set_title(f"{_sender(c)} to {c.receiver}, {_in_mw(c.tx_power_w)} mW, {c.bitrate_bps / 1e6:g} Mbps")
     try:
         figure.savefig(path)
     except OSError as error:

@@ -32,10 +32,13 @@ Received = Callable[..., float]
 
 @pytest.fixture
 def received(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Received:
-    """`received(200.0, 0.5, 2000, *settings)`: the share of 2000 frames at 200 m, calibrated for half."""
+    """`received(200.0, 0.5, 2000, *settings)`: the share of 2000 frames at 200 m, calibrated for half.
+
+    With `unit="dBm"` the power is the one that the text has in dBm.
+    """
     file = tmp_path / "pair.ini"
 
-    def share(range_m: float, ratio: float, frames: int, *settings: str) -> float:
+    def share(range_m: float, ratio: float, frames: int, *settings: str, unit: str = "mW") -> float:
         lines = (
             f"*.receiver.mobility.initialX = {0.6 * range_m!r}m",
             f"*.receiver.mobility.initialY = {0.8 * range_m!r}m",
@@ -47,12 +50,32 @@ def received(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Received:
         assert main(["calibrate", str(file), *options.split()]) == 0
         printed = capsys.readouterr().out
         (line,) = re.findall(r"^    (\S+ = \S+mW)$", printed, re.MULTILINE)
+        if unit == "dBm":
+            (power_dbm,) = re.findall(r"with a power of (\S+) dBm", printed)
+            line = f"{line.partition(' = ')[0]} = {power_dbm}dBm"
         (scenario,) = load_scenarios(file, overrides=[line])
         sender, receiver = (node.tracked_variables for node in run(scenario).nodes)
         assert sender["sent"] == frames
         return float(receiver["received"]) / frames
 
     return share
+
+
+@pytest.mark.parametrize("unit", ["mW", "dBm"])
+@pytest.mark.parametrize("mbps", [6, 54])
+@pytest.mark.parametrize(
+    "path_loss", ["FreeSpacePathLoss", "BreakpointPathLoss", "TwoRayGroundReflection", "TwoRayInterference"]
+)
+def test_where_the_sensitivity_decides_the_power_is_enough_at_every_range(
+    received: Received, path_loss: str, mbps: int, unit: str
+) -> None:
+    settings = f'{PATH_LOSS} = "{path_loss}"', f"**.wlan[*].bitrate = {mbps}Mbps"
+    deaf_at = [
+        range_m
+        for range_m in (round(0.9 * 1.75**step, 2) for step in range(20))
+        if not received(range_m, 0.5, 2, *settings, unit=unit)
+    ]
+    assert deaf_at == []
 
 
 FADING = [

@@ -49,6 +49,15 @@ def test_the_curve_goes_on_to_twice_the_range_and_falls() -> None:
     assert dict(curve)[150] == pytest.approx(0.5, abs=1e-6)
 
 
+def test_the_curve_goes_through_what_was_promised_at_the_range_where_it_falls_to_nothing() -> None:
+    scenario = link("**.radio.receiver.sensitivity = -85dBm")
+    for step in range(40):
+        range_m = 0.7 * 1.37**step
+        at_range, beyond = calibrate(scenario, range_m).curve[19:21]
+        assert at_range[0] == pytest.approx(range_m)
+        assert (at_range[1], beyond[1]) == (1, 0)
+
+
 TWO_RAYS = '*.radioMedium.pathLoss.typename = "TwoRayInterference"'
 
 

@@ -1,12 +1,17 @@
 """The text and the picture of a calibration; tests of its figures are in tests/python/integrated."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 pytest.importorskip("gradysim._netsim")
 
+from gradysim.config.value.expression import parse_value
+from gradysim.config.value.kinds import quantity
 from gradysim.integrated.calibration import Calibration
 from gradysim.report.calibration import check_picture, draw, text
 
@@ -32,6 +37,17 @@ def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None
 def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: int, wlan: str) -> None:
     lines = text(calibration(interfaces)).splitlines()
     assert f"    *.relay.{wlan}.radio.transmitter.power = 1mW" in lines
+
+
+@given(st.floats(min_value=1e-15, max_value=1e9))
+def test_its_powers_are_the_next_ones_that_are_enough(tx_power_w: float) -> None:
+    printed = text(replace(calibration(), tx_power_w=tx_power_w))
+    power = quantity("W")
+    (in_mw,) = re.findall(r"power = (\S+)$", printed, re.MULTILINE)
+    assert tx_power_w <= float(power.convert(parse_value(in_mw))) <= tx_power_w * (1 + 1.1e-5)
+    (in_dbm,) = re.findall(r"with a power of (\S+) dBm:$", printed, re.MULTILINE)
+    in_w = float(power.convert(parse_value(f"{in_dbm}dBm")))
+    assert tx_power_w * (1 - 1e-12) <= in_w <= tx_power_w * 10**0.00011
 
 
 def test_an_interface_that_is_not_the_first_is_named() -> None:
