@@ -43,10 +43,13 @@ class Calibration:
         bitrate_bps: Of broadcast frames.
         frame_bytes: The message with all headers.
         snr_at_range: Mean received power over noise at the range, a linear ratio.
-        deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise, or None.
+        deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise and than
+            preamble detection, or None.
         curve: Distances in m with the share received there, from 0 to 1.
         sender_interface: Index of the interface that sends.
         obstacles_left_out: How many obstacles take power from frames in a run; here none does.
+        deciding_preamble_w: The least power of the receiver's preamble detection if it asks for more than the
+            noise and than the sensitivity, or None.
     """
 
     sender: str
@@ -63,6 +66,7 @@ class Calibration:
     curve: tuple[tuple[float, float], ...]
     sender_interface: int = 0
     obstacles_left_out: int = 0
+    deciding_preamble_w: float | None = None
 
 
 def calibrate(
@@ -124,6 +128,9 @@ def calibrate(
         nodes = [from_node] if to_node.id == from_node.id else [from_node, to_node]
         hint = ground_hint(medium_config(scenario), nodes)
         raise ConfigError(in_ini_terms(str(error)) + (f"; {hint}" if hint else "")) from error
+    sensitivity_w, preamble_w = _deciding_levels_w(
+        scenario, from_node, to_node, message_bytes, range_m, ratio, power_w
+    )
     distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
     return Calibration(
         sender=from_node.name,
@@ -136,16 +143,15 @@ def calibrate(
         bitrate_bps=budget.bitrate_bps,
         frame_bytes=budget.psdu_bytes,
         snr_at_range=power_w * budget.mean_gain(range_m) / budget.noise_w,
-        deciding_sensitivity_w=_deciding_sensitivity_w(
-            scenario, from_node, to_node, message_bytes, range_m, ratio, power_w
-        ),
+        deciding_sensitivity_w=sensitivity_w,
         curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
         sender_interface=from_index,
         obstacles_left_out=len(scenario.obstacles) if medium_config(scenario).obstacle_loss else 0,
+        deciding_preamble_w=preamble_w,
     )
 
 
-def _deciding_sensitivity_w(
+def _deciding_levels_w(
     scenario: Scenario,
     sender: NodeSpec,
     receiver: NodeSpec,
@@ -153,14 +159,18 @@ def _deciding_sensitivity_w(
     range_m: float,
     ratio: float,
     power_w: float,
-) -> float | None:
-    """The receiver's sensitivity if less power than `power_w` would do without it."""
+) -> tuple[float | None, float | None]:
+    """The receiver's sensitivity or least power for preambles if less would do without both."""
     unlimited = node_config(receiver)
     radio = unlimited.wlan[0].radio
     sensitivity_w = radio.sensitivity_w
+    preamble_w = radio.preamble_minimum_power_w if radio.preamble_detection else 0.0
     radio.sensitivity_w = sys.float_info.min
+    radio.preamble_minimum_power_w = 0.0
     budget = load_netsim().LinkBudget(medium_config(scenario), node_config(sender), unlimited, message_bytes)
-    return sensitivity_w if power_w > 1.01 * budget.tx_power_w_for(range_m, ratio) else None
+    if power_w <= 1.01 * budget.tx_power_w_for(range_m, ratio):
+        return None, None
+    return (sensitivity_w, None) if sensitivity_w >= preamble_w else (None, preamble_w)
 
 
 def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, message_bytes: int) -> "LinkBudget":

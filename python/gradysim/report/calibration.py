@@ -3,6 +3,7 @@
 import math
 from decimal import ROUND_CEILING, Context
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.calibration import Calibration
@@ -27,7 +28,8 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
         "",
         f"    *.{c.sender}.{wlan}.radio.transmitter.power = {_in_mw(c.tx_power_w)}mW",
         "",
-        *_what_decides(c.deciding_sensitivity_w),
+        *_what_decides("sensitivity", c.deciding_sensitivity_w),
+        *_what_decides("preambleDetection.minimumPower", c.deciding_preamble_w),
         *_what_is_left_out(c.obstacles_left_out),
         "distance   received",
     ]
@@ -59,15 +61,14 @@ def _in_metres(distance_m: float) -> str:
     return f"{distance_m:.5g}" if distance_m < 99_999.5 else f"{distance_m:.0f}"
 
 
-def _what_decides(sensitivity_w: float | None) -> list[str]:
-    if sensitivity_w is None:
+def _what_decides(level: str, level_w: float | None) -> list[str]:
+    if level_w is None:
         return []
-    return [
-        f"The receiver's sensitivity of {10 * math.log10(sensitivity_w * 1000):g} dBm decides, not the noise:"
-        " no slower bitrate would",
-        "do with less power.",
-        "",
-    ]
+    decides = (
+        f"The receiver's {level} of {10 * math.log10(level_w * 1000):g} dBm decides, not the noise:"
+        " no slower bitrate would do with less power."
+    )
+    return [*wrap(decides, width=88), ""]
 
 
 def _what_is_left_out(obstacles: int) -> list[str]:

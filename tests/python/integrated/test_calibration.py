@@ -33,6 +33,38 @@ def test_a_sensitivity_that_asks_for_more_power_than_the_noise_is_named() -> Non
     assert calibrate(link(slow), 150).tx_power_w < by_noise.tx_power_w / 5
 
 
+@pytest.mark.parametrize(
+    ("levels_dbm", "deciding_dbm"),
+    [
+        ((-85, -82), (None, -82)),
+        ((-82, -85), (-82, None)),
+        ((-82, -82), (-82, None)),
+        ((-120, -120), (None, None)),
+    ],
+)
+def test_of_sensitivity_and_preamble_detection_the_one_that_asks_for_more_is_named(
+    levels_dbm: tuple[int, int], deciding_dbm: tuple[int | None, int | None]
+) -> None:
+    sensitivity_dbm, preamble_dbm = levels_dbm
+    found = calibrate(
+        link(
+            f"**.radio.receiver.sensitivity = {sensitivity_dbm}dBm",
+            '**.radio.receiver.preambleDetection.typename = "ThresholdPreambleDetection"',
+            f"**.radio.receiver.preambleDetection.minimumPower = {preamble_dbm}dBm",
+        ),
+        150,
+    )
+    levels_w = found.deciding_sensitivity_w, found.deciding_preamble_w
+    assert [level_w and round(10 * math.log10(level_w * 1000), 9) for level_w in levels_w] == list(
+        deciding_dbm
+    )
+
+
+def test_a_preamble_that_nobody_has_to_detect_is_not_named() -> None:
+    found = calibrate(link("**.radio.receiver.sensitivity = -85dBm"), 150)
+    assert found.deciding_preamble_w is None
+
+
 def test_a_group_is_no_node_and_one_of_its_nodes_is_suggested() -> None:
     with pytest.raises(ConfigError) as caught:
         calibrate(link(), 150, receiver="receivers")

@@ -61,6 +61,13 @@ def test_a_sensitivity_that_decides_is_told() -> None:
     assert "sensitivity" not in text(calibration())
 
 
+def test_a_preamble_that_asks_for_more_is_told() -> None:
+    told = text(replace(calibration(), deciding_preamble_w=10**-11.2))
+    assert "receiver's preambleDetection.minimumPower of -82 dBm decides, not the noise: no" in told
+    assert "sensitivity" not in told
+    assert "preamble" not in text(calibration())
+
+
 @pytest.mark.parametrize(
     ("obstacles", "told"),
     [(1, "The obstacle is left"), (2, "The 2 obstacles are left")],
