@@ -1,5 +1,6 @@
 """From a wanted range to the transmitter power, under the models of a scenario."""
 
+import math
 import re
 import sys
 from collections.abc import Sequence
@@ -42,7 +43,7 @@ class Calibration:
         tx_power_w: The least transmitter power that does.
         bitrate_bps: Of broadcast frames.
         frame_bytes: The message with all headers.
-        snr_at_range: Mean received power over noise at the range, a linear ratio.
+        snr_at_range: Mean received power over noise at the range, a linear ratio; infinite without noise.
         deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise and than
             preamble detection, or None.
         curve: Distances in m with the share received there, from 0 to 1.
@@ -142,7 +143,7 @@ def calibrate(
         tx_power_w=power_w,
         bitrate_bps=budget.bitrate_bps,
         frame_bytes=budget.psdu_bytes,
-        snr_at_range=power_w * budget.mean_gain(range_m) / budget.noise_w,
+        snr_at_range=power_w * budget.mean_gain(range_m) / budget.noise_w if budget.noise_w else math.inf,
         deciding_sensitivity_w=sensitivity_w,
         curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
         sender_interface=from_index,

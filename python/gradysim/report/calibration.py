@@ -17,14 +17,16 @@ BAR_WIDTH = 40
 def text(calibration: Calibration, encoding: str = "utf-8") -> str:
     """Return all of it as text, for an output of that encoding."""
     c = calibration
-    snr_db = 10 * math.log10(c.snr_at_range)
+    above = (
+        f"{10 * math.log10(c.snr_at_range):.2f} dB above the" if math.isfinite(c.snr_at_range) else "without"
+    )
     to = "another one like it" if c.receiver == c.sender else c.receiver
     wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
     lines = [
         f"{_sender(c)} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
         f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
         f" {c.bitrate_bps / 1e6:g} Mbps;",
-        f"{snr_db:.2f} dB above the noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
+        f"{above} noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
         "",
         f"    *.{c.sender}.{wlan}.radio.transmitter.power = {_in_mw(c.tx_power_w)}mW",
         "",

@@ -65,6 +65,13 @@ def test_a_preamble_that_nobody_has_to_detect_is_not_named() -> None:
     assert found.deciding_preamble_w is None
 
 
+def test_without_noise_the_sensitivity_decides() -> None:
+    settings = "**.radio.receiver.sensitivity = -85dBm", "*.radioMedium.backgroundNoise.power = 0W"
+    silent, noisy = calibrate(link(*settings), 150), calibrate(link(settings[0]), 150)
+    assert silent.tx_power_w == pytest.approx(noisy.tx_power_w, rel=1e-6)
+    assert (silent.snr_at_range, silent.deciding_sensitivity_w) == (math.inf, noisy.deciding_sensitivity_w)
+
+
 def test_a_group_is_no_node_and_one_of_its_nodes_is_suggested() -> None:
     with pytest.raises(ConfigError) as caught:
         calibrate(link(), 150, receiver="receivers")

@@ -1,5 +1,6 @@
 """The text and the picture of a calibration; tests of its figures are in tests/python/integrated."""
 
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -59,6 +60,11 @@ def test_an_interface_that_is_not_the_first_is_named() -> None:
 def test_a_sensitivity_that_decides_is_told() -> None:
     assert "sensitivity of -90 dBm decides" in text(calibration(deciding_sensitivity_w=1e-12))
     assert "sensitivity" not in text(calibration())
+
+
+def test_a_channel_without_noise_is_told() -> None:
+    assert "\n10.00 dB above the noise), with a power of" in text(calibration())
+    assert "\nwithout noise), with a power of" in text(replace(calibration(), snr_at_range=math.inf))
 
 
 def test_a_preamble_that_asks_for_more_is_told() -> None:
