@@ -56,6 +56,22 @@ def test_the_power_for_a_range_is_that_at_the_nodes_height() -> None:
     assert found_w[0] != pytest.approx(found_w[1], rel=0.1)
 
 
+def test_who_is_exactly_at_the_end_of_the_range_hears_where_the_sensitivity_decides() -> None:
+    for step in range(20):
+        range_m = 0.9 * 1.75**step
+        scenario = link(
+            f"**.wlan[*].radio.transmitter.communicationRange = {range_m!r}m",
+            "**.radio.receiver.sensitivity = -85dBm",
+            "*.receivers.count = 1",
+            f"*.receivers[*].mobility.lineStartX = {range_m!r}m",
+            "*.receivers[*].mobility.lineStartZ = 30m",
+            "*.sender.protocol.stop = 1.001s",
+            "sim-time-limit = 1.1s",
+        )
+        sent, received = (node.tracked_variables for node in run(scenario).nodes)
+        assert (sent["sent"], received["received"]) == (1, 1), range_m
+
+
 def test_what_a_range_means_is_the_same_wherever_it_is_said() -> None:
     defaults = signature(calibrate_power).parameters
     assert (defaults["ratio"].default, defaults["message"].default) == (RATIO, f"{MESSAGE_BYTES}B")
