@@ -23,6 +23,7 @@ def print_means(
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
     from gradysim.results.means import (
+        has_files_for_omnetpp_alone,
         means,
         of_different_files,
         of_different_settings,
@@ -36,8 +37,8 @@ def print_means(
             raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
         results = read_results(directory)
         if not results:
-            others = any(file.suffix in (".sca", ".vec") for file in directory.iterdir())
-            reason = "it has only files for OMNeT++'s tools" if others else "it has no results"
+            are_others = has_files_for_omnetpp_alone(directory)
+            reason = "it has only files for OMNeT++'s tools" if are_others else "it has no results"
             raise ConfigError(
                 f"{directory}: {reason} of runs that came to their end; expected the JSON files of"
                 f" `gradysim run FILE --result-dir {shlex.quote(str(directory))}`"

@@ -43,16 +43,26 @@ def read_results(directory: Path) -> list[dict[str, Any]]:
 
     Files of other kinds, and runs that were interrupted, are left out. Raises OSError.
     """
-    results = []
+    results = (result for result in _results_in(directory) if not result["interrupted"])
+    return sorted(results, key=lambda result: (result["config"], result["mode"], result["run"]))
+
+
+def has_files_for_omnetpp_alone(directory: Path) -> bool:
+    """Whether a folder has result files for OMNeT++'s tools, and no other of any run. Raises OSError."""
+    others = any(file.suffix in (".sca", ".vec") for file in directory.iterdir())
+    return others and not any(_results_in(directory))
+
+
+def _results_in(directory: Path) -> Iterator[dict[str, Any]]:
+    """Give the results in the files of a folder, those of interrupted runs, too."""
     for file in sorted(directory.iterdir()):
         if file.suffix == ".json" and file.is_file():
             try:
                 result = json.loads(file.read_text(encoding="utf-8"))
             except (ValueError, RecursionError):  # no JSON, or too deep
                 continue
-            if isinstance(result, dict) and result.keys() >= _FIELDS and not result["interrupted"]:
-                results.append(result)
-    return sorted(results, key=lambda result: (result["config"], result["mode"], result["run"]))
+            if isinstance(result, dict) and result.keys() >= _FIELDS:
+                yield result
 
 
 def means(results: Iterable[Mapping[str, Any]]) -> list[Mean]:

@@ -2,6 +2,8 @@
 
 import pytest
 
+from python.cli.command import interrupt_endless_run
+
 
 def test_means_of_runs(gradysim):
     study = ("--set", "sim-time-limit=${limit=3, 5}.5s", "--result-dir", "out", "--quiet")
@@ -70,6 +72,17 @@ def test_a_folder_with_files_for_omnetpp_alone(gradysim, folder):
     gradysim("run", "test.ini", "--scalars")
     assert gradysim("means", "results").stderr.startswith(
         "results: it has only files for OMNeT++'s tools of runs"
+    )
+
+
+def test_a_folder_with_a_run_that_was_interrupted_alone(gradysim, folder):
+    interrupt_endless_run(folder, "--mode", "prototype", "--result-dir", "out", "--scalars", "--quiet")
+    assert {file.suffix for file in (folder / "out").iterdir()} == {".json", ".sca"}
+    done = gradysim("means", "out")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "out: it has no results of runs that came to their end; expected the JSON files of"
+        " `gradysim run FILE --result-dir out`\n"
     )
 
 
