@@ -7,7 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.errors.says_in_full import says_in_full
 from gradysim.config.errors.sibling_files import file_meant
+from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.config.value.setting import Setting
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
@@ -98,13 +100,24 @@ def _told(text: str, settings: Mapping[str, Setting]) -> EngineError:
         shown, rest = (in_ini_terms(part, target) for part in (value[1], text[value.end() :]))
         if target not in settings:
             told = f"{key_name(field)} = {shown} (its default): {rest}"
-        elif place is None or _LITERAL.fullmatch(place.source.value):
-            told = rest + _file_meant(target, settings[target])
         else:
-            told = f"that is {shown}: {rest}{_file_meant(target, settings[target])}"
+            is_literal = place is None or _LITERAL.fullmatch(place.source.value)
+            that = "" if is_literal else f"that is {shown}: "
+            told = f"{_for(field, place)}{that}{rest}{_file_meant(target, settings[target])}"
     error = EngineError(told) if place is None else EngineError.at(place.source, told)
     error.target = target
     return error
+
+
+def _for(field: re.Match[str], place: Setting | None) -> str:
+    """Which parameter the value is for, if the line leaves a part of its name to wildcards; else ""."""
+    if place is None or "*" not in (key := place.source.key):
+        return ""
+    target = field["target"]
+    names = [other.path for other in NODE_KEYS if other.target == target]
+    names += [other.path.partition(".")[2] for other in NETWORK_KEYS if other.target == target]
+    is_told = any(says_in_full(key, name) for name in names or [target])
+    return "" if is_told else f"for {key_name(field)}: "
 
 
 def _file_meant(target: str, setting: Setting) -> str:

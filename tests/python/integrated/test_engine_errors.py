@@ -158,6 +158,15 @@ def test_what_was_calculated_is_told():
             f"5: {WLAN}.radio.transmitter.power = 1e300W: expected from 0mW to 1000GW",
         ),
         (
+            ["**.transmitter.power = 1e300W"],
+            "5: **.transmitter.power = 1e300W: for wlan[*].radio.transmitter.power: expected from 0mW to",
+        ),
+        (
+            ["**.cwMin = 20000 * 2"],
+            "5: **.cwMin = 20000 * 2: for wlan[*].mac.dcf.channelAccess.cwMin: that is 40000: expected",
+        ),
+        (["**.wlan[*].bitrate = 7Mbps"], "5: **.wlan[*].bitrate = 7Mbps: expected a bitrate of g(mixed)"),
+        (
             [f"{WLAN}.radio.centerFrequency = 1Hz"],
             f"5: {WLAN}.radio.centerFrequency = 1Hz: expected from 1MHz to 1000GHz",
         ),

@@ -91,7 +91,7 @@ def test_a_malformed_table_of_error_rates_is_refused_where_it_is_named(make_scen
     table = tmp_path / "table.csv"
     table.write_text("bitrate_mbps,psdu_bytes,snir_db,success\n24,100,ten,0.5\n")
     scenario = with_error_table(make_scenario, f'"{table}"')
-    with pytest.raises(ConfigError, match=r'table.csv": line 2: "ten": expected a number') as error:
+    with pytest.raises(ConfigError, match=r'berTableFile: line 2: "ten": expected a number') as error:
         check_scenario(scenario)
     assert error.value.key == "**.errorModel.berTableFile"
 

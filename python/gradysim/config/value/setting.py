@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gradysim.config.errors.config_error import BadValue, ConfigError
+from gradysim.config.errors.says_in_full import says_in_full
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
 from gradysim.config.value.expression import parse_value
@@ -68,7 +69,8 @@ def read_scalar(
 ) -> Scalar:
     """The value of an entry. Raises ConfigError with its place if it is not of that kind.
 
-    `path` is the parameter that it is for, which the error tells if the key does not. With `parameter` its
+    `path` is the parameter that it is for, which the error tells if the key leaves a part of its name to
+    wildcards: `**.power` may be for a transmitter or for the background noise. With `parameter` its
     value may be that parameter's own.
     """
     written: Value | None = None
@@ -82,7 +84,7 @@ def read_scalar(
         if parameter is not None:
             seed = f" with seed {parameter.seed}" if parameter.has_drawn else ""
             this += f"{f'that is {text_of(written)} ' if written is not None else ''}for {path}{seed}: "
-        elif path and not entry.key.endswith(f".{path.rpartition('.')[2]}"):
+        elif path and not says_in_full(entry.key, path.partition(".")[2]):
             this += f"for {path}: "
         text = f"{this}{error.problem}; expected {error.expected or kind.expected}{error.suggestion}"
         raise ConfigError.at(entry.source, text) from error

@@ -280,26 +280,34 @@ def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None
         ),
         (
             "**.speed = -3mps\n",
-            "**.speed = -3mps: it is out of range; expected a speed such as 10mps, at least 0mps",
+            "**.speed = -3mps: for groundStation.mobility.speed: it is out of range; expected a speed such as"
+            " 10mps, at least 0mps",
         ),
         (
             "**.power = nan W\n",
-            "**.power = nan W: `nanW` is not finite; expected a power such as 20mW or -85dBm, at least 0W",
+            "**.power = nan W: for groundStation.wlan[0].radio.transmitter.power: `nanW` is not finite;"
+            " expected a power such as 20mW or -85dBm, at least 0W",
+        ),
+        (
+            "**.power = 2W\n",
+            "**.power = 2W: for radioMedium.backgroundNoise.power: `2W` is more than any radio receives;"
+            " expected a power such as 20mW or -85dBm, at least 0W and at most 1W; a minus forgotten?",
         ),
         (
             '**.opMode = "g"\n',
-            '**.opMode = "g": `g` is not known; expected one of "b", "g(erp)", "g(mixed)", "a"',
+            '**.opMode = "g": for groundStation.wlan[0].opMode: `g` is not known; expected one of "b",'
+            ' "g(erp)", "g(mixed)", "a"',
         ),
         (
             "**.retries = 1.5\n",
-            "**.retries = 1.5: `1.5` is no whole number; expected a whole number, as the parameter is an int"
-            "; for other numbers write `retries: float = 3` in the class",
+            "**.retries = 1.5: for uavs[0].protocol.retries: `1.5` is no whole number; expected a whole"
+            " number, as the parameter is an int; for other numbers write `retries: float = 3` in the class",
         ),
         (
             "**.launch_interval = -15deg\n",
-            "**.launch_interval = -15deg: `deg` at `launch_interval`, which does not say what unit the"
-            " protocol gets; expected a plain number, or an attribute named `launch_interval_deg` or"
-            " `launch_interval_rad`",
+            "**.launch_interval = -15deg: for uavs[0].protocol.launch_interval: `deg` at `launch_interval`,"
+            " which does not say what unit the protocol gets; expected a plain number, or an attribute named"
+            " `launch_interval_deg` or `launch_interval_rad`",
         ),
         (
             "*.boat.protocol.class = 3\n",

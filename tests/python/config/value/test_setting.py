@@ -53,7 +53,10 @@ def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
     )
 
 
-@pytest.mark.parametrize("key", ["**", "*.x.*", "*.uavs[*].mobility.s*", "**.*speed"])
+@pytest.mark.parametrize(
+    "key",
+    ["**", "*.x.*", "*.uavs[*].mobility.s*", "**.*speed", "**.speed", "**.*.speed", "*.uavs[*].*.speed"],
+)
 def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
     written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"), "General")
     with pytest.raises(ConfigError) as caught:
@@ -62,6 +65,13 @@ def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
         f"a.ini:7: {key} = 3m: for uavs[0].mobility.speed: `m` is the unit of a length; "
         "expected a speed such as 10mps, at least 0mps"
     )
+
+
+@pytest.mark.parametrize("key", ["*.uavs[*].mobility.speed", "**.mobility.speed"])
+def test_a_parameter_that_the_key_says_in_full_is_not_repeated(key: str) -> None:
+    written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"), "General")
+    with pytest.raises(ConfigError, match="= 3m: `m` is the unit of a length"):
+        read_scalar(written, SPEED, "uavs[0].mobility.speed")
 
 
 def test_texts_of_overrides_need_no_quotes() -> None:
