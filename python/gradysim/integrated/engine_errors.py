@@ -10,6 +10,7 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.says_in_full import says_in_full
 from gradysim.config.errors.sibling_files import file_meant
 from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.config.keys.key import HAS_TO_BE_GIVEN
 from gradysim.config.value.setting import Setting
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
@@ -99,7 +100,10 @@ def _told(text: str, settings: Mapping[str, Setting]) -> EngineError:
     else:
         shown, rest = (in_ini_terms(part, target) for part in (value[1], text[value.end() :]))
         if target not in settings:
-            told = f"{key_name(field)} = {shown} (its default): {rest}"
+            key = keys_by_target().get(target)
+            has_to_be_given = key is not None and key.default == HAS_TO_BE_GIVEN
+            is_what = "has to be given" if has_to_be_given else f"= {shown} (its default)"
+            told = f"{key_name(field)} {is_what}: {rest}"
         else:
             is_literal = place is None or _LITERAL.fullmatch(place.source.value)
             that = "" if is_literal else f"that is {shown}: "

@@ -110,7 +110,12 @@ def test_what_was_calculated_is_told():
         ),
         (
             [f'{ANTENNA}.typename = "CosineAntenna"'],
-            f'5: {ANTENNA}.typename = "CosineAntenna": wlan[*].radio.antenna.beamWidth = 0deg (its default):'
+            f'5: {ANTENNA}.typename = "CosineAntenna": wlan[*].radio.antenna.beamWidth has to be given:'
+            " expected more than 0deg",
+        ),
+        (
+            ['**.antenna.typename = "ParabolicAntenna"'],
+            '5: **.antenna.typename = "ParabolicAntenna": wlan[*].radio.antenna.beamWidth has to be given:'
             " expected more than 0deg",
         ),
         (
@@ -129,8 +134,8 @@ def test_what_was_calculated_is_told():
         (
             [f'{RECEIVER}.errorModel.typename = "Ieee80211BerTableErrorModel"'],
             f'5: {RECEIVER}.errorModel.typename = "Ieee80211BerTableErrorModel":'
-            ' wlan[*].radio.receiver.errorModel.berTableFile = "" (its default): expected a file that can'
-            " be read",
+            " wlan[*].radio.receiver.errorModel.berTableFile has to be given: expected a file that can be"
+            " read",
         ),
         (
             [f"{WLAN}.mac.mtu = 40B", f"{WLAN}.radio.transmitter.communicationRange = 50m"],

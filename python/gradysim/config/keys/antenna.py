@@ -1,7 +1,7 @@
 """Keys of a node's antenna. The names are INET's, and those of its AttachedMobility for how it is mounted."""
 
 from gradysim.config.keys.interface import WLAN
-from gradysim.config.keys.key import Key
+from gradysim.config.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.value.kinds import choice, power_ratio, quantity
@@ -35,7 +35,7 @@ ANTENNA_KEYS: tuple[Key, ...] = (
         "beam_width_rad",
         quantity("rad", above=0, shown="deg"),
         "angle between the directions at half the power",
-        default="none: it has to be given",
+        default=HAS_TO_BE_GIVEN,
     ),
     _dipole("wireAxis", "wire_axis", choice("x", "y", "z"), "the axis along which it lies"),
     _dipole(

@@ -1,6 +1,6 @@
 """Keys of what stands between the nodes: the model of its losses, and obstacles one by one or as a file."""
 
-from gradysim.config.keys.key import Key
+from gradysim.config.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, angle
 from gradysim.config.value.kinds import boolean, choice, coordinate, integer, number, text
@@ -60,7 +60,7 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
             f"{end}_{axis.lower()}",
             coordinate(),
             meaning,
-            default="none: it has to be given",
+            default=HAS_TO_BE_GIVEN,
         )
         for end, axis, meaning in (
             ("min", "X", "box: its least x, before it is turned"),
@@ -83,7 +83,7 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
         "points",
         text(),
         'prism: x and y of the corners in metres, one after the other: "0 0 10 0 10 5"',
-        default="none: it has to be given",
+        default=HAS_TO_BE_GIVEN,
     ),
     _body(
         "material",

@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 from gradysim.config.value.kinds import Kind
 
+HAS_TO_BE_GIVEN = "none: it has to be given"
+"""The default of a key without which its model, or a run, is none."""
+
 
 @dataclass(frozen=True)
 class ReadBy:

@@ -1,6 +1,6 @@
 """Keys of a group of nodes and of what its nodes run."""
 
-from gradysim.config.keys.key import Key
+from gradysim.config.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.config.keys.shapes import Below
 from gradysim.config.value.kinds import integer, si_number, text
 from gradysim.config.value.units import UNITS_IN_NAMES
@@ -12,7 +12,7 @@ PROTOCOL_CLASS = _protocol(
     "class",
     text(),
     'What the node runs: "file.py:Class", seen from the .ini file, or "package.module:Class"',
-    default="none: it has to be given",
+    default=HAS_TO_BE_GIVEN,
 )
 
 PROTOCOL_TYPENAME = _protocol(

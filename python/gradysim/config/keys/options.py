@@ -1,6 +1,6 @@
 """Options of a run."""
 
-from gradysim.config.keys.key import Key
+from gradysim.config.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.config.value.kinds import Kind, integer, quantity, text
 
 LONGEST_RUN_S = 9_200_000
@@ -15,7 +15,7 @@ OPTION_KEYS: tuple[Key, ...] = (
         "option.sim_time_limit",
         quantity("s", above=0, at_most=LONGEST_RUN_S),
         "Simulated time at which a run ends",
-        default="none: it has to be given",
+        default=HAS_TO_BE_GIVEN,
     ),
     Key(
         "seed-set",

@@ -1,7 +1,7 @@
 """Keys of a radio's receiver: from which level on, and when it takes up a frame or gives it up."""
 
 from gradysim.config.keys.interface import WLAN
-from gradysim.config.keys.key import Key
+from gradysim.config.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.config.keys.radio_media import RADIO_MEDIA
 from gradysim.config.keys.shapes import Below, level
 from gradysim.config.value.kinds import choice, file_name, power_ratio, quantity
@@ -33,7 +33,7 @@ RECEIVER_KEYS: tuple[Key, ...] = (
         file_name(),
         "CSV of packet success over SNIR, seen from the .ini file; its format is this project's"
         " (docs/guides/receivers.md)",
-        default="none: it has to be given",
+        default=HAS_TO_BE_GIVEN,
     ),
     _own(
         "errorModel.snirMode",
