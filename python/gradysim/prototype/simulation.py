@@ -23,6 +23,10 @@ from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
 
+_UPDATE_S = MasslessMobilityConfiguration.update_rate
+_LEAST_UPDATE_S = 1e-6
+"""The shortest telemetry interval that the engine takes."""
+
 
 def build_simulation(
     scenario: Scenario,
@@ -95,12 +99,20 @@ def mobility_handler(scenario: Scenario) -> MasslessMobilityHandler:
     configuration = MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
     flights = flights_of(scenario)
     if flights is None:
+        configuration.update_rate = update_rate_s(scenario.nodes)
         mobility = MasslessMobilityHandler(configuration)
-    else:
+    else:  # autopilots fly on every 10 ms, in both modes
         mobility = FlownMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility
+
+
+def update_rate_s(nodes: Iterable[NodeSpec]) -> float:
+    """Return the time between two updates of all positions: 10 ms, or the shortest telemetry interval."""
+    given = (spec.mobility.get("telemetry_interval_s") for spec in nodes)
+    intervals_s = [float(interval.value) for interval in given if interval is not None and interval.value]
+    return max(min([_UPDATE_S, *intervals_s]), _LEAST_UPDATE_S)
 
 
 def communication_medium(scenario: Scenario) -> CommunicationMedium:
@@ -117,8 +129,8 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
     stationary = _stands_still(spec)
-    mobility.configure_node(spec.id, stationary=stationary)
-    numbers: dict[str, float] = {}
+    numbers = {"telemetry_interval": _UPDATE_S}  # of whom nothing is said, however often others are told
+    mobility.configure_node(spec.id, stationary=stationary, **numbers)
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
         if (setting := spec.mobility.get(field)) is not None:
             numbers[argument] = float(setting.value)

@@ -82,7 +82,7 @@ sim-time-limit = 2500h
 
 [Config LateMistake]
 *.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 20000 * ${runnumber}
-*.uavs[*].mobility.telemetryInterval = ${runnumber}ms
+*.uavs[*].mobility.telemetryInterval = 1ns * (${runnumber} % 2)
 
 [Config WrongKey]
 *.uavs[*].mobility.sped = 3mps

@@ -8,7 +8,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.keys.mobility import ARDUPILOT, MOBILITY_KEYS
 from gradysim.config.scenario import CommunicationMediumSpec
 from gradysim.config.value.setting import Setting
-from gradysim.prototype.simulation import build_simulation, communication_medium
+from gradysim.prototype.simulation import build_simulation, communication_medium, mobility_handler
 
 TYPENAME = next(key for key in MOBILITY_KEYS if key.path == "mobility.typename")
 
@@ -25,6 +25,12 @@ COUNTING = (
     "    def handle_telemetry(self, telemetry):\n"
     "        self.count += 1\n"
     '        self.provider.tracked_variables["count"] = self.count\n'
+)
+
+TIMING = (
+    "class Tested(Quiet):\n"
+    "    def initialize(self): self.times = self.provider.tracked_variables['times'] = []\n"
+    "    def handle_telemetry(self, telemetry): self.times.append(self.provider.current_time())\n"
 )
 
 
@@ -98,14 +104,53 @@ def test_geographic_coordinates_are_relative_to_the_scenes_origin(make_scenario)
     assert simulator.nodes[1].position == pytest.approx((0, 0, 5))
 
 
-def test_a_telemetry_interval_below_the_simulators_step_is_an_error_at_its_setting(make_scenario):
+@pytest.mark.parametrize(
+    ("interval", "times_s"), [("5ms", (0.005, 0.01, 0.015)), ("3ms", (0.003, 0.006, 0.009))]
+)
+def test_telemetry_more_often_than_positions_are_updated_by_default(make_scenario, interval, times_s):
+    setting = f"*.uavs[1].mobility.telemetryInterval = {interval}"
+    (_, result) = run_of(make_scenario(TIMING, setting, "sim-time-limit = 0.5s"))
+    assert result["times"][:3] == pytest.approx(times_s)
+
+
+def test_nodes_beside_one_with_telemetry_more_often_keep_theirs(make_scenario):
+    frequent = "*.uavs[1].mobility.telemetryInterval = 2ms"
+    settings = "sim-time-limit = 0.1s", "*.uavs[0].mobility.telemetryInterval = default"
+    beside, alone = (run_of(make_scenario(TIMING, *settings, *more))[0] for more in ([frequent], []))
+    assert beside["times"] == alone["times"]
+    assert len(alone["times"]) == 10
+
+
+def test_vehicles_move_as_often_as_any_is_told_its_place(make_scenario):
+    (_, result) = run_of(
+        make_scenario(
+            "class Tested(Quiet):\n"
+            "    def initialize(self):\n"
+            "        self.track = self.provider.tracked_variables['track'] = []\n"
+            "        self.provider.send_mobility_command(GotoCoordsMobilityCommand(10, 100, 0))\n"
+            "    def handle_telemetry(self, telemetry): self.track.append(telemetry.current_position[1])",
+            "*.uavs[1].mobility.telemetryInterval = 5ms",
+            "**.mobility.speed = 10mps",
+        )
+    )
+    assert result["track"][:3] == pytest.approx([0.05, 0.1, 0.15])
+
+
+def test_a_telemetry_interval_that_the_engine_would_not_take_either_is_an_error_at_its_setting(make_scenario):
     setting = "*.uavs[*].mobility.telemetryInterval"
-    with pytest.raises(ConfigError, match="telemetry_interval") as error:
-        build_simulation(make_scenario("class Tested(Quiet): pass", f"{setting} = 1ms"))
+    with pytest.raises(ConfigError, match=r"telemetry_interval .* at least .* 1e-06 s") as error:
+        build_simulation(make_scenario("class Tested(Quiet): pass", f"{setting} = 1ns"))
     assert error.value.key == setting
 
 
-@pytest.mark.parametrize(("wrong", "value"), [("speed_mps", -1.0), ("telemetry_interval_s", 0.001)])
+def test_beside_autopilots_positions_are_updated_as_often_as_these_fly_on(flown_scenario):
+    setting = "*.uavs[1].mobility.telemetryInterval"
+    with pytest.raises(ConfigError, match=r"telemetry_interval of node 1 .* at least .* 0\.01 s") as error:
+        mobility_handler(flown_scenario("class Tested(Quiet): pass", f"{setting} = 5ms"))
+    assert error.value.key == setting
+
+
+@pytest.mark.parametrize(("wrong", "value"), [("speed_mps", -1.0), ("telemetry_interval_s", 1e-9)])
 def test_of_speed_and_telemetry_interval_the_one_that_is_wrong_is_named(make_scenario, wrong, value):
     scenario = make_scenario("class Tested(Quiet): pass")
     right = {"speed_mps": 5.0, "telemetry_interval_s": 1.0}

@@ -94,7 +94,9 @@ MOBILITY_KEYS: tuple[Key, ...] = (
         "telemetryInterval",
         "telemetry_interval_s",
         quantity("s", at_least=0, shown="ms"),
-        "Time between two calls of handle_telemetry; 0s for none",
+        "Time between two calls of handle_telemetry, at least 1us; 0s for none. In prototype mode it comes"
+        " with the first update of all positions at or after its time: these are every 10ms, or as often as"
+        " the shortest interval says, which beside autopilots may not be less",
     ),
     _own("initialHeading", "initial_heading_rad", angle(), "How it is turned at the start: from x towards y"),
     _own("initialElevation", "initial_elevation_rad", angle(), "The same upwards"),
