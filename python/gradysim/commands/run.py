@@ -33,6 +33,7 @@ from gradysim.commands.warnings import (
     warn_of_doubtful_times,
     warn_of_equal_seeds,
     warn_of_mission_speeds,
+    warn_of_plugins_without_telemetry,
     warn_of_shadowed_lines,
     warn_of_what_is_seldom_meant,
 )
@@ -91,6 +92,7 @@ def run(
             warn_of_bands_beside_frequencies(scenarios)
             warn_of_doubtful_times(scenarios)
             warn_of_mission_speeds(scenarios)
+            warn_of_plugins_without_telemetry(scenarios)
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
                     check(scenario, is_built_next=len(scenarios) == 1)

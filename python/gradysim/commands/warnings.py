@@ -47,6 +47,13 @@ def warn_of_mission_speeds(scenarios: "Sequence[Scenario]") -> None:
     _tell_of_nodes(scenarios, mission_speeds)
 
 
+def warn_of_plugins_without_telemetry(scenarios: "Sequence[Scenario]") -> None:
+    """Say on the error output, once for all runs, which missions and trips lack the telemetry for it."""
+    from gradysim.config.doubts.plugins_without_telemetry import plugins_without_telemetry
+
+    _tell_of_nodes(scenarios, plugins_without_telemetry)
+
+
 def warn_of_bands_beside_frequencies(scenarios: "Sequence[Scenario]") -> None:
     """Say on the error output, once for all runs, which bands say nothing, as frequencies are given."""
     from gradysim.config.doubts.bands_beside_frequencies import bands_beside_frequencies

@@ -7,6 +7,7 @@ import pytest
 
 from gradysim.cli import main
 from gradysim.config import Scenario
+from python.cli.command import both_modes
 
 SIGMA = "*.radioMedium.pathLoss.sigma=3"
 
@@ -79,6 +80,21 @@ def test_a_speed_that_missions_override_is_told_once_for_all_runs(
     arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", "**.speed=12mps", "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
     told = "--set **.speed=12mps: warning: missions of Tested do not fly at this speed, but at 5 m/s"
+    assert capsys.readouterr().err.count(told) == 1
+
+
+@both_modes
+def test_a_plugin_without_telemetry_is_told_once_for_all_runs(
+    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str], mode: str
+) -> None:
+    make_scenario(
+        "from gradysim.protocol.plugin.random_mobility import RandomMobilityPlugin\n"
+        "class Tested(Talker):\n"
+        "    def initialize(self): RandomMobilityPlugin(self).initiate_random_trip()"
+    )
+    arguments = ["--mode", mode, "--set", "repeat=2", "--set", "**.telemetryInterval=0s", "--quiet"]
+    assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
+    told = "--set **.telemetryInterval=0s: warning: Tested will not get beyond its first waypoint"
     assert capsys.readouterr().err.count(told) == 1
 
 

@@ -6,14 +6,12 @@ does, nothing is told.
 """
 
 import ast
-import inspect
-import textwrap
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
 
+from gradysim.config.doubts.protocol_code import called_name, code_of
 from gradysim.config.errors.source import Source
 from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.protocol.python_text import parsed_python
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
@@ -44,25 +42,15 @@ def mission_speeds(nodes: Iterable[NodeSpec]) -> Iterator[str]:
 @lru_cache(maxsize=1024)
 def _flies_at_the_default(protocol: type[IProtocol]) -> bool:
     """Whether it makes a mission plugin, neither configuration says a speed, and nothing sets one later."""
-    code = [node for cls in protocol.__mro__ for node in _code(cls)]
+    code = code_of(protocol)
     if any(_sets_a_speed(node) for node in code):
         return False
     calls = [node for node in code if isinstance(node, ast.Call)]
-    plugins = [call for call in calls if _name(call) == _PLUGIN]
-    configurations = [call for call in calls if _name(call) == _CONFIGURATION]
+    plugins = [call for call in calls if called_name(call) == _PLUGIN]
+    configurations = [call for call in calls if called_name(call) == _CONFIGURATION]
     if any(_has(call, "speed", _SPEED_PLACE) for call in configurations):
         return False
     return any(configurations or not _has(call, "configuration", _CONFIGURATION_PLACE) for call in plugins)
-
-
-def _code(cls: type) -> list[ast.AST]:
-    if cls.__module__.partition(".")[0] in ("gradysim", "builtins", "abc"):
-        return []
-    try:
-        tree = parsed_python(textwrap.dedent(inspect.getsource(cls)))
-    except (OSError, TypeError, SyntaxError):  # there is no text of it
-        return []
-    return list(ast.walk(tree))
 
 
 def _sets_a_speed(node: ast.AST) -> bool:
@@ -73,13 +61,6 @@ def _sets_a_speed(node: ast.AST) -> bool:
         case ast.Name(id=name) | ast.Attribute(attr=name):
             return name == _COMMAND
     return False
-
-
-def _name(call: ast.Call) -> str:
-    match call.func:
-        case ast.Name(id=name) | ast.Attribute(attr=name):
-            return name
-    return ""
 
 
 def _has(call: ast.Call, name: str, place: int) -> bool:
