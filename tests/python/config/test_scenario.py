@@ -296,6 +296,15 @@ def test_a_script_may_not_leave_a_gap_in_the_ids_of_nodes(folder: Any) -> None:
         replace(scenario, nodes=scenario.nodes[::2])
 
 
+def test_ids_count_from_the_most_general_section_on(folder: Any) -> None:
+    sections = "".join(
+        f'[{name}]\n*.{name.lower()}.count = 1\n**.protocol.class = "protocols.py:Sensor"\n'
+        for name in ("Near", "Far", "Own")
+    )
+    nodes = folder.load(f"{sections}extends = Near, Far\n", "Own", "*.last.count=1", "*.own.count=1").nodes
+    assert [node.group for node in nodes] == ["groundStation", "uavs", "uavs", "far", "near", "own", "last"]
+
+
 def test_settings_can_be_pickled(folder: Any) -> None:
     node = folder.load("**.power = 1mW\n").nodes[0]
     assert pickle.loads(pickle.dumps(node.wlan)) == node.wlan

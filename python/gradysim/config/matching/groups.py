@@ -2,8 +2,8 @@
 
 `*.numUavs = 2` or `*.uavs.count = 2` makes uavs[0] and uavs[1]. A name without a count is a single node
 without an index, if its protocol is given by that name: `*.groundStation.protocol.class = ...`. Groups
-come in the order in which they are first named, [General] first, then the bases, the own section and the
-command line; that is the order of node ids.
+come in the order in which they are first named, [General] first, then the bases from the last to the first,
+the own section and the command line; that is the order of node ids.
 """
 
 from collections.abc import Iterable
