@@ -35,6 +35,7 @@ from gradysim.commands.warnings import (
     warn_of_mission_speeds,
     warn_of_plugins_without_telemetry,
     warn_of_shadowed_lines,
+    warn_of_unread_variables,
     warn_of_what_is_seldom_meant,
 )
 from gradysim.commands.written_files import check_can_be_written, write_files
@@ -89,6 +90,7 @@ def run(
             if asked.writes_files:
                 check_may_be_written_to(asked.directory)
             warn_of_shadowed_lines(scenarios[0])
+            warn_of_unread_variables(scenarios[0])
             warn_of_bands_beside_frequencies(scenarios)
             warn_of_doubtful_times(scenarios)
             warn_of_mission_speeds(scenarios)

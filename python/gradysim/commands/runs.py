@@ -3,6 +3,7 @@
 from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
 from gradysim.commands.exit_code import OK, say_mistake
 from gradysim.commands.scenarios import load
+from gradysim.commands.warnings import warn_of_unread_variables
 
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
@@ -11,7 +12,9 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     from gradysim.config.runs.iterations import text_of_iterations
 
     try:
-        for scenario in load(file, config, None, settings):
+        scenarios = load(file, config, None, settings)
+        warn_of_unread_variables(scenarios[0])
+        for scenario in scenarios:
             values = {**scenario.iterations, "repetition": scenario.repetition}
             print(f"Run {scenario.run_number}: {text_of_iterations(values)}")
     except ConfigError as mistake:

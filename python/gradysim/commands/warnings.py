@@ -33,6 +33,14 @@ def warn_of_shadowed_lines(scenario: "Scenario") -> None:
         print(text, file=sys.stderr)
 
 
+def warn_of_unread_variables(scenario: "Scenario") -> None:
+    """Say on the error output which variables its configuration iterates over in vain."""
+    from gradysim.config.doubts.unread_variables import unread_variables
+
+    for text in unread_variables(scenario.unread_variables, scenario.lines):
+        print(text, file=sys.stderr)
+
+
 def warn_of_doubtful_times(scenarios: "Sequence[Scenario]") -> None:
     """Say on the error output, once for all runs, which times of protocols are given as something else."""
     from gradysim.config.doubts.doubtful_times import doubtful_times

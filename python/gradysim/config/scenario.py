@@ -35,6 +35,7 @@ from gradysim.config.runs.labels import free_text, with_labels
 from gradysim.config.runs.numbered_runs import numbered_runs
 from gradysim.config.runs.seed import check_seeds_of_runs, checked_seed, seed_of_file, whole_seed
 from gradysim.config.runs.settings_hash import entries_of_the_hash, settings_hash
+from gradysim.config.runs.unread_variables import UnreadVariables, line_instead, unread_variables
 from gradysim.config.runs.variables import depends_on_run, run_variables, substitute
 from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
@@ -88,6 +89,8 @@ class Scenario:
         network: What paths of parameters and results begin with.
         lines: The entries of the overrides and of these sections in their order, with names for the values
             of this run.
+        unread_variables: Those that the configuration iterates over and that no run reads; none if not all
+            runs were asked for, as the others may.
     """
 
     file: Path
@@ -109,6 +112,7 @@ class Scenario:
     run_count: int = 1
     network: str = "Network"
     lines: tuple[Entry, ...] = field(default=(), repr=False)
+    unread_variables: tuple[UnreadVariables, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         """Check what scripts replace. Raises TypeError and ValueError, which name the field."""
@@ -162,6 +166,7 @@ class _Network:
     file_hashes: Mapping[str, str]
     lines_of_other_runs: Sequence[Source]
     """Those about nodes that this run has not, and others may have."""
+    lookup: Lookup
 
 
 def load_scenarios(
@@ -225,6 +230,7 @@ def load_scenarios(
     scenarios = []
     network: _Network | None = None  # that of the run before, kept while what it is made of stays the same
     made_of: tuple[str | int, ...] = ()
+    read: set[Source] = set()
     hash_of_run = ""
     hash_is_of: Mapping[str, str] | None = None  # the iterations: no more of a run is in its hash
     for number, repetition, iterations in numbered:
@@ -244,6 +250,7 @@ def load_scenarios(
             network = _network(_substituted(ranked, values), settings, loader, hashes, instead, source)
             made_of = alike
             elsewhere.append(network.lines_of_other_runs)
+            read |= settings.lines_read()
         scenario = _scenario(file, config, number, seed_of_run, options, network, sections)
         scenarios.append(
             replace(
@@ -256,9 +263,15 @@ def load_scenarios(
                 lines=lines,
             )
         )
-    if len(numbered) == run_count:  # or the others may have those nodes
-        _check_lines_of_other_runs(elsewhere)
-    return scenarios
+    if network is None or len(numbered) < run_count:  # the others may have those nodes, and read those lines
+        return scenarios
+    _check_lines_of_other_runs(elsewhere)
+    nodes, ends = [spec.name for spec in network.nodes], settings.parameters_read()
+    unread = tuple(
+        UnreadVariables(line, names, line_instead(line, network.lookup, nodes, ends))
+        for line, names in unread_variables(lines, variables, read).items()
+    )
+    return [replace(scenario, unread_variables=unread) for scenario in scenarios] if unread else scenarios
 
 
 def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
@@ -383,6 +396,7 @@ def _network(
         obstacles=obstacles,
         file_hashes=hashes.of([*files, *obstacle_files(lookup, settings), *settings.files()]),
         lines_of_other_runs=lines_of_other_runs,
+        lookup=lookup,
     )
 
 

@@ -103,3 +103,17 @@ def test_a_band_that_says_nothing_is_told_once_for_all_runs(gradysim):
     settings = [part for line in lines for part in ("--set", line)]
     done = gradysim("run", "test.ini", "--mode", "prototype", "--quiet", *settings)
     assert done.stderr.count(f"--set {lines[0]}: warning: ") == 1
+
+
+@pytest.mark.parametrize("command", [["runs"], ["run", "--mode", "prototype", "--quiet"]])
+def test_a_study_that_nothing_reads_is_told_once_for_all_runs(gradysim, folder, command):
+    with (folder / "test.ini").open("a") as file:
+        file.write("[Config Study]\n**.rtsThreshold = ${rts=3000B, 100B}\n")
+    name, *options = command
+    arguments = ["-c", "Study", "--set", "**.rtsPolicy.rtsThreshold=100B", *options]
+    done = gradysim(name, "test.ini", *arguments)
+    assert done.returncode == 0
+    assert (
+        done.stderr.count("warning: no run reads `**.rtsThreshold`, and runs that differ in $rts alone") == 1
+    )
+    assert "`--set **.rtsPolicy.rtsThreshold=100B` is in force" in done.stderr

@@ -58,6 +58,21 @@ def shadowed_lines(sections: Iterable[Section], *, has_powers: bool = True) -> l
     return [text for section in sections for text in _of_section(section, instead)]
 
 
+def line_that_says_it_instead(entry: Entry, before: Iterable[Entry]) -> Entry | None:
+    """Return one of the lines before an entry that is in force wherever that fits, by whatever key.
+
+    They may be of other sections and files. None if there is none.
+    """
+    lines = [line for line in before if not is_ignored(line)]
+    same_key = {line.key: line for line in reversed(lines)}
+    general = [
+        (pattern, line)
+        for line in lines
+        if not is_option(line) and _is_general(pattern := compile_pattern(line.key))
+    ]
+    return _deprived_by(entry, _instead_of(entry.key, _INSTEAD_WITH_POWERS), same_key, general)
+
+
 def _of_section(section: Section, instead: Mapping[str, Sequence[str]]) -> Iterator[str]:
     same_key: dict[str, Entry] = {}
     general: list[tuple[Pattern, Entry]] = []

@@ -4,7 +4,7 @@ Nodes with the same entries in force share the mappings made of them, so that a 
 more than one.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -201,14 +201,14 @@ class _NodeBuilder:
         def path_of(key: Key) -> str:
             return f"{name}.{key.path}"
 
-        position_settings = read_struct("position", found, self._settings, path_of)
-        values = {field: float(setting.value) for field, setting in position_settings.items()}
         mobility = read_struct("mobility", found, self._settings, path_of)
         typename = mobility.get("typename")
         is_static_grid = typename is not None and typename.value == STATIC_GRID
         if is_static_grid:
             mobility["typename"] = replace(mobility["typename"], value="StationaryMobility")
             position[STATIC_GRID] = found[_TYPENAME]
+        position_settings = self._position(found, position, path_of)
+        values = {field: float(setting.value) for field, setting in position_settings.items()}
         autopilot_settings = read_struct("autopilot", found, self._settings, path_of)
         autopilot = read_autopilot(mobility, autopilot_settings)
         if autopilot is not None:
@@ -231,6 +231,18 @@ class _NodeBuilder:
             idle_autopilot=autopilot_settings if autopilot is None else {},
         )
 
+    def _position(
+        self, found: Mapping[Key, Found], by_field: Mapping[str, Found], path_of: Callable[[Key], str]
+    ) -> dict[str, Setting]:
+        """What the entries say of where a node starts; those that are not in force are only checked."""
+        idle = {field for axis in _AXES for field in _idle_fields(axis, by_field)}
+        checked = {key: entry for key, entry in found.items() if key.field in idle}
+        others = {key: entry for key, entry in found.items() if key.field not in idle}
+        return {
+            **(read_struct("position", checked, self._settings.for_checks(), path_of) if checked else {}),
+            **read_struct("position", others, self._settings, path_of),
+        }
+
 
 def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
     """The same for a node with the same entries in force, sharing what is equal in both."""
@@ -248,6 +260,16 @@ def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:
         return []
     fields = (STATIC_GRID, *(field.format(axis) for field in GRID_FIELDS))
     return [entry for field in fields if (entry := found.get(field)) and not entry.is_default]
+
+
+def _idle_fields(axis: str, found: Mapping[str, Found]) -> set[str]:
+    """The fields that say nothing of where nodes start on an axis, as others are in force there."""
+    initial, row = {f"initial_{axis}"}, {f"line_start_{axis}", f"line_step_{axis}"}
+    grid = {field.format(axis) for field in GRID_FIELDS if "{" in field}
+    orders = {field: entry.order for field, entry in found.items() if field in initial | row}
+    if _axis_row(axis, found, {}) is None:
+        return initial | row
+    return grid | (row if orders and min(orders, key=orders.__getitem__) in initial else initial)
 
 
 def _axis_row(

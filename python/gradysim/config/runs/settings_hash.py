@@ -7,7 +7,7 @@ from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
 from gradysim.config.runs.labels import LABEL_OPTIONS
 
-_OF_NO_RUN = (
+OF_NO_RUN = (
     "repeat",
     "constraint",
     "iteration-nesting-order",
@@ -26,7 +26,7 @@ def entries_of_the_hash(ranked: Iterable[Ranked]) -> list[Ranked]:
     """Return the entries that count: the first one of each key, if it says something of a run."""
     first: dict[str, Ranked] = {}
     for rank, entry in ranked:
-        if entry.key not in _OF_NO_RUN and not is_ignored(entry):
+        if entry.key not in OF_NO_RUN and not is_ignored(entry):
             first.setdefault(entry.key, Ranked(rank, entry))
     return list(first.values())
 

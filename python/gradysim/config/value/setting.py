@@ -33,6 +33,8 @@ class SettingReader:
         self._seed = seed
         self._settings: dict[tuple[int, int], tuple[Entry, Kind, Setting]] = {}
         self._files: dict[str, None] = {}  # in their order, each once
+        self._read: dict[int, Entry] = {}
+        self._parameters: set[str] = set()
 
     def setting(self, entry: Entry, kind: Kind, path: str = "") -> Setting:
         """The value of an entry. Raises ConfigError with its place if it is not of that kind.
@@ -42,6 +44,8 @@ class SettingReader:
         key = (id(entry), id(kind))
         known = self._settings.get(key)
         if known is None:
+            self._read[id(entry)] = entry
+            self._parameters.add(path.partition(".")[2])
             if path and differs_between_parameters(entry.text):
                 own = read_scalar(entry, kind, path, ParameterContext(self._seed, path))
                 return self._noted(Setting(own, entry.source), kind)
@@ -53,6 +57,18 @@ class SettingReader:
     def files(self) -> list[Path]:
         """The files that the values read up to now name."""
         return [Path(file) for file in self._files]
+
+    def lines_read(self) -> frozenset[Source]:
+        """The lines of which the values read up to now are."""
+        return frozenset(entry.source for entry in self._read.values())
+
+    def parameters_read(self) -> frozenset[str]:
+        """What they were read for, without the names of nodes and parts of the network: "mobility.speed"."""
+        return frozenset(self._parameters - {""})
+
+    def for_checks(self) -> "SettingReader":
+        """Return another reader for the same run, of which this one takes no notice."""
+        return SettingReader(self._seed)
 
     def _noted(self, setting: Setting, kind: Kind) -> Setting:
         if kind.is_file and setting.value:
