@@ -6,6 +6,7 @@ import pytest
 
 from gradysim.results.means import (
     Mean,
+    has_files_for_omnetpp_alone,
     means,
     of_different_files,
     of_different_settings,
@@ -219,3 +220,13 @@ def test_other_files_and_interrupted_runs_are_left_out(tmp_path: Path) -> None:
     (tmp_path / "binary.json").write_bytes(b"\xff\xfe")
     (tmp_path / "folder.json").mkdir()
     assert read_results(tmp_path) == []
+
+
+@pytest.mark.parametrize("interrupted", [True, False])
+def test_a_folder_with_any_result_has_not_only_files_for_omnetpp(tmp_path: Path, interrupted: bool) -> None:
+    assert not has_files_for_omnetpp_alone(tmp_path)
+    (tmp_path / "Study-#0.integrated.sca").touch()
+    (tmp_path / "half.json").write_text("{")
+    assert has_files_for_omnetpp_alone(tmp_path)
+    (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result(interrupted=interrupted)))
+    assert not has_files_for_omnetpp_alone(tmp_path)

@@ -34,6 +34,14 @@ def test_an_entry_for_two_kinds_has_a_value_of_each() -> None:
     assert [type(value) for value in values] == [int, float]
 
 
+def test_knows_which_lines_were_read_and_for_what() -> None:
+    settings, read, checked = SettingReader(), entry("3mps"), entry("4mps", line=8)
+    settings.setting(read, SPEED, "uavs[0].mobility.speed")
+    settings.for_checks().setting(checked, SPEED, "uavs[0].mobility.other")
+    assert settings.lines_read() == {read.source}
+    assert settings.parameters_read() == {"mobility.speed"}
+
+
 def test_errors_name_the_place_the_entry_and_what_was_expected() -> None:
     with pytest.raises(ConfigError) as caught:
         read_scalar(entry("3mpss"), SPEED)
