@@ -123,6 +123,12 @@ const std::vector<Neighbours::Near>& Neighbours::near(const Position& centre, do
             found += squared_distance(centre, entries_[entry].place) > squared_m2 ? 0U : 1U;
         }
     }
+    if (!all_stand_) {
+        constexpr std::size_t cache_line = 64;
+        for (std::size_t i = 0; i < found; ++i) {
+            fetch_bytes(entries_[found_[i]].trajectory, cache_line);
+        }
+    }
     near_.clear();
     for (std::size_t i = 0; i < found; ++i) {
         const Entry& entry = entries_[found_[i]];

@@ -21,7 +21,7 @@ protected:
     ~CourseListener() = default;
 };
 
-class Trajectory {
+class alignas(64) Trajectory {
 public:
     // How far before the newest leg position_at may ask. Longer than any frame with its propagation.
     static constexpr SimTime memory = SimTime::from_us(1'000'000);
@@ -52,10 +52,11 @@ public:
     void set_listener(CourseListener& listener) const { listener_ = &listener; }
 
 private:
+    // What a position takes comes first: one cache line.
     struct Leg {
         SimTime start;
         SimTime arrival;
-        Position target;  // before the origin: of one who stands, nothing else is looked at
+        Position target;
         Position origin;
         Position course;  // from the origin to the target, or that of the leg before, if they are the same
     };
