@@ -31,6 +31,9 @@ def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iter
 
     Captures are there already: radios write them. Files for OMNeT++ that an earlier run left under names of
     this one, and that it does not replace, are removed first. Raises OSError, with the name of the file.
+
+    The result comes first: it is there if the disk has no room for the others. Once they are complete it is
+    written again, and names them.
     """
     from gradysim.results.run_file import write_run_file
 
@@ -42,6 +45,8 @@ def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iter
         yield from _write_for_omnetpp(scenario, result, asked)
     for capture in capture_files_of(scenario, asked):
         yield f"captured in {capture}"
+    if asked.result_dir is not None and (others := _beside_result(scenario, result.mode, asked)):
+        write_run_file(result, asked.result_dir, others)
 
 
 def _remove_of_earlier_runs(scenario: "Scenario", mode: Mode, asked: Asked) -> Iterator[str]:
@@ -79,44 +84,41 @@ def omnetpp_file(scenario: "Scenario", mode: Mode, asked: Asked, suffix: str) ->
     return run_file(asked.directory, scenario.config, scenario.run_number, mode, suffix)
 
 
-def are_there(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
-    """Whether the run left all that is asked for beside its result, none of it older, or of another run."""
-    from gradysim.results.run_file import run_file
+def _beside_result(scenario: "Scenario", mode: Mode, asked: Asked) -> list[Path]:
+    """Return all files of a run that are asked for, but for that of its result."""
+    return [*capture_files_of(scenario, asked), *_for_omnetpp(scenario, mode, asked)]
 
-    if not all(file.is_file() for file in capture_files_of(scenario, asked)):
-        return False
+
+def _for_omnetpp(scenario: "Scenario", mode: Mode, asked: Asked) -> list[Path]:
     suffixes = [*([".sca"] if asked.scalars else []), *([".vec"] if asked.vectors else [])]
-    files = [omnetpp_file(scenario, mode, asked, suffix) for suffix in suffixes]
-    result = run_file(asked.directory, scenario.config, scenario.run_number, mode)
-    try:
-        if any(file.stat().st_mtime_ns < result.stat().st_mtime_ns for file in files):
-            return False
-    except OSError:
-        return False
-    return _are_of_run(files, scenario, mode) and _has_vectors(files, scenario, asked)
+    return [omnetpp_file(scenario, mode, asked, suffix) for suffix in suffixes]
 
 
-def _are_of_run(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
-    """Whether files for OMNeT++ are those of one run, this one, with the labels that it has now."""
-    if not files:
-        return True
+def are_there(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
+    """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
+    from gradysim.results.run_file import has_written
+
+    files = _for_omnetpp(scenario, mode, asked)
+    return (
+        has_written(scenario, mode, asked.directory, _beside_result(scenario, mode, asked))
+        and _have_labels(files, scenario, mode)
+        and _has_vectors(files, scenario, asked)
+    )
+
+
+def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
+    """Whether files for OMNeT++ have the attributes that the run has now."""
     from gradysim.results.database import storable
     from gradysim.results.read_files import run_attributes
     from gradysim.results.run_identity import lasting_attributes
 
     expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
-    found = [run_attributes(file) for file in files]
-    return all(
-        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
-        for attributes in found
-    )
+    return all(expected.items() <= run_attributes(file).items() for file in files)
 
 
 def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:
     """Whether the last of the files has vectors of all nodes that are asked for."""
     from gradysim.results.read_files import recorded_modules
 
-    nodes = nodes_of_vectors(scenario, asked)
-    return not nodes or recorded_modules(files[-1]).issuperset(
-        f"{scenario.network}.{node.name}.mobility" for node in nodes
-    )
+    expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, asked)}
+    return not expected or expected <= recorded_modules(files[-1])

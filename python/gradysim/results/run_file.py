@@ -5,7 +5,9 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
+from gradysim.config.runs.file_hashes import hash_of
 from gradysim.config.scenario import Scenario
 from gradysim.results.run_result import Mode, RunResult, plain_iterations
 
@@ -32,11 +34,7 @@ def files_changed_since(
     It is done if there are none. The result is that of just this run, with the same settings and seed, to its
     end, and tells the fates of frames at the nodes `fates_at`, by their ids; None if there is no such result.
     """
-    file = run_file(directory, scenario.config, scenario.run_number, mode)
-    try:
-        result = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):  # none, no JSON, or too deep
-        return None
+    result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
     expected = {
         "interrupted": False,
         "seed": scenario.seed,
@@ -45,12 +43,27 @@ def files_changed_since(
         "iterations": plain_iterations(scenario.iterations),
     }
     if not (
-        isinstance(result, dict)
-        and expected.items() <= {name: result.get(name) for name in expected}.items()
+        expected.items() <= {name: result.get(name) for name in expected}.items()
         and _has_fates_at(fates_at, result.get("nodes"))
     ):
         return None
     return _changed(result.get("file_hashes"), scenario.file_hashes)
+
+
+def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable[Path]) -> bool:
+    """Whether all these files are what the run wrote whose result is in `directory`, each of them whole."""
+    known = _read(run_file(directory, scenario.config, scenario.run_number, mode)).get("output_hashes")
+    hashes = known if isinstance(known, dict) else {}
+    return all((found := hash_of(file)) and hashes.get(file.name) == found for file in files)
+
+
+def _read(file: Path) -> dict[str, Any]:
+    """Return the JSON object in a file; an empty one if there is none, or if it cannot be read."""
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):  # none, no JSON, or too deep
+        return {}
+    return found if isinstance(found, dict) else {}
 
 
 def _changed(before: object, now: Mapping[str, str]) -> tuple[str, ...]:
@@ -65,8 +78,10 @@ def _has_fates_at(fates_at: Iterable[int], nodes: object) -> bool:
     )
 
 
-def write_run_file(result: RunResult, directory: Path) -> Path:
+def write_run_file(result: RunResult, directory: Path, written: Iterable[Path] = ()) -> Path:
     """Write `result` into `directory`, which is made when missing, and return the file's path.
+
+    `written` are other files of the run, which are complete: it names them with their hashes.
 
     An earlier file of the same configuration, run and mode is replaced, by the whole of this one or not at
     all: others may read it, or write it too. Raises OSError, with the name of the file, when it cannot be
@@ -74,9 +89,11 @@ def write_run_file(result: RunResult, directory: Path) -> Path:
     """
     directory.mkdir(parents=True, exist_ok=True)
     path = run_file(directory, result.config, result.run, result.mode)
+    hashes = {file.name: found for file in written if (found := hash_of(file))}
+    content = {**result.to_json_object(), "output_hashes": hashes}
     unfinished = path.with_name(f"{path.name}.{os.getpid()}")
     try:
-        unfinished.write_text(json.dumps(result.to_json_object(), indent=2) + "\n", encoding="utf-8")
+        unfinished.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
         unfinished.replace(path)
     except BaseException as error:
         with contextlib.suppress(OSError):  # a folder that is read-only

@@ -88,6 +88,36 @@ def test_resumed_runs_are_repeated_for_captures_that_are_missing(
 
 
 @compiled
+def test_a_resumed_run_is_repeated_for_a_capture_of_another_run(
+    gradysim_run: Gradysim, tmp_path: Path
+) -> None:
+    arguments = ("-r", "0", "--result-dir", "results", "--quiet", "--resume")
+    gradysim_run(*arguments)
+    gradysim_run("-r", "0", "--pcap", "uavs[0]", "--quiet", "--set", "sim-time-limit=1s")
+    (capture,) = (tmp_path / "results").glob("*.pcap")
+    of_the_other = capture.read_bytes()
+    assert gradysim_run(*arguments, "--pcap", "uavs[0]").stderr == ""
+    assert len(capture.read_bytes()) > len(of_the_other)
+    assert "1 of 1 runs is in results" in gradysim_run(*arguments, "--pcap", "uavs[0]").stderr
+
+
+@compiled
+@pytest.mark.parametrize("earlier", [(), ("--pcap", "uavs[0]")])
+def test_a_resumed_run_is_repeated_for_a_capture_without_its_end(
+    gradysim_run: Gradysim, tmp_path: Path, earlier: tuple[str, ...]
+) -> None:
+    arguments = ("-r", "0", "--result-dir", "results", "--quiet", "--resume")
+    gradysim_run(*arguments, "--pcap", "uavs[0]")
+    (capture,) = (tmp_path / "results").glob("*.pcap")
+    whole = capture.read_bytes()
+    (tmp_path / "results/General-#0.integrated.json").unlink()
+    gradysim_run(*arguments, *earlier)
+    capture.write_bytes(whole[:-1])  # what a run that is killed leaves
+    assert gradysim_run(*arguments, "--pcap", "uavs[0]").stderr == ""
+    assert capture.read_bytes() == whole
+
+
+@compiled
 def test_json_stays_json(gradysim_run: Gradysim) -> None:
     done = gradysim_run("-r", "0", "--pcap", "all", "--json")
     assert len(done.stdout.splitlines()) == 1

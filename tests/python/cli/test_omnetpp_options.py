@@ -203,12 +203,24 @@ def test_a_resumed_run_is_repeated_for_newer_files_of_other_settings(gradysim):
     assert len(objects(gradysim(*arguments, "--scalars", "--resume").stdout)) == 1
 
 
-def test_a_resumed_run_is_repeated_for_scalars_and_vectors_of_two_runs(gradysim, folder, resumed):
+@pytest.mark.parametrize("options", [["--vectors", "uavs"], BOTH])
+def test_a_resumed_run_is_repeated_for_vectors_of_another_run(gradysim, folder, resumed, options):
     gradysim(*PROTOTYPE, "-r", "0", "--vectors", "uavs")
     (folder / "results/General-#0.prototype.vec").replace(folder / "out/General-#0.prototype.vec")
-    assert resumed("--vectors", "uavs") == []
-    assert resumed(*BOTH) == [0]
-    assert resumed(*BOTH) == []
+    assert resumed("--scalars") == []
+    assert resumed(*options) == [0]
+    assert resumed(*options) == []
+
+
+def test_a_resumed_run_is_repeated_for_newer_files_of_another_protocol(gradysim, folder):
+    arguments = (*PROTOTYPE, "-r", "0", "--json", "--result-dir", "results")
+    gradysim(*arguments)
+    protocol = folder / "protocol.py"
+    before = protocol.read_text()
+    protocol.write_text(before.replace('["said"] += 1', '["said"] += 2'))
+    gradysim(*PROTOTYPE, "-r", "0", "--scalars")
+    protocol.write_text(before)
+    assert len(objects(gradysim(*arguments, "--scalars", "--resume").stdout)) == 1
 
 
 def test_more_repetitions_leave_what_is_there(resumed):

@@ -2,10 +2,11 @@ import dataclasses
 import errno
 import json
 import pathlib
+from hashlib import sha256
 
 import pytest
 
-from gradysim.results.run_file import files_changed_since, run_name, write_run_file
+from gradysim.results.run_file import files_changed_since, has_written, run_name, write_run_file
 from gradysim.results.run_result import NodeResult, RunResult
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
@@ -23,7 +24,15 @@ def test_one_of_several_runs_has_a_name_for_files(make_scenario, count, name):
 
 def test_content_is_the_json_object(tmp_path):
     path = write_run_file(RESULT, tmp_path)
-    assert json.loads(path.read_text(encoding="utf-8")) == RESULT.to_json_object()
+    content = json.loads(path.read_text(encoding="utf-8"))
+    assert content == {**RESULT.to_json_object(), "output_hashes": {}}
+
+
+def test_it_names_the_other_files_of_the_run_that_are_there(tmp_path):
+    (tmp_path / "a.pcap").write_bytes(b"frames")
+    path = write_run_file(RESULT, tmp_path, [tmp_path / "a.pcap", tmp_path / "missing.pcap"])
+    hashes = json.loads(path.read_text(encoding="utf-8"))["output_hashes"]
+    assert hashes == {"a.pcap": sha256(b"frames").hexdigest()[:16]}
 
 
 def test_a_missing_directory_is_made(tmp_path):
@@ -161,6 +170,46 @@ def test_a_file_of_something_else_is_no_result(done, content):
     scenario, result, folder = done
     write_run_file(result, folder).write_bytes(content)
     assert not is_done(scenario, "integrated", folder)
+
+
+@pytest.fixture
+def written(done):
+    """A scenario, the folder with its result, and a capture that this names."""
+    scenario, result, folder = done
+    folder.mkdir()
+    capture = folder / "a.pcap"
+    capture.write_bytes(b"frames")
+    write_run_file(result, folder, [capture])
+    return scenario, folder, capture
+
+
+def test_files_that_a_result_names_are_those_of_its_run(written):
+    scenario, folder, capture = written
+    assert has_written(scenario, "integrated", folder, [capture])
+    assert has_written(scenario, "integrated", folder, [])
+    assert not has_written(scenario, "integrated", folder, [capture, folder / "b.pcap"])
+    assert not has_written(scenario, "prototype", folder, [capture])
+
+
+@pytest.mark.parametrize("content", [b"", b"frame", b"frames of another run"])
+def test_files_that_are_others_now_are_not_those_of_the_run(written, content):
+    scenario, folder, capture = written
+    capture.write_bytes(content)
+    assert not has_written(scenario, "integrated", folder, [capture])
+
+
+def test_files_that_are_gone_are_not_those_of_the_run(written):
+    scenario, folder, capture = written
+    capture.unlink()
+    assert not has_written(scenario, "integrated", folder, [capture])
+
+
+@pytest.mark.parametrize("hashes", [b"[]", b'{"a.pcap": ""}', b'"a.pcap"'])
+def test_a_result_with_something_else_in_the_place_of_hashes_names_no_files(written, hashes):
+    scenario, folder, capture = written
+    capture.unlink()
+    (folder / "General-#0.integrated.json").write_bytes(b'{"output_hashes": ' + hashes + b"}")
+    assert not has_written(scenario, "integrated", folder, [capture])
 
 
 def test_a_folder_in_the_place_of_the_file_is_named_once(tmp_path):

@@ -26,7 +26,7 @@ class FileHashes:
     def _named(self, file: Path) -> tuple[str, str]:
         known = self._hashes.get(file)
         if known is None:
-            known = self._hashes[file] = (self._name(file.resolve()), _hash(file))
+            known = self._hashes[file] = (self._name(file.resolve()), hash_of(file))
         return known
 
     def _name(self, file: Path) -> str:
@@ -45,10 +45,12 @@ def text_of_files(names: Sequence[str]) -> str:
     return " and ".join(names)
 
 
-def _hash(file: Path) -> str:
+def hash_of(file: Path) -> str:
+    """Return the hash of a file; "" if it cannot be read."""
     try:
         if not file.is_file():  # a pipe, of which nothing would be left for whoever needs it, or gone
             return ""
-        return hashlib.sha256(file.read_bytes()).hexdigest()[:_LENGTH]
+        with file.open("rb") as content:
+            return hashlib.file_digest(content, "sha256").hexdigest()[:_LENGTH]
     except OSError:  # a secret, or a name that none can have: whoever needs it will say
         return ""
