@@ -6,6 +6,7 @@ from typing import TextIO
 
 from rich import box
 from rich.table import Table
+from rich.text import Text
 
 from gradysim.results.means import Mean
 
@@ -14,15 +15,19 @@ _AFTER = ("quantity", "runs", "mean", "half_width", "left_out")
 
 
 def means_table(means: Sequence[Mean]) -> Table:
-    """Return a row for each mean; what is the same in all of them is the title."""
+    """Return a row for each mean; what is the same in all of them is the title.
+
+    Names and values come from files: a `Text` takes none of their brackets for markup.
+    """
     config, mode = {mean.config for mean in means}, {mean.mode for mean in means}
     title = [*(config if len(config) == 1 else ()), *(f"{m} mode" for m in mode if len(mode) == 1)]
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title=", ".join(title) or None)
-    table.title_justify = "left"
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title_justify="left")
+    if title:
+        table.title = Text(", ".join(title), style="table.title")
     variables = _variables(means)
     headings = [*(["config"] if len(config) > 1 else []), *(["mode"] if len(mode) > 1 else [])]
     for heading in [*headings, *(f"${name}" for name in variables), "quantity"]:
-        table.add_column(heading, overflow="fold")
+        table.add_column(Text(heading), overflow="fold")
     for heading in ("runs", "mean", "± (95 %)"):
         table.add_column(heading, justify="right", no_wrap=True)
     some_left_out = any(mean.left_out for mean in means)
@@ -35,7 +40,7 @@ def means_table(means: Sequence[Mean]) -> Table:
         cells += [mean.quantity, str(mean.runs)]
         cells += ["" if mean.mean is None else f"{mean.mean:.6g}"]
         cells += ["" if mean.half_width is None else f"{mean.half_width:.3g}"]
-        table.add_row(*cells, *([mean.left_out] if some_left_out else []))
+        table.add_row(*map(Text, [*cells, *([mean.left_out] if some_left_out else [])]))
     return table
 
 

@@ -1,5 +1,6 @@
 from io import StringIO
 
+import pytest
 from rich.console import Console
 
 from gradysim.report.means_table import means_table, write_csv
@@ -36,6 +37,16 @@ def test_what_is_left_out_is_a_column_where_something_is() -> None:
     assert heading[-2:] == ["left", "out"]
     assert first[-1] == "0.123"
     assert second == ["30", "uavs[*]", "heard", "0", "3", "inf", "of", "3"]
+
+
+@pytest.mark.parametrize("name", ["delay[s]", "from[uav]", "a[/]b", ":smile:"])
+def test_names_and_values_are_no_markup(name: str) -> None:
+    title, heading, _, row = printed(Mean(name, "integrated", {name: name}, name, 1, 2.0, None, name))
+    assert title == [f"{name},", "integrated", "mode"]
+    assert heading[0] == f"${name}"
+    assert row == [name, name, "1", "2", name]
+    rows = printed(Mean(name, "integrated", {}, "heard", 1, 2.0, None), FAST)[3:]
+    assert rows[0] == [name, "heard", "1", "2"]
 
 
 def test_csv_has_all_digits() -> None:
