@@ -30,7 +30,8 @@ def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iter
     """Write what was asked for of a run, and give a line about each file.
 
     Captures are there already: radios write them. Files for OMNeT++ that an earlier run left under names of
-    this one, and that it does not replace, are removed first. Raises OSError, with the name of the file.
+    this one are removed first, also those that it replaces, if there is room for them. Raises OSError, with
+    the name of the file.
 
     The result comes first: it is there if the disk has no room for the others. Once they are complete it is
     written again, and names them.
@@ -53,9 +54,10 @@ def _remove_of_earlier_runs(scenario: "Scenario", mode: Mode, asked: Asked) -> I
     """Remove what a reader would take for scalars or vectors of this run, and are those of another one."""
     for suffix, is_replaced in ((".sca", asked.scalars), (".vec", bool(asked.vectors))):
         path = omnetpp_file(scenario, mode, asked, suffix)
-        if not is_replaced and path.is_file():
+        if path.is_file():
             path.unlink()
-            yield f"removed {path}, of an earlier run"
+            if not is_replaced:
+                yield f"removed {path}, of an earlier run"
 
 
 def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
@@ -107,13 +109,17 @@ def are_there(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
 
 
 def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
-    """Whether files for OMNeT++ have the attributes that the run has now."""
+    """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
     from gradysim.results.database import storable
     from gradysim.results.read_files import run_attributes
     from gradysim.results.run_identity import lasting_attributes
 
     expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
-    return all(expected.items() <= run_attributes(file).items() for file in files)
+    found = [run_attributes(file) for file in files]
+    return all(
+        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
+        for attributes in found
+    )
 
 
 def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:

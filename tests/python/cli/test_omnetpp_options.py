@@ -1,10 +1,13 @@
 """`gradysim run --scalars` and `--vectors`: which files are written, what is in them, and what is refused."""
 
+import resource
 import sys
+from contextlib import contextmanager
 
 import pytest
 
 from gradysim.cli import main
+from gradysim.config.runs.file_hashes import hash_of
 from gradysim.results import read_scalars, read_vectors
 from python.cli.command import both_modes, compiled, interrupt_endless_run, objects
 
@@ -212,6 +215,16 @@ def test_a_resumed_run_is_repeated_for_vectors_of_another_run(gradysim, folder, 
     assert resumed(*options) == []
 
 
+def test_a_resumed_run_is_repeated_for_files_of_two_commands_at_once(gradysim, folder, resumed):
+    result, vectors = (folder / "out" / f"General-#0.prototype.{suffix}" for suffix in ("json", "vec"))
+    before = hash_of(vectors)
+    gradysim(*PROTOTYPE, "-r", "0", "--vectors", "uavs")
+    (folder / "results" / vectors.name).replace(vectors)
+    result.write_text(result.read_text().replace(before, hash_of(vectors)))
+    assert resumed("--vectors", "uavs") == []
+    assert resumed(*BOTH) == [0]
+
+
 def test_a_resumed_run_is_repeated_for_newer_files_of_another_protocol(gradysim, folder):
     arguments = (*PROTOTYPE, "-r", "0", "--json", "--result-dir", "results")
     gradysim(*arguments)
@@ -311,3 +324,29 @@ def test_a_file_that_cannot_be_written(gradysim, folder):
     assert done.returncode == 2
     assert "out/General-#0.prototype.sca" in done.stderr
     assert names_in(folder / "out") == ["General-#0.prototype.json", "General-#0.prototype.sca"]
+
+
+@contextmanager
+def disk_of(size):
+    """Files of this process and of those that it starts have so many bytes at most."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+
+
+@pytest.mark.parametrize(("size", "written"), [(100, []), (20_000, ["json"]), (100_000, ["json", "sca"])])
+def test_a_run_without_room_for_its_files_leaves_no_others_of_the_run_before(gradysim, folder, size, written):
+    arguments = (*PROTOTYPE, "-r", "0", "--result-dir", "out", "--quiet", *BOTH)
+    many_rows = ("--set", "*.uavs[*].mobility.telemetryInterval=10ms")
+    gradysim(*arguments, *many_rows)
+    before = (folder / "out/General-#0.prototype.json").read_text()
+    with disk_of(size):
+        done = gradysim(*arguments, *many_rows, "--set", "sim-time-limit=9.5s")
+    assert done.returncode == 2
+    assert names_in(folder / "out") == [f"General-#0.prototype.{suffix}" for suffix in written or ["json"]]
+    assert ((folder / "out/General-#0.prototype.json").read_text() == before) is (not written)
+    assert set(values_of(folder / "out", "simTime")) <= {9.5}
+    assert "1 of 1 runs" not in gradysim(*arguments, "--resume", *many_rows).stderr
