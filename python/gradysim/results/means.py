@@ -5,11 +5,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import fmean
 from typing import Any
 
 from gradysim.results.shares import ALWAYS_TOLD, mean_delays, shares
-from gradysim.results.student import mean_with_half_width
+from gradysim.results.student import mean_of, mean_with_half_width
 from gradysim.results.tracked_numbers import Tracked, numbers_and_others, numeric_variables, tracked_by_group
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
@@ -176,7 +175,7 @@ def _mean_of_variable(
         nodes += len(numbers) + len(others)
         left_out.update(others)
         if numbers:
-            of_runs.append(fmean(numbers))
+            of_runs.append(mean_of(numbers))
     if nodes:
         text = ", ".join(f"{count} {what}" for what, count in left_out.items())
         yield _mean(result, f"{group} {name}", of_runs, f"{text} of {nodes}" if text else "")

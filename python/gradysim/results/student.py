@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 from statistics import fmean, stdev
 
 CONFIDENCE = 0.95
@@ -10,15 +11,29 @@ CONFIDENCE = 0.95
 _LARGEST = 1000.0
 """More than any quantile: that of one degree of freedom is 12.7."""
 
+_HUGE, _SMALLER = 2.0**900, 2.0**-100
+"""From where on deviations may be more than a float holds, and what such values are scaled by."""
+
+
+def mean_of(values: Sequence[float]) -> float:
+    """Return the mean of finite numbers, also of those whose sum is more than a float holds."""
+    try:
+        return fmean(values)
+    except OverflowError:
+        return float(sum(map(Fraction, values)) / len(values))
+
 
 def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
     """Return the mean and half the width of its confidence interval, None for a single value.
 
-    The values are taken to be independent and normally distributed.
+    The values are taken to be independent and normally distributed. A width that is more than a float holds
+    is infinite.
     """
     if len(values) < 2:
-        return fmean(values), None
-    return fmean(values), _quantile(len(values) - 1) * stdev(values) / math.sqrt(len(values))
+        return mean_of(values), None
+    scale = _SMALLER if max(map(abs, values)) > _HUGE else 1.0
+    deviation = stdev([value * scale for value in values])
+    return mean_of(values), _quantile(len(values) - 1) * deviation / math.sqrt(len(values)) / scale
 
 
 def _quantile(freedom: int) -> float:

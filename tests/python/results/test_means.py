@@ -1,4 +1,5 @@
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -68,6 +69,12 @@ def test_groups_and_single_nodes_are_apart() -> None:
         "groundStation said": 2.5,
         "uavs[*] heard": 1,
     }
+
+
+def test_numbers_may_be_as_large_as_a_float_holds() -> None:
+    largest = sys.float_info.max
+    (mean,) = means([result(0, (largest, largest)), result(1, (largest, largest))])
+    assert (mean.mean, mean.half_width) == (largest, 0)
 
 
 def test_what_is_left_out_is_told_with_the_number_of_values() -> None:

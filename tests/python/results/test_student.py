@@ -1,8 +1,11 @@
+import math
+import sys
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results.student import mean_with_half_width
+from gradysim.results.student import mean_of, mean_with_half_width
 
 
 @pytest.mark.parametrize(
@@ -36,3 +39,34 @@ def test_an_interval_moves_with_its_values(values: list[float], by: float) -> No
     mean, half_width = mean_with_half_width(values)
     moved = mean_with_half_width([value + by for value in values])
     assert moved == (pytest.approx(mean + by, abs=1e-9), pytest.approx(half_width, abs=1e-6))
+
+
+HUGE = sys.float_info.max
+
+
+@pytest.mark.parametrize(
+    ("values", "mean"),
+    [
+        ([HUGE, HUGE], HUGE),
+        ([HUGE] * 3, HUGE),
+        ([-HUGE, -HUGE, HUGE], -HUGE / 3),
+        ([HUGE, -HUGE], 0),
+        ([HUGE, 1], HUGE / 2),
+    ],
+)
+def test_a_mean_may_be_of_numbers_whose_sum_is_none(values: list[float], mean: float) -> None:
+    assert mean_of(values) == mean
+    assert mean_with_half_width(values)[0] == mean
+
+
+@pytest.mark.parametrize(
+    ("values", "half_width"),
+    [
+        ([HUGE] * 3, 0),
+        ([HUGE, -HUGE], math.inf),
+        ([HUGE, -HUGE] * 50, pytest.approx(1.98422 / math.sqrt(99) * HUGE, rel=1e-5)),
+        ([0.0, 1e290], pytest.approx(12.7062 * 1e290 / 2, rel=1e-5)),
+    ],
+)
+def test_an_interval_may_be_of_huge_numbers(values: list[float], half_width: float) -> None:
+    assert mean_with_half_width(values)[1] == half_width
