@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TextIO
 
 from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
 from gradysim.commands.asked import Asked
+from gradysim.commands.current_folder import back_afterwards
 from gradysim.commands.exit_code import OK, say_mistake
 from gradysim.commands.one_run import report, run_one
 from gradysim.commands.result_dir import check_may_be_written_to, make_result_dir
@@ -102,7 +103,8 @@ def run(
                 warn_of_what_is_seldom_meant(scenarios)
 
             def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
-                outcome = run_one(build, scenario, interrupt, bar=bar and jobs == 1)
+                with back_afterwards():
+                    outcome = run_one(build, scenario, interrupt, bar=bar and jobs == 1)
                 write = partial(write_files, scenario, asked=asked)
                 return report(outcome, output, write, as_json=as_json, quiet=quiet)
 

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gradysim.commands.current_folder import back_afterwards
+
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
 
@@ -16,4 +18,5 @@ def load(
     from gradysim.config.scenario import load_scenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
-    return load_scenarios(file, config, runs, settings, seed, names=names)
+    with back_afterwards():  # files of protocols are carried out
+        return load_scenarios(file, config, runs, settings, seed, names=names)

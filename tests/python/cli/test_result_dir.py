@@ -6,6 +6,7 @@ import os
 import pytest
 
 from gradysim.cli import main
+from python.cli.command import both_modes
 
 
 def test_files_of_results_are_written_to_it(gradysim, folder):
@@ -35,3 +36,40 @@ def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatc
     assert main(["run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out"]) == 2
     told = "--result-dir out: it takes no files from you; expected another folder\n"
     assert capsys.readouterr() == ("", told)
+
+
+GOES_AWAY = """
+import os
+
+class Away(Talker):
+    def initialize(self):
+        super().initialize()
+        os.makedirs("elsewhere", exist_ok=True)
+        os.chdir("elsewhere")
+"""
+
+
+@both_modes
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_protocol_that_goes_to_another_folder_takes_no_files_there(folder, gradysim, mode, jobs):
+    away = ("--set", '*.uavs[*].protocol.class = "protocol.py:Away"')
+    with (folder / "protocol.py").open("a") as protocol:
+        protocol.write(GOES_AWAY)
+    pcap = ["--pcap", "uavs[0]"] if mode == "integrated" else []
+    arguments = ("--scalars", "--vectors", "all", *pcap, "--result-dir", "out", "--quiet", "--jobs", jobs)
+    done = gradysim("run", "test.ini", "--mode", mode, *away, *arguments)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(list((folder / "out").iterdir())) == 3 * (3 + len(pcap) // 2)
+    assert {path.name for path in folder.rglob("*") if path.is_dir()} - {"__pycache__"} == {
+        "out",
+        "elsewhere",
+    }
+
+
+def test_a_file_of_a_protocol_that_goes_to_another_folder(folder, gradysim):
+    (folder / "elsewhere").mkdir()
+    with (folder / "protocol.py").open("a") as protocol:
+        protocol.write('import os; os.chdir("elsewhere")')
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0", "--result-dir", "out", "--quiet")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert [path.name for path in (folder / "out").iterdir()] == ["General-#0.prototype.json"]
