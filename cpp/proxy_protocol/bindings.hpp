@@ -5,7 +5,7 @@
 
 namespace proxy_protocol {
 
-void bind_protocol_error(pybind11::module_& module);
+void bind_errors(pybind11::module_& module);
 void bind_config(pybind11::module_& module);
 void bind_propagation(pybind11::module_& module);
 void bind_link_budget(pybind11::module_& module);

@@ -328,7 +328,7 @@ class Node:
 class Network:
     def __init__(self, medium: MediumConfig, seed: int) -> None: ...
     def add_node(self, config: NodeConfig) -> Node: ...
-    def capture(self, node: int, path: str, interface: int = ...) -> None:
+    def capture(self, node: int, path: str | bytes, interface: int = ...) -> None:
         """Write what the radio of that interface sends and receives from now on to a pcap file.
 
         Raises ConfigError for a path that cannot be written, for an interface that is not there and for a

@@ -1,5 +1,6 @@
 """Capture files: what the radios of some nodes sent and received, one pcap file for each radio."""
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -77,7 +78,7 @@ def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, P
         except OSError as error:
             raise ConfigError(f"cannot write the capture file '{file}': {error.strerror}") from error
         with errors_at(settings_by_target("medium", scenario.medium)):
-            network.capture(node_id, str(file), index)
+            network.capture(node_id, os.fsencode(file), index)
 
 
 @contextmanager

@@ -1,3 +1,4 @@
+import os
 import resource
 from contextlib import contextmanager
 from pathlib import Path
@@ -135,3 +136,32 @@ def test_a_file_that_lacks_its_end_is_told_beside_what_a_protocol_raised(make_sc
     assert caught.value.__notes__[1:] == [
         f"cannot write the capture file '{tmp_path}/a.pcap': File too large; it lacks the last frames"
     ]
+
+
+@pytest.fixture
+def odd_folder(tmp_path):
+    """A folder whose name is no UTF-8."""
+    folder = tmp_path / os.fsdecode(b"r\xfe")
+    try:
+        folder.mkdir()
+    except OSError:
+        pytest.skip("this file system has no such names")
+    return folder
+
+
+def test_a_name_may_be_any_bytes(make_scenario, odd_folder):
+    run(make_scenario(), captures={0: odd_folder / "a.pcap"})
+    assert (odd_folder / "a.pcap").stat().st_size > HEADER_BYTES
+
+
+def test_a_name_of_any_bytes_that_cannot_be_written_is_told(make_scenario, odd_folder):
+    with pytest.raises(ConfigError) as caught:
+        IntegratedRun(make_scenario(), {0: odd_folder})
+    assert str(caught.value).endswith(f"cannot write the capture file '{odd_folder}': Is a directory")
+
+
+def test_a_file_with_a_name_of_any_bytes_that_lacks_its_end_is_told(make_scenario, odd_folder):
+    captured = IntegratedRun(make_scenario(), {0: odd_folder / "a.pcap"})
+    with full_disk(), pytest.raises(CaptureError) as caught:
+        captured.execute()
+    assert str(caught.value).startswith(f"cannot write the capture file '{odd_folder}/a.pcap': File too")
