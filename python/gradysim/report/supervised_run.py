@@ -52,9 +52,9 @@ def carry_out(
     """
     try:
         run = build(scenario)
-    except (ConfigError, CompiledPartMissingError):
+    except (ConfigError, CompiledPartMissingError, KeyboardInterrupt):
         raise
-    except (Exception, SystemExit) as failure:
+    except BaseException as failure:
         return Outcome(None, failure=failure)
     try:
         if progress_console is None:
@@ -65,7 +65,7 @@ def carry_out(
                 run.execute(bar.update, should_stop)
     except KeyboardInterrupt:
         return Outcome(run.result(), interrupted=True)
-    except (Exception, SystemExit) as failure:
+    except BaseException as failure:  # SystemExit and asyncio.CancelledError are no Exception
         return Outcome(run.result(), failure=failure)
     result = run.result()
     return Outcome(result, interrupted=result.interrupted)

@@ -20,6 +20,28 @@ def test_a_failing_protocol(gradysim, mode):
     assert "in handle_packet of node 1 (Failing 1) at 1" in lines[-1]
 
 
+CANCELLED = """
+import asyncio
+
+class Cancelled(Talker):
+    def handle_packet(self, message):
+        raise asyncio.CancelledError("given up")
+"""
+
+
+@both_modes
+def test_a_protocol_that_raises_what_is_no_exception_as_others(gradysim, folder, mode):
+    with (folder / "protocol.py").open("a") as protocol:
+        protocol.write(CANCELLED)
+    cancelled = ("--set", '*.uavs[*].protocol.class = "protocol.py:Cancelled"', "--result-dir", "out")
+    done = gradysim("run", "test.ini", "--mode", mode, "-r", "0", *cancelled)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-2] == "asyncio.exceptions.CancelledError: given up"
+    assert "in handle_packet of node 1 (Cancelled 1) at 1" in done.stderr.splitlines()[-1]
+    assert "said = 1" in done.stdout
+    assert (folder / f"out/General-#0.{mode}.json").is_file()
+
+
 @both_modes
 def test_why_it_failed_comes_last_on_a_screen(folder, mode):
     done = subprocess.run(

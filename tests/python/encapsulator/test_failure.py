@@ -1,3 +1,5 @@
+import asyncio
+
 import pytest
 
 from gradysim.encapsulator.failure import add_protocol_note
@@ -25,10 +27,10 @@ def test_times_are_written_for_people(time_s, text):
     assert f"at {text} s of" in notes_on(RuntimeError(), time_s)[0]
 
 
-def test_a_protocol_that_leaves_python_is_named():
-    assert notes_on(SystemExit(3)) == notes_on(RuntimeError())
+@pytest.mark.parametrize("exception", [SystemExit(3), asyncio.CancelledError(), GeneratorExit()])
+def test_what_is_no_exception_as_others_has_a_note(exception):
+    assert notes_on(exception) == notes_on(RuntimeError())
 
 
-@pytest.mark.parametrize("interruption", [KeyboardInterrupt, GeneratorExit])
-def test_interruptions_have_no_note(interruption):
-    assert notes_on(interruption()) == []
+def test_an_interruption_has_no_note():
+    assert notes_on(KeyboardInterrupt()) == []

@@ -1,3 +1,4 @@
+from asyncio import CancelledError
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -41,7 +42,7 @@ def test_a_stopped_run():
     assert carry_out(lambda _: FakeRun(interrupted=True), SCENARIO, never).interrupted
 
 
-@pytest.mark.parametrize("failure", [RuntimeError("spoilt"), SystemExit(3)])
+@pytest.mark.parametrize("failure", [RuntimeError("spoilt"), SystemExit(3), CancelledError()])
 def test_a_failing_run_keeps_its_result(failure):
     outcome = carry_out(lambda _: FakeRun(failure, interrupted=True), SCENARIO, never)
     assert outcome.failure is failure
@@ -55,7 +56,7 @@ def test_an_interrupt_that_comes_through_keeps_the_result():
     assert outcome.result.events == 3
 
 
-@pytest.mark.parametrize("failure", [ZeroDivisionError(), SystemExit(3)])
+@pytest.mark.parametrize("failure", [ZeroDivisionError(), SystemExit(3), CancelledError()])
 def test_a_protocol_that_cannot_be_made_is_a_failure_without_a_result(failure):
     def build(_):
         raise failure
@@ -65,8 +66,10 @@ def test_a_protocol_that_cannot_be_made_is_a_failure_without_a_result(failure):
     assert outcome.failure is failure
 
 
-@pytest.mark.parametrize("mistake", [ConfigError("wrong"), CompiledPartMissingError("missing")])
-def test_a_mistake_is_passed_on(mistake):
+@pytest.mark.parametrize(
+    "mistake", [ConfigError("wrong"), CompiledPartMissingError("missing"), KeyboardInterrupt()]
+)
+def test_a_mistake_and_an_interruption_are_passed_on(mistake):
     def build(_):
         raise mistake
 

@@ -70,7 +70,9 @@ class ProtocolLoader:
             raise BadValue(f"there is no file {file}", file_meant(file, (".py",), place))
         try:
             return self._modules.load(file)
-        except (Exception, SystemExit) as error:
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:
             if _is_loaded_by_itself(file, error):
                 raise _loaded_by_itself(file, error) from error
             raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
@@ -90,7 +92,9 @@ def _from_name(name: str, folder: Path, class_name: str) -> ModuleType:
         file = f"{name.replace('.', '/')}.py"
         hint = f"; did you mean `{file}:{class_name}`?" if (folder / file).is_file() else ""
         raise BadValue(f"this Python finds no module `{error.name}`", hint) from error
-    except (Exception, SystemExit) as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
 
 

@@ -115,6 +115,7 @@ def test_methods_that_look_like_missing_ones_are_named(folder: Any, error_of: An
             2,
         ),
         ("import sys\nsys.exit(3)", "SystemExit: 3", 2),
+        ("import asyncio\nraise asyncio.CancelledError", "asyncio.exceptions.CancelledError", 2),
     ],
 )
 def test_a_file_that_does_not_load_shows_its_own_error_and_line(
