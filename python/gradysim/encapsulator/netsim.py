@@ -10,12 +10,13 @@ from collections.abc import Callable, Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from gradysim.encapsulator.checked_provider import CheckedProvider
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.geo_target import geo_target
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.wrong_arguments import reword_wrong_arguments
-from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
@@ -39,7 +40,7 @@ _SAME_IN_THE_ENGINE = (
 )
 
 
-class NetsimProvider(IProvider):
+class NetsimProvider(CheckedProvider):
     """What a protocol may ask of its node, answered by the engine.
 
     Errors are those of `gradysim.protocol.errors`: a timer in the past, a destination that does not exist, a

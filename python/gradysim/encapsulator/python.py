@@ -5,10 +5,11 @@ from collections.abc import Mapping
 from random import Random
 from typing import Any, Protocol, cast
 
+from gradysim.encapsulator.checked_provider import CheckedProvider
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
@@ -39,7 +40,7 @@ class _TimerHandler(Protocol):
     def get_current_time(self) -> float: ...
 
 
-class PythonProvider(IProvider):
+class PythonProvider(CheckedProvider):
     """Passes what a protocol does to the handlers labelled "communication", "mobility" and "timer".
 
     A command for which there is no handler is dropped with a warning; without timers the time is always 0.

@@ -6,6 +6,12 @@ from typing import Any, Self
 _set_item = dict.__setitem__  # looked up once: this is the hot path
 
 
+def check_variables(variables: object) -> None:
+    """Raise TypeError for what are no tracked variables."""
+    if not isinstance(variables, Mapping):
+        raise TypeError(f"tracked_variables = {variables!r:.80}: expected a dict")
+
+
 class TrackedVariables(dict[str, Any]):
     """Behaves as a dict and reports every item that is set or removed, by whatever method.
 
@@ -68,7 +74,9 @@ class TrackedVariables(dict[str, Any]):
         """Become equal to `variables`, for a protocol that assigns another dict; removals come first.
 
         Nothing is reported if they are this very dict: `provider.tracked_variables |= {"b": 2}` assigns it.
+        Raises TypeError for what is no dict.
         """
+        check_variables(variables)
         if variables is self:
             return
         values = dict(variables)

@@ -20,24 +20,37 @@ def test_a_failing_protocol(gradysim, mode):
     assert "in handle_packet of node 1 (Failing 1) at 1" in lines[-1]
 
 
-CANCELLED = """
+CARELESS = """
 import asyncio
 
-class Cancelled(Talker):
+class Careless(Talker):
     def handle_packet(self, message):
-        raise asyncio.CancelledError("given up")
+        {}
 """
+OF_CARELESS = ("--set", '*.uavs[*].protocol.class = "protocol.py:Careless"', "--result-dir", "out")
 
 
 @both_modes
 def test_a_protocol_that_raises_what_is_no_exception_as_others(gradysim, folder, mode):
     with (folder / "protocol.py").open("a") as protocol:
-        protocol.write(CANCELLED)
-    cancelled = ("--set", '*.uavs[*].protocol.class = "protocol.py:Cancelled"', "--result-dir", "out")
-    done = gradysim("run", "test.ini", "--mode", mode, "-r", "0", *cancelled)
+        protocol.write(CARELESS.format('raise asyncio.CancelledError("given up")'))
+    done = gradysim("run", "test.ini", "--mode", mode, "-r", "0", *OF_CARELESS)
     assert done.returncode == 1
     assert done.stderr.splitlines()[-2] == "asyncio.exceptions.CancelledError: given up"
-    assert "in handle_packet of node 1 (Cancelled 1) at 1" in done.stderr.splitlines()[-1]
+    assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
+    assert "said = 1" in done.stdout
+    assert (folder / f"out/General-#0.{mode}.json").is_file()
+
+
+@both_modes
+@pytest.mark.parametrize("options", [(), ("--vectors", "all")])
+def test_variables_that_are_none_fail_where_they_are_assigned(gradysim, folder, mode, options):
+    with (folder / "protocol.py").open("a") as protocol:
+        protocol.write(CARELESS.format("self.provider.tracked_variables = None"))
+    done = gradysim("run", "test.ini", "--mode", mode, "-r", "0", *OF_CARELESS, *options)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-2] == "TypeError: tracked_variables = None: expected a dict"
+    assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
     assert "said = 1" in done.stdout
     assert (folder / f"out/General-#0.{mode}.json").is_file()
 
