@@ -20,7 +20,7 @@ from gradysim.config.errors.sibling_files import file_meant
 from gradysim.config.errors.source import Source
 from gradysim.config.keys.environment import DEFAULT_MATERIAL, OBSTACLE_FILE
 from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
-from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing
+from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing, misplaced_ring
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
 
 LOCAL_CRS = "local"
@@ -211,6 +211,13 @@ def _rings(polygon: object, place: Placing) -> tuple[Ring, ...]:
         raise _BadFileError(
             f"the side {one} crosses the side {other}; expected the positions of each ring in their order"
             " around it, and inner rings inside of the outer one"
+        )
+    if misplaced := misplaced_ring(rings):
+        inner, other = (f"the ring from {polygon[ring][0]} on" for ring in misplaced)
+        where = "inside of" if misplaced[1] else "not inside of the outer one,"
+        raise _BadFileError(
+            f"{inner} is {where} {other}; expected inner rings, its courtyards, inside of the outer one and"
+            " not of each other (another body is another polygon of a MultiPolygon)"
         )
     return rings
 

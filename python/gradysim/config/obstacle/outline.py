@@ -4,6 +4,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from statistics import median
 
 Corner = tuple[float, float]
@@ -32,6 +33,61 @@ def encloses_nothing(ring: Ring) -> bool:
     sides = [(other_x - x, other_y - y) for other_x, other_y in others]
     dx, dy = max(sides, key=lambda side: math.hypot(*side))
     return all(dx * side_y == dy * side_x for side_x, side_y in sides)
+
+
+def misplaced_ring(rings: Sequence[Ring]) -> tuple[int, int] | None:
+    """An inner ring that is not within the first one, or that is within another inner one; None if none is.
+
+    Given by its number and that of the other. For rings whose sides do not cross; here, too, they may touch.
+    """
+    outer, *inner = rings
+    samples = [[*ring, _point_within(ring)] for ring in inner]
+    for number, points in enumerate(samples, start=1):
+        if any(_depth_m(point, outer) < -_TOUCH_M for point in points):
+            return number, 0
+    wests, easts = [min(ring)[0] for ring in inner], [max(ring)[0] for ring in inner]
+    order = sorted(range(len(inner)), key=wests.__getitem__)
+    for place, one in enumerate(order):
+        for other in order[place + 1 :]:
+            if wests[other] > easts[one]:
+                break
+            for within, around in ((other, one), (one, other)):
+                if any(_depth_m(point, inner[around]) > _TOUCH_M for point in samples[within]):
+                    return within + 1, around + 1
+    return None
+
+
+def _depth_m(point: Corner, ring: Ring) -> float:
+    """How far from the ring a point is: positive if the ring is around it, negative outside."""
+    x, y = point
+    is_within = False
+    nearest_m = math.inf
+    begin_x, begin_y = ring[-1]
+    for end_x, end_y in ring:
+        dx, dy = end_x - begin_x, end_y - begin_y
+        if (begin_y > y) != (end_y > y) and x < begin_x + dx * (y - begin_y) / dy:
+            is_within = not is_within
+        square = dx * dx + dy * dy
+        along = ((x - begin_x) * dx + (y - begin_y) * dy) / square if square else 0.0
+        along = min(max(along, 0.0), 1.0)
+        nearest_m = min(nearest_m, math.hypot(begin_x + along * dx - x, begin_y + along * dy - y))
+        begin_x, begin_y = end_x, end_y
+    return nearest_m if is_within else -nearest_m
+
+
+def _point_within(ring: Ring) -> Corner:
+    """A point that the ring is around, if it is not thinner than any number: far from its sides."""
+    heights = sorted({y for _, y in ring})
+    low, high = max(pairwise(heights), key=lambda pair: pair[1] - pair[0])
+    y = (low + high) / 2
+    xs = sorted(
+        begin[0] + (end[0] - begin[0]) * (y - begin[1]) / (end[1] - begin[1])
+        for begin, end in zip(ring, (*ring[1:], ring[0]), strict=True)
+        if (begin[1] > y) != (end[1] > y)
+    )
+    parts = zip(xs[::2], xs[1::2], strict=True)
+    west, east = max(parts, key=lambda pair: pair[1] - pair[0], default=(ring[0][0], ring[0][0]))
+    return (west + east) / 2, y
 
 
 @dataclass(frozen=True)

@@ -123,6 +123,14 @@ def test_properties_of_others_are_none_of_ours(folder: Any) -> None:
             town(feature(coordinates=[SQUARE, [[5, 5], [5, 7], [12, 6], [5, 5]]])),
             "the side from [10, 0] to [10, 10] crosses the side from [5, 7] to [12, 6]",
         ),
+        (
+            town(feature(coordinates=[SQUARE, YARD, [[100, 100], [100, 102], [102, 101], [100, 100]]])),
+            "feature 0: the ring from [100, 100] on is not inside of the outer one, the ring from [0, 0] on",
+        ),
+        (
+            town(feature(coordinates=[SQUARE, YARD, [[4, 4], [4, 6], [6, 6], [4, 4]]])),
+            "feature 0: the ring from [4, 4] on is inside of the ring from [3, 3] on; expected inner rings",
+        ),
         (town(feature(coordinates=[[[0, 0], ["x", 1], [1, 1], [0, 0]]])), "['x', 1] is no position"),
         (town(feature(coordinates=[[[0, 0], [2e7, 1], [1, 1], [0, 0]]])), "is too far away"),
     ],

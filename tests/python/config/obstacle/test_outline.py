@@ -7,7 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing, sides_cross
+from gradysim.config.obstacle.outline import (
+    Ring,
+    crossing_sides,
+    encloses_nothing,
+    misplaced_ring,
+    sides_cross,
+)
 
 SQUARE: Ring = ((0, 0), (10, 0), (10, 10), (0, 10))
 
@@ -40,6 +46,60 @@ def test_finds_the_sides_that_cross() -> None:
     bow_tie = ((0.0, 0.0), (10.0, 0.0), (0.0, 10.0), (10.0, 10.0))
     assert crossing_sides([bow_tie]) == ((0, 1), (0, 3))
     assert crossing_sides([SQUARE, ((5, 5), (5, 7), (12, 6))]) == ((0, 1), (1, 1))
+
+
+def moved(ring: Ring, x: float, y: float) -> Ring:
+    return tuple((corner_x + x, corner_y + y) for corner_x, corner_y in ring)
+
+
+YARD: Ring = ((3, 3), (3, 7), (7, 7), (7, 3))
+U: Ring = ((0, 0), (10, 0), (10, 10), (7, 10), (7, 3), (3, 3), (3, 10), (0, 10))
+
+
+@pytest.mark.parametrize(
+    "rings",
+    [
+        [SQUARE],
+        [SQUARE, YARD],
+        [SQUARE[::-1], YARD],
+        [SQUARE, ((0, 0), (10, 0), (5, 10))],  # all of its corners at the wall
+        [SQUARE, ((0, 3), (0, 7), (7, 7))],
+        [SQUARE, ((-0.05, 3), (-0.05, 7), (7, 7))],  # at the wall but for rounding
+        [SQUARE, ((1, 1), (1, 2), (2, 1)), ((2, 1), (1, 2), (2, 2))],  # courtyards side by side
+        [U, ((8, 1), (9, 1), (8, 9))],
+        [SQUARE, ((2, 2), (2, 5e-324), (3, 0))],
+        [((0, 0), (9, 5e-324), (9, 0))] * 2,  # thinner than any number
+    ],
+)
+def test_courtyards_are_within_the_outer_ring(rings: list[Ring]) -> None:
+    assert misplaced_ring(rings) is None
+
+
+@pytest.mark.parametrize(
+    ("rings", "found"),
+    [
+        ([SQUARE, moved(YARD, 100, 0)], (1, 0)),
+        ([SQUARE, YARD, moved(YARD, 0, 8)], (2, 0)),
+        ([YARD, SQUARE], (1, 0)),  # exchanged
+        ([U, ((3, 10), (3, 3), (7, 3), (7, 10))], (1, 0)),  # what the outer ring leaves out
+        ([SQUARE, ((5, 5), (10, 4), (12, 5), (10, 6))], (1, 0)),  # leaves through the wall by corners
+        ([SQUARE, YARD, ((4, 4), (4, 6), (6, 6))], (2, 1)),
+        ([SQUARE, ((4, 4), (4, 6), (6, 6)), YARD], (1, 2)),
+        ([SQUARE, YARD, YARD[::-1]], (2, 1)),  # the same once more
+    ],
+)
+def test_finds_the_ring_that_is_no_courtyard(rings: list[Ring], found: tuple[int, int]) -> None:
+    assert crossing_sides(rings) is None
+    assert misplaced_ring(rings) == found
+
+
+@given(st.lists(st.floats(1, 100), min_size=3, max_size=12), st.floats(0, 7), st.floats(0.01, 0.9))
+def test_a_smaller_star_is_within_one_of_its_form(
+    radii: list[float], turned_rad: float, scale: float
+) -> None:
+    large, small = (tuple(star([factor * r for r in radii], turned_rad)) for factor in (1.0, scale))
+    assert misplaced_ring([large, small]) is None
+    assert misplaced_ring([small, moved(large, 250, 0)]) == (1, 0)
 
 
 def star(radii: list[float], turned_rad: float = 0.0) -> list[tuple[float, float]]:
