@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.value.operators import Value, number, text_of
-from gradysim.config.value.quantity import Number, Quantity
+from gradysim.config.value.quantity import Number, Quantity, is_finite
 
 
 @dataclass(frozen=True)
@@ -95,9 +95,9 @@ def _fmod(values: Sequence[Value]) -> Value:
     """The remainder with the sign of the first value, in its unit."""
     dividend, divisor = (number(value) for value in values)
     left, right = dividend.numbers_beside(divisor)
-    if right == 0 or math.isnan(right) or not math.isfinite(left):
+    if right == 0 or right != right or not is_finite(left):
         raise BadValue(f"it has no value for `{dividend}`, `{divisor}`")
-    if math.isinf(right):
+    if not is_finite(right):
         return dividend
     remainder = abs(Fraction(left)) % abs(Fraction(right))
     return Quantity(-remainder if left < 0 else remainder, dividend.unit)

@@ -46,6 +46,16 @@ class Quantity:
             raise BadValue(f"`{self}` is too large for a number") from None
 
     def _to(self, unit: Unit) -> Number:
+        """The same, but exact if it can be, however large. BadValue if it is rounded, and no double."""
+        try:
+            number = self._converted(unit)
+        except OverflowError:
+            number = math.inf
+        if not is_finite(number) and is_finite(self.number):
+            raise BadValue(f"`{self}` is too large for a number")
+        return number
+
+    def _converted(self, unit: Unit) -> Number:
         assert self.unit is not None
         if self.unit == unit:
             return self.number
@@ -71,28 +81,32 @@ class Quantity:
         If one of them is rounded, both are.
 
         Raises:
-            BadValue: The two measure different things.
+            BadValue: The two measure different things, or one is too large to be rounded.
         """
-        here, there = self.number, other.number
-        if self.unit != other.unit:
-            if self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension:
-                raise BadValue(f"`{self}` and `{other}` measure different things and cannot be compared")
-            there = other._to(self.unit)
-        if isinstance(here, float) or isinstance(there, float):
-            return float(here), float(there)
-        return here, there
+        if self.unit != other.unit and (
+            self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension
+        ):
+            raise BadValue(f"`{self}` and `{other}` measure different things and cannot be compared")
+        there = other._beside(self)
+        return float(self.number) if isinstance(there, float) else self.number, there
+
+    def _beside(self, other: "Quantity") -> Number:
+        """The number in the unit of the other quantity, if both have one, and rounded if the other's is."""
+        is_rounded = isinstance(other.number, float)
+        if self.unit is None or other.unit is None:
+            return float(self.number) if is_rounded else self.number
+        return self.to(other.unit) if is_rounded else self._to(other.unit)
 
     def plus(self, other: "Quantity", sign: int = 1) -> "Quantity":
         """The sum, in the unit of this one (the difference for sign = -1)."""
-        number = other.number
         if self.unit != other.unit:
             if self.unit is None or other.unit is None or self.unit.dimension is not other.unit.dimension:
                 raise BadValue(f"`{self}` and `{other}` measure different things and cannot be added")
             if self.unit.logarithmic or other.unit.logarithmic:
                 raise BadValue(f"`{self}` and `{other}` cannot be added, one is a logarithm")
-            number = other._to(self.unit)
         elif self.unit is not None and self.unit.logarithmic:
             raise BadValue(f"`{self}` and `{other}` cannot be added, they are logarithms")
+        number = other._beside(self)
         return Quantity(self._finite(self.number + sign * number, number), self.unit)
 
     def times(self, other: "Quantity") -> "Quantity":
@@ -103,27 +117,25 @@ class Quantity:
 
     def over(self, other: "Quantity") -> "Quantity":
         """The quotient; by a plain number, or of two quantities of one dimension."""
-        divisor = other.number
-        if other.unit is not None:
-            if (
-                self.unit is None
-                or self.unit.dimension is not other.unit.dimension
-                or self.unit.logarithmic
-                or other.unit.logarithmic
-            ):
-                raise BadValue(f"`{self}` divided by `{other}` has no unit here")
-            divisor = other._to(self.unit)
+        if other.unit is not None and (
+            self.unit is None
+            or self.unit.dimension is not other.unit.dimension
+            or self.unit.logarithmic
+            or other.unit.logarithmic
+        ):
+            raise BadValue(f"`{self}` divided by `{other}` has no unit here")
+        divisor = other._beside(self)
         if divisor == 0:
             raise BadValue(f"`{self}` is divided by zero")
-        if isinstance(self.number, float) or isinstance(divisor, float):
-            quotient: Number = float(self.number) / float(divisor)
+        if isinstance(divisor, float):
+            quotient: Number = self.number / divisor
         else:
             quotient = Fraction(self.number) / divisor
         return Quantity(self._finite(quotient, divisor), self.unit if other.unit is None else None)
 
     def _finite(self, result: Number, operand: Number) -> Number:
         """The result of arithmetic. BadValue if it is not finite, though its operands are."""
-        if not _is_finite(result) and _is_finite(self.number) and _is_finite(operand):
+        if not is_finite(result) and is_finite(self.number) and is_finite(operand):
             raise BadValue("the result is too large for a number")
         return result
 
@@ -158,7 +170,8 @@ class Quantity:
         return Quantity(result)
 
 
-def _is_finite(number: Number) -> bool:
+def is_finite(number: Number) -> bool:
+    """Whether a number is neither inf nor nan, also if no double is as large."""
     return not isinstance(number, float) or math.isfinite(number)
 
 

@@ -1,5 +1,7 @@
 import math
 import re
+from collections.abc import Callable
+from contextlib import suppress
 from fractions import Fraction
 
 import pytest
@@ -125,6 +127,44 @@ def test_its_text_reads_as_itself(number: float, unit: object) -> None:
 def test_wrong_dimensions_are_errors(quantity: Quantity, unit: str, message: str) -> None:
     with pytest.raises(BadValue, match=f"^{re.escape(message)}$"):
         quantity.to(UNITS[unit])
+
+
+ROUNDED = Quantity(math.sqrt(2), UNITS["as"])
+
+
+@pytest.mark.parametrize(
+    ("operation", "message"),
+    [
+        (lambda: q(1, "W").numbers_beside(q(4000, "dBm")), "`4000dBm` is too large for a number"),
+        (lambda: q(1, "fW").numbers_beside(q(3080, "dBm")), "`3080dBm` is too large for a number"),
+        (lambda: q(1, "dBm").numbers_beside(q(1e308, "GW")), "`1e+308GW` is too large for a number"),
+        (lambda: ROUNDED.numbers_beside(q(1e308, "d")), "`1e+308d` is too large for a number"),
+        (lambda: ROUNDED.plus(q(1e308, "d")), "`1e+308d` is too large for a number"),
+        (lambda: ROUNDED.over(q(1e308, "d")), "`1e+308d` is too large for a number"),
+        (lambda: ROUNDED.over(Quantity(Fraction(1, 10**400))), f"`{ROUNDED}` is divided by zero"),
+    ],
+)
+def test_what_only_a_rounded_number_would_need_is_told(operation: Callable[[], object], message: str) -> None:
+    with pytest.raises(BadValue, match=f"^{re.escape(message)}$"):
+        operation()
+
+
+def test_exact_numbers_are_compared_and_divided_however_large() -> None:
+    here, there = q(1, "as").numbers_beside(q(1e308, "d"))
+    assert here < there
+    assert q(1, "as").over(q(1e308, "d")).number == 1 / (Fraction(1e308) * 86400 * 10**18)
+
+
+any_number = st.one_of(st.integers(-5000, 5000), finite.map(Fraction), st.floats())
+quantities = st.builds(Quantity, any_number, st.sampled_from([None, *UNITS.values()]))
+
+
+@given(
+    quantities, quantities, st.sampled_from(["numbers_beside", "plus", "times", "over", "modulo", "power"])
+)
+def test_whatever_has_no_value_is_told(one: Quantity, other: Quantity, operation: str) -> None:
+    with suppress(BadValue):
+        getattr(one, operation)(other)
 
 
 def test_every_dimension_has_a_name_for_messages() -> None:
