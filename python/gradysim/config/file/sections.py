@@ -43,7 +43,7 @@ def search_order(ini: IniFile, config: str) -> list[Section]:
             f"expected one of {', '.join(heirs) or 'those that extend it'}",
             abstract.source,
         )
-    names = [name for name in _linearise(ini, config, ()) if name != GENERAL]
+    names = [name for name in _linearise(ini, config, (), {}) if name != GENERAL]
     return [ini.sections[name] for name in [*names, GENERAL]]
 
 
@@ -69,7 +69,10 @@ def unused_sections(ini: IniFile, used: list[Section]) -> list[str]:
     return [name for name in ini.sections if name not in names]
 
 
-def _linearise(ini: IniFile, name: str, heirs: tuple[str, ...]) -> list[str]:
+def _linearise(ini: IniFile, name: str, heirs: tuple[str, ...], known: dict[str, list[str]]) -> list[str]:
+    """A section and its bases in their order; `heirs` lead to it, and `known` are the orders found before."""
+    if name in known:
+        return known[name]
     section = ini.sections[name]
     extends = _own_option(section, "extends")
     if extends is None or name == GENERAL:
@@ -83,14 +86,15 @@ def _linearise(ini: IniFile, name: str, heirs: tuple[str, ...]) -> list[str]:
         raise ConfigError(
             f"more than {_DEEPEST} sections in a row extend each other; expected fewer", extends.source
         )
-    chains = [_linearise(ini, base, (*heirs, name)) for base in bases]
+    chains = [_linearise(ini, base, (*heirs, name), known) for base in bases]
     merged = _merge([*chains, bases])
     if merged is None:
         raise ConfigError(
             f"the bases of `{name}` contradict each other in their order; expected one order everywhere",
             extends.source,
         )
-    return [name, *merged]
+    known[name] = [name, *merged]
+    return known[name]
 
 
 def _merge(chains: list[list[str]]) -> list[str] | None:

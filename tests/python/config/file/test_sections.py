@@ -49,6 +49,17 @@ def test_bases_are_linearised_by_c3(write_ini: Write) -> None:
     assert order_of(file, "C") == ["C", "A", "B", "O", "General"]
 
 
+def test_a_section_with_many_heirs_is_put_in_order_once(write_ini: Write) -> None:
+    levels = range(49)
+    diamonds = "".join(
+        f"[A{level}]\nextends = B{level}, C{level}\n"
+        f"[B{level}]\nextends = A{level + 1}\n[C{level}]\nextends = A{level + 1}\n"
+        for level in levels
+    )
+    order = [name for level in levels for name in (f"A{level}", f"B{level}", f"C{level}")]
+    assert order_of(write_ini(f"{diamonds}[A49]\n"), "A0") == [*order, "A49", "General"]
+
+
 def test_general_as_a_base_stays_last(write_ini: Write) -> None:
     file = write_ini("[A]\n[C]\nextends = General, A\n")
     assert order_of(file, "C") == ["C", "A", "General"]
