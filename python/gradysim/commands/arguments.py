@@ -20,7 +20,7 @@ SetOption = Annotated[
         name="--set",
         negative="",
         show_default=False,
-        help="KEY=VALUE: takes precedence over the file; may be repeated.",
+        help="KEY=VALUE: takes precedence over the file; may be repeated, for other keys.",
     ),
 ]
 

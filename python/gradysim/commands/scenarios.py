@@ -1,5 +1,6 @@
 """The scenarios that a command line names."""
 
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,10 +14,28 @@ if TYPE_CHECKING:
 def load(
     file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
 ) -> "list[Scenario]":
-    """Return one scenario per run. Raises ConfigError."""
+    """Return one scenario per run. Raises ConfigError.
+
+    Says on the error output which of `settings` have no effect, because others before them have their keys.
+    """
     from gradysim.config.errors.argument_names import ArgumentNames
     from gradysim.config.scenario import load_scenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
+    _warn_of_repeated(settings, file, names.overrides)
     with back_afterwards():  # files of protocols are carried out
         return load_scenarios(file, config, runs, settings, seed, names=names)
+
+
+def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
+    from gradysim.config.file.reader import Entry, read_overrides
+
+    first: dict[str, Entry] = {}
+    for entry in read_overrides(file, settings, option):
+        above = first.setdefault(entry.key, entry)
+        if above.text != entry.text:
+            print(
+                f"{entry.source}: warning: `{entry.key}` has no effect: `{above.source}` says the same thing"
+                " and comes first; expected one of them",
+                file=sys.stderr,
+            )

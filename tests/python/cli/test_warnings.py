@@ -48,6 +48,19 @@ def test_a_line_below_one_that_fits_as_well_is_told_in_both_modes(
     assert capsys.readouterr().err.count("warning: `*.uavs[0].mobility.speed` has no effect: line ") == 1
 
 
+@pytest.mark.parametrize("command", ["run", "runs"])
+def test_of_two_settings_with_one_key_the_second_is_told(
+    ini: str, capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    options = ["--mode", "prototype", "--quiet"] if command == "run" else []
+    settings = ["--set", "repeat=2", "--set", "seed-set=1", "--set", "repeat=3", "--set", "repeat = 2"]
+    assert main([command, ini, *options, *settings]) == 0
+    assert capsys.readouterr().err.splitlines()[0] == (
+        "--set repeat=3: warning: `repeat` has no effect: `--set repeat=2` says the same thing and comes"
+        " first; expected one of them"
+    )
+
+
 @pytest.mark.parametrize(("medium", "told"), [("Ieee80211ScalarRadioMedium", 1), ("UnitDiskRadioMedium", 0)])
 def test_a_range_beside_a_power_is_told_where_it_stands_for_one(
     ini: str, capsys: pytest.CaptureFixture[str], medium: str, told: int
