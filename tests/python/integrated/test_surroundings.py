@@ -1,5 +1,6 @@
 """Antennas and obstacles from an .ini file to what is received: configs/town."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -75,15 +76,10 @@ def test_values_outside_of_the_engines_range_are_told(override: str, message: st
     assert message in str(caught.value)
 
 
-def test_what_the_engine_refuses_of_a_feature_names_the_feature(tmp_path: Path) -> None:
-    for file in TOWN.parent.iterdir():
-        text = (
-            file.read_text()
-            .replace('"brick"', '"bricks"')
-            .replace("../../examples", str(TOWN.parents[2] / "examples"))
-        )
-        (tmp_path / file.name).write_text(text)
-    scenario = load_scenarios(tmp_path / TOWN.name, "Blocked", "0")[0]
+def test_what_the_engine_refuses_of_an_obstacle_names_it() -> None:
+    scenario = load_scenarios(TOWN, "Blocked", "0")[0]
+    first, second, *others = scenario.obstacles
+    of_a_script = replace(scenario, obstacles=(first, replace(second, material="bricks"), *others))
     with pytest.raises(ConfigError, match="did you mean brick") as caught:
-        medium_config(scenario)
+        medium_config(of_a_script)
     assert 'town.geojson, feature 1 ("North-west block")' in str(caught.value)

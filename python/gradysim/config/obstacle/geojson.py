@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.nearest import misspelt
+from gradysim.config.errors.nearest import did_you_mean, misspelt
 from gradysim.config.errors.sibling_files import file_meant
 from gradysim.config.errors.source import Source
-from gradysim.config.keys.environment import DEFAULT_MATERIAL, OBSTACLE_FILE
+from gradysim.config.keys.environment import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
 from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing, misplaced_ring
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
@@ -36,7 +36,8 @@ Placing = Callable[[float, float], tuple[float, float]]
 _PROPERTIES = ("height", "base", "material", "relativePermittivity", "conductivity")
 """Those that matter: a misspelt `name` hurts nobody, and there are many like it."""
 
-_NUMBERS = {"relativePermittivity": "relative_permittivity", "conductivity": "conductivity_spm"}
+_NUMBERS = {"relativePermittivity": ("relative_permittivity", 1), "conductivity": ("conductivity_spm", 0)}
+"""{property: (its field, the least)}."""
 _MOST_DIGITS = 300
 
 
@@ -154,21 +155,31 @@ def _obstacles(
     _refuse_misspelt(properties)
     height_m = _number(properties, "height")
     base_m = _number(properties, "base", 0.0)
+    top_m = base_m + height_m
     if height_m <= 0:
         raise _BadFileError(f"its height is {height_m:g}; expected metres, more than 0")
+    if not -LARGEST_COORDINATE_M <= base_m < top_m <= LARGEST_COORDINATE_M:
+        raise _BadFileError(
+            f"its base is at {base_m:g} m and its roof at {top_m:g} m (base and height); expected the roof"
+            f" above the base, both at most {LARGEST_COORDINATE_M} m from z = 0"
+        )
     material = properties.get("material", DEFAULT_MATERIAL)
-    if not isinstance(material, str):
-        raise _BadFileError(f"its material is {material!r}; expected a name")
-    own = {
-        field: _number(properties, key) for key, field in _NUMBERS.items() if properties.get(key) is not None
-    }
+    if material not in MATERIALS:
+        hint = did_you_mean(material, MATERIALS) if isinstance(material, str) else ""
+        raise _BadFileError(f"its material is {material!r}; expected one of {', '.join(MATERIALS)}{hint}")
+    own: dict[str, float] = {}
+    for key, (field, least) in _NUMBERS.items():
+        if properties.get(key) is not None:
+            own[field] = number = _number(properties, key)
+            if number < least:
+                raise _BadFileError(f"its {key} is {number:g}; expected at least {least}")
     sources = {OBSTACLE_FILE.target: source}
     return [
         ObstacleSpec(
             name,
             _rings(polygon, place),
             base_m,
-            base_m + height_m,
+            top_m,
             source,
             material,
             **own,

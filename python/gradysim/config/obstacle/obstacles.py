@@ -19,7 +19,7 @@ from gradysim.config.obstacle.geojson import read_geojson
 from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacle.outline import Ring, crossing_sides, encloses_nothing
 from gradysim.config.value.setting import Setting, SettingReader
-from gradysim.protocol.position import Position, rotate_position_2d
+from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, rotate_position_2d
 
 _BOX_ONLY = ("min_x", "max_x", "min_y", "max_y", "heading_rad")
 
@@ -90,7 +90,10 @@ def _obstacle(name: str, values: Mapping[str, Setting], size_source: Source | No
             if not low[axis] < high[axis]:
                 least = f"more than min{'XY'[axis]}, {low[axis]:g}m"
                 raise ConfigError.at(values[f"max_{'xy'[axis]}"].source, f"expected {least}")
-        ring = _turned_box(low, high, float(values["heading_rad"].value) if "heading_rad" in values else 0.0)
+        heading = values.get("heading_rad")
+        ring = _turned_box(low, high, float(heading.value) if heading else 0.0)
+        if heading:
+            _check_within_scene(ring, heading.source)
     else:
         _refuse(name, values, _BOX_ONLY, 'a prism has points; expected `typename = "box"`, or points')
         if "points" not in values:
@@ -135,6 +138,7 @@ def _corners(points: Setting) -> Ring:
         text = 'expected x and y in metres for at least 3 corners: "0 0 10 0 10 5"'
         raise ConfigError.at(points.source, text)
     ring = tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    _check_within_scene(ring, points.source)
     if encloses_nothing(ring):
         raise ConfigError.at(points.source, "expected corners that are not on one line")
     if crossing := crossing_sides([ring]):
@@ -142,6 +146,13 @@ def _corners(points: Setting) -> Ring:
         text = f"the side {one} crosses the side {other}; expected corners in their order around the obstacle"
         raise ConfigError.at(points.source, text)
     return ring
+
+
+def _check_within_scene(ring: Ring, source: Source) -> None:
+    for x, y in ring:
+        if max(abs(x), abs(y)) > LARGEST_COORDINATE_M:
+            text = f"the corner ({x:g}, {y:g}) is too far away"
+            raise ConfigError.at(source, f"{text}; expected x and y of at most {LARGEST_COORDINATE_M} m")
 
 
 def _side(ring: Ring, corner: int) -> str:

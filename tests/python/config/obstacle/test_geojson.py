@@ -106,7 +106,22 @@ def test_properties_of_others_are_none_of_ours(folder: Any) -> None:
         ("[" * 100_000, "it is nested too deeply"),
         (town(feature(height=-2)), "its height is -2; expected metres, more than 0"),
         (town(feature(height=True)), "its height is True; expected a number"),
-        (town(feature(height=1, material=7)), "its material is 7; expected a name"),
+        (
+            town(feature(height=1, base=1e7)),
+            "its base is at 1e+07 m and its roof at 1e+07 m (base and height); expected the roof above",
+        ),
+        (
+            town(feature(height=1e-20, base=3)),
+            "its base is at 3 m and its roof at 3 m (base and height); expected the roof above the base",
+        ),
+        (town(feature(height=3, base=-2e7)), "both at most 10000000 m from z = 0"),
+        (town(feature(height=1, material=7)), "its material is 7; expected one of concrete, brick"),
+        (town(feature(height=1, material="bricks")), "metal; did you mean `brick`?"),
+        (
+            town(feature(height=1, relativePermittivity=-1)),
+            "its relativePermittivity is -1; expected at least 1",
+        ),
+        (town(feature(height=1, conductivity="-1")), "its conductivity is -1; expected at least 0"),
         (
             town(feature(), feature(height=1, materail="glass")),
             "feature 1: nothing reads its property `materail`; did you mean `material`?",

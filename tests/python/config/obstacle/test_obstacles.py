@@ -94,6 +94,17 @@ def test_several_share_what_a_pattern_says(folder: Any) -> None:
             8,
             "the side from (10, 0) to (0, 10) crosses the side from (10, 10) to (0, 0)",
         ),
+        (
+            PRISM.replace("10 0", "20000000 0"),
+            8,
+            "the corner (2e+07, 0) is too far away; expected x and y of at most 10000000 m",
+        ),
+        (
+            BOX.replace("maxX = 10m", "maxX = 10000km").replace("maxY = 5m", "maxY = 10000km")
+            + "*.environment.obstacle[0].heading = 45deg\n",
+            13,
+            "heading = 45deg: the corner (1.20711e+07, 5e+06) is too far away",
+        ),
         (PRISM + "*.environment.obstacle[0].heading = 90deg\n", 11, "a prism has points"),
         (BOX + '*.environment.obstacle[0].material = "bricks"\n', 13, "brick"),
         (BOX + "*.environment.obstacle[0].minx = 5m\n", 13, "did you mean"),
