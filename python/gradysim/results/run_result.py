@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
+from gradysim.config.value.quoted import is_quoted, unquoted
 from gradysim.protocol.plain_value import plain_value
 from gradysim.results.delays import Delays
 from gradysim.results.vector import Vector
@@ -82,12 +83,12 @@ def plain_iterations(values: Mapping[str, str]) -> dict[str, int | float | str]:
 
 
 def _plain_iteration(value: str) -> int | float | str:
-    """Return the value of an iteration variable as a number if it is a plain one, else without its quotes."""
+    """Return a plain number as one, the text that stands in quotes, and all else as it is written."""
     for number in (int, float) if _LIKE_A_NUMBER.fullmatch(value) else ():
         with contextlib.suppress(ValueError, OverflowError):
             if math.isfinite(number(value)):
                 return number(value)
-    return value[1:-1] if len(value) > 1 and value[0] == value[-1] == '"' else value
+    return unquoted(value) if is_quoted(value) else value
 
 
 @dataclass(frozen=True)

@@ -51,10 +51,15 @@ def test_keys_and_values_that_scripts_rely_on():
     ]
 
 
-@pytest.mark.parametrize("value", ["1" * 400, "2026_11", "-", "1-2"])
+@pytest.mark.parametrize("value", ["1" * 400, "2026_11", "-", "1-2", '"a" + "b"'])
 def test_what_is_no_plain_number_stays_a_text(value):
     result = dataclasses.replace(result_with({}), iterations={"key": value})
     assert result.to_json_object()["iterations"] == {"key": value}
+
+
+def test_a_text_is_told_as_protocols_read_it():
+    result = dataclasses.replace(result_with({}), iterations={"key": r'"c\"d\n"'})
+    assert result.to_json_object()["iterations"] == {"key": 'c"d\n'}
 
 
 def test_every_field_of_a_node_is_told_but_its_vectors():

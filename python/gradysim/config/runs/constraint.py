@@ -11,9 +11,8 @@ from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
 from gradysim.config.value.expression import parse_value
 from gradysim.config.value.operators import text_of
-from gradysim.config.value.quoted import QUOTED
+from gradysim.config.value.quoted import is_quoted
 
-_ONE_TEXT = re.compile(QUOTED, re.DOTALL)
 _VARIABLE = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
 
 
@@ -23,7 +22,7 @@ class Constraint:
     def __init__(self, entry: Entry) -> None:
         self.source = entry.source
         text = entry.text
-        if _ONE_TEXT.fullmatch(text):
+        if is_quoted(text):
             text = text[1:-1].replace('\\"', '"')
         self._text = text.strip()
         self._known: dict[str, bool] = {"": True}  # that is the default

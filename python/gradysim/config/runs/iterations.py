@@ -17,6 +17,7 @@ from gradysim.config.file.reader import Entry
 from gradysim.config.file.sections import Ranked
 from gradysim.config.matching.lookup import is_ignored
 from gradysim.config.value.drawing_functions import drawing_function_in
+from gradysim.config.value.quoted import is_quoted, unquoted
 
 REPETITION = "repetition"
 """The variable that counts the runs of one combination of values, from 0."""
@@ -143,9 +144,9 @@ def file_names_of_iterations(values: Mapping[str, str]) -> tuple[str, str]:
 
 
 def _for_file_name(value: str) -> str:
-    """The value without its quotes and spaces, and with the code of what some system has no files with."""
-    if len(value) > 1 and value[0] == value[-1] == '"':
-        value = re.sub(r"\\(.)", r"\1", value[1:-1], flags=re.DOTALL)
+    """The value, but a text without its quotes, no spaces, and a code for what some system does not take."""
+    if is_quoted(value):
+        value = unquoted(value)
     return _NOT_IN_FILE_NAMES.sub(
         lambda match: "".join(f"#{byte:02x}" for byte in match[0].encode(errors="surrogateescape")),
         value.replace(" ", "_"),

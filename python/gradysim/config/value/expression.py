@@ -41,7 +41,7 @@ from gradysim.config.value.functions import FUNCTIONS, SELECT
 from gradysim.config.value.operators import OPERATORS, Value
 from gradysim.config.value.parameter_context import INDEX, INDEX_FUNCTIONS, ParameterContext
 from gradysim.config.value.quantity import Number, Quantity
-from gradysim.config.value.quoted import QUOTED
+from gradysim.config.value.quoted import QUOTED, unquoted
 from gradysim.config.value.stray_token import is_operator_of_python, not_understood
 from gradysim.config.value.units import unit_named
 
@@ -55,7 +55,6 @@ _TOKENS = re.compile(
     )""",
     re.VERBOSE | re.ASCII | re.DOTALL,
 )
-_ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
 _SPEEDS = {"m/s": "mps", "km/h": "kmph", "km/s": "kmps"}
 """Units as people write them, and their names here."""
 _WORDS = ("true", "false", "inf", "nan")
@@ -157,9 +156,7 @@ class _Parser:
         kind, token = self._peek()
         self._position += 1
         if kind == "text":
-            return constant(
-                re.sub(r"\\(.)", lambda match: _ESCAPES.get(match[1], match[1]), token[1:-1], flags=re.DOTALL)
-            )
+            return constant(unquoted(token))
         if kind == "number" or token in ("inf", "nan"):
             self._position -= 1
             return constant(self._quantities())

@@ -33,6 +33,18 @@ def test_knows_the_file_and_what_paths_begin_with() -> None:
     assert substitute(entry("${inifile}: ${network}.**"), variables_of()).text == "a.ini: Field.**"
 
 
+@pytest.mark.parametrize(
+    ("value", "written"),
+    [
+        (r'"c\"d"', "c#22d"),
+        (r'"a\tb\\c"', "a#09b#5cc"),
+        ('"a" + "b"', "#22a#22_+_#22b#22"),
+    ],
+)
+def test_only_one_text_loses_its_quotes_in_names_of_files(value: str, written: str) -> None:
+    assert variables_of(iterations={"x": value})["iterationvarsd"] == f"x={written}"
+
+
 def test_writes_values_for_names_of_files() -> None:
     values = {"x": "1", "0": "2s", "q": '"a b/c:d\\""', "y": "é,*"}
     variables = variables_of(iterations=values)
