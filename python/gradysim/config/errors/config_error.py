@@ -1,12 +1,13 @@
 """The errors of a configuration: for the person who wrote the file, with the place and what was expected."""
 
+import re
 from pathlib import Path
 from typing import Self
 
-from gradysim.config.errors.source import Source
+from gradysim.config.errors.source import Source, shortened
 
-_MOST_LETTERS = 200
-"""Of a value in a message. The corners of an outline would fill a screen before it says what is wrong."""
+_LONG_WORD = re.compile(r"\S{1000,}")
+"""A value in a message, such as a number of a thousand digits: neither a name nor a path is as long."""
 
 
 class ConfigError(ValueError):
@@ -21,6 +22,7 @@ class ConfigError(ValueError):
     """
 
     def __init__(self, message: str, source: Source | None = None) -> None:
+        message = _LONG_WORD.sub(lambda word: shortened(word[0]), message)
         super().__init__(message, source)
         self.message = message
         self.source = source
@@ -32,14 +34,10 @@ class ConfigError(ValueError):
     def at(cls, source: Source, text: str) -> Self:
         """An error found elsewhere (the engine's check of a range, say) in the value at `source`."""
         is_told = source.is_override or not source.key
-        return cls(text if is_told else f"{source.key} = {_shortened(source.value)}: {text}", source)
+        return cls(text if is_told else f"{source.key} = {shortened(source.value)}: {text}", source)
 
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
-
-
-def _shortened(value: str) -> str:
-    return value if len(value) <= _MOST_LETTERS else f"{value[: _MOST_LETTERS // 2]}…"
 
 
 class BadValue(ValueError):  # noqa: N818 - no error of its own: see below

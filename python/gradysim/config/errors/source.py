@@ -3,6 +3,14 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+_MOST_LETTERS = 200
+"""Of a value in a message. The corners of an outline would fill a screen before it says what is wrong."""
+
+
+def shortened(value: str) -> str:
+    """A value as messages have it: of a long one only the beginning."""
+    return value if len(value) <= _MOST_LETTERS else f"{value[: _MOST_LETTERS // 2]}…"
+
 
 @dataclass(frozen=True)
 class Source:
@@ -29,5 +37,5 @@ class Source:
 
     def __str__(self) -> str:
         if self.is_override:
-            return f"{self.option} {self.key}={self.value}"
+            return f"{self.option} {self.key}={shortened(self.value)}"
         return f"{self.file}:{self.line}" if self.line else str(self.file)

@@ -42,6 +42,9 @@ again."""
 MAX_VALUES = 1_000_000
 """Of one variable; also the most runs of a configuration."""
 
+_MOST_DIGITS = 300
+"""Of the numbers of a range, which are written without exponents."""
+
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _DEFINITION = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)", re.ASCII | re.DOTALL)
 _LOCK_STEP = re.compile(r"(.*)!\s*([A-Za-z_]\w*)\s*", re.ASCII | re.DOTALL)
@@ -240,10 +243,13 @@ def _values(part: str, entry: Entry) -> Iterator[str]:
         yield part
         return
     try:
-        first, last, step = (Decimal(text) for text in (match[1], match[2], match[3] or "1"))
+        first, last, step = numbers = [Decimal(text) for text in (match[1], match[2], match[3] or "1")]
+        if any(abs(number.adjusted()) > _MOST_DIGITS for number in numbers):
+            raise Overflow
         count = (last - first) / step if step else Decimal(-1)
     except (InvalidOperation, Overflow):  # an exponent beyond all bounds
-        raise ConfigError.at(entry.source, f"`{part}` is out of range; expected smaller numbers") from None
+        text = f"`{part}` is out of range; expected numbers of at most {_MOST_DIGITS} digits"
+        raise ConfigError.at(entry.source, text) from None
     if count < 0:
         raise ConfigError.at(
             entry.source, f"`{part}` has no values; expected a step that leads from the first to the last"

@@ -33,6 +33,12 @@ def test_at_leaves_most_of_a_long_value_out() -> None:
     assert str(ConfigError.at(source, "out of range")) == f"a.ini:7: *.x.points = {'1' * 100}…: out of range"
 
 
+def test_a_message_leaves_most_of_a_long_word_out() -> None:
+    error = ConfigError(f"that is {'1' * 100_000}: out of range; expected {'a' * 999}", SOURCE)
+    assert str(error) == f"a.ini:7: that is {'1' * 100}… out of range; expected {'a' * 999}"
+    assert str(pickle.loads(pickle.dumps(error))) == str(error)
+
+
 def test_at_does_not_repeat_what_an_override_says() -> None:
     source = Source(Path("a.ini"), 0, "repeat", "0", "--set")
     assert str(ConfigError.at(source, "out of range")) == "--set repeat=0: out of range"

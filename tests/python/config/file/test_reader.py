@@ -234,8 +234,8 @@ def test_a_link_that_leads_to_itself_is_no_file(write_ini: Write, tmp_path: Path
 @pytest.mark.parametrize("name", ["m" * 300, "m" * 5000, "m" * 5000 + "/more.ini"])
 def test_a_name_that_no_file_has_is_an_error(write_ini: Write, name: str) -> None:
     text = error_of(write_ini(f"include {name}\n"))
-    assert text.startswith(f"test.ini:1: {name}: ")
-    assert text.endswith("; expected an .ini file")
+    assert text.startswith("test.ini:1: ")
+    assert text.endswith(" File name too long; expected an .ini file")
 
 
 def test_a_missing_file_has_no_line(tmp_path: Path, write_ini: Write) -> None:

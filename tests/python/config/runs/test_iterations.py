@@ -119,8 +119,13 @@ def test_what_is_ignored_iterates_over_nothing() -> None:
         (["${0..1 step 1e-9}"], "`0..1 step 1e-9` has too many values; expected at most 1000000"),
         (
             ["${0..1e999999 step 1e-9}"],
-            "`0..1e999999 step 1e-9` is out of range; expected smaller numbers",
+            "`0..1e999999 step 1e-9` is out of range; expected numbers of at most 300 digits",
         ),
+        (
+            ["${1e999999..1e999999}"],
+            "`1e999999..1e999999` is out of range; expected numbers of at most 300 digits",
+        ),
+        (["${1e-999999..1}"], "`1e-999999..1` is out of range; expected numbers of at most 300 digits"),
         (
             ["${runnumber=1,2}"],
             "`${runnumber}` is there in every run; expected another name",
