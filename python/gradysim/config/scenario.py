@@ -12,7 +12,7 @@ from gradysim.config.file.reader import GENERAL, Entry, IniFile, Section, read_i
 from gradysim.config.file.sections import Ranked, config_names, search_order, unused_sections
 from gradysim.config.keys import NETWORK_KEYS
 from gradysim.config.keys.key import Key
-from gradysim.config.keys.options import LONGEST_RUN_S, OPTIONS
+from gradysim.config.keys.options import LONGEST_RUN_S, NETWORK, OPTIONS
 from gradysim.config.matching.groups import find_groups
 from gradysim.config.matching.key_check import (
     NoSuchNodeError,
@@ -211,7 +211,7 @@ def load_scenarios(
             check_option(entry)
 
     source = sections[0].source
-    network_of_file = network_name(next((entry for _, entry in ranked if entry.key == "network"), None))
+    network_of_file = network_name(next((entry for _, entry in ranked if entry.key == NETWORK), None))
     ranked, variables = name_iterations(ranked)
     lines = tuple(entry for _, entry in ranked)
     only_options = [entry for entry in lines if is_option(entry)]

@@ -48,6 +48,14 @@ def test_a_line_below_one_that_fits_as_well_is_told_in_both_modes(
     assert capsys.readouterr().err.count("warning: `*.uavs[0].mobility.speed` has no effect: line ") == 1
 
 
+def test_a_second_name_of_the_network_is_told(ini: str, capsys: pytest.CaptureFixture[str]) -> None:
+    file = Path(ini)
+    first, *rest = file.read_text("utf-8").splitlines()
+    file.write_text("\n".join([first, "network = Network", "network = Other", *rest]), "utf-8")
+    assert main(["run", ini, "--quiet", "--mode", "prototype"]) == 0
+    assert ":3: warning: `network` has no effect: line 2, `network`, says" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("command", ["run", "runs"])
 def test_of_two_settings_with_one_key_the_second_is_told(
     ini: str, capsys: pytest.CaptureFixture[str], command: str

@@ -6,7 +6,6 @@ Those that say how it runs, shows and records are ignored. Those that would make
 from types import MappingProxyType
 
 IGNORED_OPTIONS = (
-    "network",
     "allow-object-stealing-on-deletion",
     "check-signals",
     "cmdenv-*",
@@ -48,7 +47,7 @@ IGNORED_OPTIONS = (
     "user-interface",
     "warnings",
 )
-"""Of a run, with `*` for any letters. `network` is only the name that paths begin with."""
+"""Of a run, with `*` for any letters."""
 
 IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-", "rng-", "vector-record", "vector-buffer")
 """Of the last names of keys: options that are given per module, such as `**.cmdenv-log-level`."""

@@ -71,5 +71,8 @@ OPTION_KEYS: tuple[Key, ...] = (
 
 OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
 
+NETWORK = "network"
+"""The option that says what paths begin with: OMNeT++'s, of which nothing else counts."""
+
 SECTION_OPTIONS = ("extends", "abstract")
 """Options that belong to a section and cannot be given on the command line."""

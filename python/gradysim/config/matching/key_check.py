@@ -18,7 +18,7 @@ from gradysim.config.keys.environment import OBSTACLE_KEYS, obstacle_path
 from gradysim.config.keys.interface import at_interface
 from gradysim.config.keys.node import GROUP_SIZE
 from gradysim.config.keys.omnetpp_options import REFUSED_OPTIONS
-from gradysim.config.keys.options import OPTIONS, SECTION_OPTIONS
+from gradysim.config.keys.options import NETWORK, OPTIONS, SECTION_OPTIONS
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.config.matching.lookup import Found, Lookup, is_ignored
@@ -49,12 +49,12 @@ def check_option(entry: Entry) -> None:
     key = entry.key
     if key in SECTION_OPTIONS and entry.source.is_override:
         raise ConfigError(f"`{key}` belongs to a section; expected it in the file", entry.source)
-    if key in OPTIONS or key in SECTION_OPTIONS or is_ignored(entry):
+    if key in (*OPTIONS, *SECTION_OPTIONS, NETWORK) or is_ignored(entry):
         return
     for option, instead in REFUSED_OPTIONS.items():
         if fnmatchcase(key, option):
             raise ConfigError(f"`{key}` is an option that only OMNeT++ has: {instead}", entry.source)
-    hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, "network", "result-dir"])
+    hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, NETWORK, "result-dir"])
     if re.fullmatch(r"num[A-Z]\w*", key):
         hint = f"; did you mean `*.{key}`?"
     raise ConfigError(

@@ -5,6 +5,7 @@ Patterns are compiled once; which of them can match a rest is found once per res
 node is one step for entries that name the node, and one match for each of the others.
 """
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -18,8 +19,12 @@ from gradysim.config.keys.omnetpp_options import (
     IGNORED_MODULES,
     IGNORED_OPTIONS,
 )
+from gradysim.config.keys.options import NETWORK
 from gradysim.config.value.parameter_context import differs_between_parameters
 from gradysim.config.value.pattern import Pattern, compile_pattern
+
+_NETWORK_NAME = re.compile(r'("?)(?:[A-Za-z_]\w*\.)*([A-Za-z_]\w*)\1', re.ASCII)
+"""With the names of packages before it, and in quotes or not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +121,7 @@ class Lookup:
         for _, entry in ranked:
             if is_option(entry):
                 self.options.setdefault(entry.key, entry)
-        self.network = network_name(self.options.get("network"))
+        self.network = network_name(self.options.get(NETWORK))
         self.found = [
             _compile(order, rank, entry)
             for order, (rank, entry) in enumerate(ranked)
@@ -150,11 +155,17 @@ class Lookup:
 def network_name(network: Entry | None) -> str:
     """What paths begin with; `network` is the option of that name, which may name a package, too.
 
-    Raises ConfigError for one with variables.
+    Raises ConfigError for one with variables, and for what is no name.
     """
-    if network and "${" in network.text:
+    if network is None:
+        return "Network"
+    if "${" in network.text:
         raise ConfigError.at(network.source, "it is the same in all runs; expected a name without variables")
-    return network.text.strip('"').rpartition(".")[2] if network else "Network"
+    match = _NETWORK_NAME.fullmatch(network.text)
+    if match is None:
+        text = "expected the name of a network, such as `Network` or `package.Network`"
+        raise ConfigError.at(network.source, text)
+    return match[2]
 
 
 def is_option(entry: Entry) -> bool:

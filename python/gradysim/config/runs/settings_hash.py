@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Iterable
 
 from gradysim.config.file.sections import Ranked
+from gradysim.config.keys.options import NETWORK
 from gradysim.config.matching.lookup import is_ignored
 from gradysim.config.runs.labels import LABEL_OPTIONS
 
@@ -12,6 +13,7 @@ OF_NO_RUN = (
     "constraint",
     "iteration-nesting-order",
     "description",
+    NETWORK,
     "extends",
     "abstract",
     *LABEL_OPTIONS,

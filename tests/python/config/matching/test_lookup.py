@@ -55,6 +55,26 @@ def test_the_name_of_the_network_has_no_variables() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [("Field", "Field"), ('"Field"', "Field"), ("a.b_2.Field", "Field"), ('"a.Field"', "Field")],
+)
+def test_the_name_of_the_network_may_follow_packages(text: str, name: str) -> None:
+    assert network_name(Entry("network", text, Source(Path("a.ini"), 9), "General")) == name
+
+
+@pytest.mark.parametrize(
+    "text", ["a.", ".a", "*", "a b", "a..b", '"a', "2a", '""', "a-b", "a.*", "fl\u00e4che"]
+)
+def test_what_is_no_name_of_a_network_is_refused(text: str) -> None:
+    network = Entry("network", text, Source(Path("a.ini"), 9, "network", text), "General")
+    with pytest.raises(ConfigError) as caught:
+        network_name(network)
+    assert str(caught.value) == (
+        f"a.ini:9: network = {text}: expected the name of a network, such as `Network` or `package.Network`"
+    )
+
+
 def test_what_omnetpp_alone_reads_is_left_out() -> None:
     keys = [
         "*.visualizer.a.b",

@@ -26,6 +26,7 @@ def test_other_settings_have_another(folder: Any, other: list[str]) -> None:
     [
         "repeat = 3\n",
         "description = again\n",
+        "network = Network\n",
         "*.visualizer.x = 3\n",
         "constraint = 1 < 2\n",
         "iteration-nesting-order = *\n",
