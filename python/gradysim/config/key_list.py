@@ -69,10 +69,12 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 
     So a key is found by its values and its meaning, too. Case does not matter. Keys are listed for `nodes`
     and any index, `wlan[*]`: what is asked for one index or a range is found there, and what is asked for
-    another group, `*.uavs[0].mobility.speed`.
+    another group, `*.uavs[0].mobility.speed`. If no key matches, those that begin so are listed.
     """
     everything = list(sections)
-    return _matching(everything, pattern) or _matching(everything, _group_as_nodes(pattern))
+    wanted = (pattern, _group_as_nodes(pattern))
+    found = (_matching(everything, name + end) for end in ("", "*") for name in wanted)
+    return next(filter(None, found), [])
 
 
 def key_meant(sections: Iterable[KeySection], pattern: str) -> str:

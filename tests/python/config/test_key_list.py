@@ -92,6 +92,18 @@ def test_what_is_asked_of_a_group_is_found_for_any(group: str) -> None:
     assert keys(f"*.{group}.mobility.speed") == ["*.nodes[*].mobility.speed"]
 
 
+@pytest.mark.parametrize("group", ["nodes[*]", "uavs[*]", "groundStation"])
+def test_a_pattern_that_keys_begin_with_finds_them(group: str) -> None:
+    assert keys(f"*.{group}.mobility") == keys("nodes[*].mobility") != []
+    assert keys(f"*.{group}.mobility.separation") == [
+        f"*.nodes[*].mobility.separation{axis}" for axis in "XY"
+    ]
+
+
+def test_keys_that_match_are_all_of_a_pattern() -> None:
+    assert keys("*.radioMedium.pathLoss.alpha") == ["*.radioMedium.pathLoss.alpha"]
+
+
 def test_the_network_has_parts_that_are_no_groups() -> None:
     assert keys("*.radioMedium.pathLoss.k") == ["*.radioMedium.pathLoss.k"]
     assert keys("*.radioMedium.mobility.speed") == []
