@@ -39,7 +39,7 @@ from gradysim.commands.warnings import (
     warn_of_unread_variables,
     warn_of_what_is_seldom_meant,
 )
-from gradysim.commands.written_files import check_can_be_written, write_files
+from gradysim.commands.written_files import check_can_be_written, check_names_fit, write_files
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
@@ -83,6 +83,7 @@ def run(
                 scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode, asked)
             check_names(scenarios, asked)
+            check_names_fit(scenarios, mode, asked)
             warn_of_equal_seeds(scenarios)
             if resume:
                 scenarios = left_to_do(scenarios, mode, asked)

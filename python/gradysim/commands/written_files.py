@@ -1,5 +1,7 @@
 """The files that a run of `gradysim run` leaves behind."""
 
+import errno
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +15,10 @@ if TYPE_CHECKING:
     from gradysim.results.run_result import RunResult
 
 
+_LONGEST_PID = 2**22
+"""As Linux counts. Files that are being written have the number of the process at the end of their names."""
+
+
 def check_can_be_written(asked: Asked) -> None:
     """Raise ConfigError for files that this Python cannot write, before runs that take hours."""
     if not (asked.scalars or asked.vectors):
@@ -24,6 +30,36 @@ def check_can_be_written(asked: Asked) -> None:
 
         option = "--scalars" if asked.scalars else f"--vectors {asked.vectors[0]}"
         raise ConfigError(f"{option}: {error}; expected a Python with the module sqlite3") from error
+
+
+def check_names_fit(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> None:
+    """Raise ConfigError for a name of a file that is too long for the folder, before the first run begins."""
+    from gradysim.config.errors.config_error import ConfigError
+
+    last = max(scenarios, key=lambda scenario: scenario.run_number)
+    folders = (asked.directory, *asked.directory.parents)
+    there = next((folder for folder in folders if folder.is_dir()), Path())  # captures make theirs themselves
+    for file in _all_files(last, mode, asked):
+        try:
+            os.lstat(there / file.name)
+        except OSError as error:
+            if error.errno == errno.ENAMETOOLONG:
+                raise ConfigError(
+                    f"--result-dir {asked.directory}: {file.name} would be too long a name of a file in it;"
+                    " expected a shorter name of the configuration"
+                ) from error
+
+
+def _all_files(scenario: "Scenario", mode: Mode, asked: Asked) -> Iterator[Path]:
+    """Give the files that a run will write, those that are renamed once they are complete as until then."""
+    from gradysim.results.run_file import run_file
+
+    yield from capture_files_of(scenario, asked)
+    complete = _for_omnetpp(scenario, mode, asked)
+    if asked.result_dir is not None:
+        complete.append(run_file(asked.directory, scenario.config, scenario.run_number, mode))
+    for file in complete:
+        yield file.with_name(f"{file.name}.{_LONGEST_PID}")
 
 
 def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:

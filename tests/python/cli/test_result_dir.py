@@ -38,6 +38,28 @@ def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatc
     assert capsys.readouterr() == ("", told)
 
 
+@both_modes
+@pytest.mark.parametrize("option", ["--result-dir", "--scalars", "--vectors", "--pcap"])
+def test_a_configuration_with_too_long_a_name_is_told_before_the_runs(folder, gradysim, mode, option):
+    if option == "--pcap" and mode == "prototype":
+        pytest.skip("prototype mode has no frames to capture")
+    suffixes = {"--result-dir": f".{mode}.json.1234567", "--pcap": "-uavs[1].pcap"}
+    suffix = suffixes.get(option, f".{mode}.sca.1234567")
+    fits = 255 - len(f"-#2{suffix}")
+    values = {"--result-dir": ["results"], "--scalars": []}.get(option, ["all"])
+    for length, code in ((fits + 1, 2), (fits, 0)):
+        name = "L" * length
+        with (folder / "test.ini").open("a") as file:
+            file.write(f"[Config {name}]\n")
+        done = gradysim("run", "test.ini", "-c", name, "--mode", mode, "--quiet", option, *values)
+        assert done.returncode == code
+        if code:
+            assert done.stdout == ""
+            assert done.stderr.startswith(f"--result-dir results: {name}-#2")
+            told = " would be too long a name of a file in it; expected a shorter name of the configuration\n"
+            assert done.stderr.endswith(told)
+
+
 GOES_AWAY = """
 import os
 
