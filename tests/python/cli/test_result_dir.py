@@ -6,7 +6,7 @@ import os
 import pytest
 
 from gradysim.cli import main
-from python.cli.command import both_modes
+from python.cli.command import both_modes, compiled
 
 
 def test_files_of_results_are_written_to_it(gradysim, folder):
@@ -38,11 +38,15 @@ def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatc
     assert capsys.readouterr() == ("", told)
 
 
-@both_modes
-@pytest.mark.parametrize("option", ["--result-dir", "--scalars", "--vectors", "--pcap"])
+@pytest.mark.parametrize(
+    ("mode", "option"),
+    [("prototype", option) for option in ("--result-dir", "--scalars", "--vectors")]
+    + [
+        pytest.param("integrated", option, marks=compiled)
+        for option in ("--result-dir", "--scalars", "--vectors", "--pcap")
+    ],
+)
 def test_a_configuration_with_too_long_a_name_is_told_before_the_runs(folder, gradysim, mode, option):
-    if option == "--pcap" and mode == "prototype":
-        pytest.skip("prototype mode has no frames to capture")
     suffixes = {"--result-dir": f".{mode}.json.1234567", "--pcap": "-uavs[1].pcap"}
     suffix = suffixes.get(option, f".{mode}.sca.1234567")
     fits = 255 - len(f"-#2{suffix}")
