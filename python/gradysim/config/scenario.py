@@ -6,10 +6,9 @@ from pathlib import Path
 
 from gradysim.config.errors.argument_names import OF_SCRIPT, ArgumentNames
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.nearest import nearest
 from gradysim.config.errors.source import Source
-from gradysim.config.file.reader import GENERAL, Entry, IniFile, Section, read_ini, read_overrides
-from gradysim.config.file.sections import Ranked, config_names, search_order, unused_sections
+from gradysim.config.file.reader import Entry, Section, read_ini, read_overrides
+from gradysim.config.file.sections import Ranked, search_order, what_to_run_instead
 from gradysim.config.keys import NETWORK_KEYS
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.options import LONGEST_RUN_S, NETWORK, OPTIONS
@@ -40,9 +39,6 @@ from gradysim.config.runs.variables import depends_on_run, run_variables, substi
 from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
 from gradysim.protocol.checked_values import checked_number
-
-MAX_NAMES = 20
-"""Configurations that a message lists."""
 
 
 @dataclass(frozen=True)
@@ -224,7 +220,7 @@ def load_scenarios(
     parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
     varying = [entry for entry in parameters if depends_on_run(entry)]
     always_draws = any(drawing_function_in(entry.text) for entry in parameters)
-    instead = _what_to_run_instead(ini, config, sections, names.config)
+    instead = what_to_run_instead(ini, config, sections, names.config)
     in_force = entries_of_the_hash(ranked)
     elsewhere: list[Sequence[Source]] = []
     scenarios = []
@@ -281,20 +277,6 @@ def _check_lines_of_other_runs(elsewhere: Sequence[Sequence[Source]]) -> None:
             raise NoSuchNodeError(
                 f"`{line.key}` matches no node in any run; expected a node that some run has", line
             )
-
-
-def _what_to_run_instead(ini: IniFile, config: str, sections: list[Section], name: str) -> str:
-    """What to add to an error of a configuration that lacks something: a misspelt section, or the others."""
-    unused = unused_sections(ini, sections)
-    general_is_empty = not ini.sections[GENERAL].entries
-    match = nearest(GENERAL, unused) if general_is_empty else None
-    if match is not None:
-        return f"; [{match}] at line {ini.sections[match].source.line} is not used: did you mean [{GENERAL}]?"
-    names = config_names(ini)
-    if config in names:
-        return ""
-    listed = ", ".join(names[:MAX_NAMES]) + (", …" if len(names) > MAX_NAMES else "")
-    return f"; or run another configuration of the file: `{name} NAME`, {listed}"
 
 
 def _scenario(

@@ -3,9 +3,12 @@
 from typing import NamedTuple
 
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.errors.nearest import did_you_mean, nearest
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import GENERAL, Entry, IniFile, Section
+
+_MAX_NAMES = 20
+"""Configurations that a message lists."""
 
 _DEEPEST = 100
 """Sections that extend each other in a row; Python's stack has such a limit, too."""
@@ -132,3 +135,20 @@ def _is_true(entry: Entry) -> bool:
     if entry.text not in ("true", "false"):
         raise ConfigError(f"{entry.key} = {entry.text}: expected true or false", entry.source)
     return entry.text == "true"
+
+
+def what_to_run_instead(ini: IniFile, config: str, sections: list[Section], name: str) -> str:
+    """What to add to an error of a configuration that lacks something: a misspelt section, or the others.
+
+    `name` is what the caller calls that of a configuration.
+    """
+    unused = unused_sections(ini, sections)
+    general_is_empty = not ini.sections[GENERAL].entries
+    match = nearest(GENERAL, unused) if general_is_empty else None
+    if match is not None:
+        return f"; [{match}] at line {ini.sections[match].source.line} is not used: did you mean [{GENERAL}]?"
+    names = config_names(ini)
+    if config in names:
+        return ""
+    listed = ", ".join(names[:_MAX_NAMES]) + (", …" if len(names) > _MAX_NAMES else "")
+    return f"; or run another configuration of the file: `{name} NAME`, {listed}"
