@@ -11,6 +11,7 @@
 
 namespace netsim {
 
+// So many pointers, one behind the other, lead at most from an event to what it will touch (Node::fetch_for_timer).
 constexpr int fetch_steps = 5;
 
 inline void fetch_bytes(const void* object, std::size_t bytes) {

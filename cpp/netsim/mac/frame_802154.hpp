@@ -26,7 +26,7 @@ constexpr int narrowband_psdu_bytes(int payload_bytes) {
     return narrowband_overhead_bytes + datagram_bytes(payload_bytes);
 }
 
-// Whether its sender waits for an ACK: of a unicast, perhaps.
+// Whether the sender of a data frame waits for an ACK; never that of a broadcast.
 inline bool asks_for_ack(const Frame& data) {
     return data.duration_field > SimTime();
 }

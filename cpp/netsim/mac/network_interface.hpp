@@ -29,7 +29,8 @@ public:
     // longest_message_bytes().
     virtual void send(NodeId destination, Payload payload) = 0;
     virtual std::size_t longest_message_bytes() const = 0;
-    // A message will probably be sent soon: has what that touches brought into the cache (kernel/fetch.hpp).
+    // A message will probably be sent soon: has what that touches brought into the cache (kernel/fetch.hpp). Its first line is
+    // there; in step 0 what it leads to is asked for, in step 1 what that leads to.
     virtual void fetch(int step) const = 0;
     // Messages that were accepted and are in no other fate yet: a census to check the ledger with.
     virtual std::size_t queued_messages() const = 0;

@@ -154,8 +154,8 @@ template <typename Rate>
 double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
     const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
     if (mode.family == ModeFamily::ofdm) {
-        return ofdm_header_bits * rate(ofdm_bounds(Constellation::bpsk, CodeRate::one_half)) +
-               bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
+        static const BitErrorBounds& header = ofdm_bounds(Constellation::bpsk, CodeRate::one_half);
+        return ofdm_header_bits * rate(header) + bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
     }
     NETSIM_ASSERT(mode.family == ModeFamily::dsss);
     return dsss_header_bits * rate(dsss_bounds(1'000'000)) + bits * rate(dsss_bounds(mode.bitrate_bps));
