@@ -18,5 +18,7 @@ def with_fresh_protocols(scenario: "Scenario") -> "Scenario":
 
     forget_parametrized()
     anew = loaded_anew({node.protocol for node in scenario.nodes})
+    if not anew:
+        return scenario
     nodes = (replace(node, protocol=anew.get(node.protocol, node.protocol)) for node in scenario.nodes)
     return replace(scenario, nodes=tuple(nodes))
