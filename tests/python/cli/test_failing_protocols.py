@@ -30,16 +30,21 @@ class Careless(Talker):
 OF_CARELESS = ("--set", '*.uavs[*].protocol.class = "protocol.py:Careless"', "--result-dir", "out")
 
 
+def assert_told_with_results(done, folder, mode, error):
+    """It failed in a callback of Careless, and what was computed until then is shown and kept."""
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-2] == error
+    assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
+    assert "said = 1" in done.stdout
+    assert (folder / f"out/General-#0.{mode}.json").is_file()
+
+
 @both_modes
 def test_a_protocol_that_raises_what_is_no_exception_as_others(gradysim, folder, mode):
     with (folder / "protocol.py").open("a") as protocol:
         protocol.write(CARELESS.format('raise asyncio.CancelledError("given up")'))
     done = gradysim("run", "test.ini", "--mode", mode, "-r", "0", *OF_CARELESS)
-    assert done.returncode == 1
-    assert done.stderr.splitlines()[-2] == "asyncio.exceptions.CancelledError: given up"
-    assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
-    assert "said = 1" in done.stdout
-    assert (folder / f"out/General-#0.{mode}.json").is_file()
+    assert_told_with_results(done, folder, mode, "asyncio.exceptions.CancelledError: given up")
 
 
 @both_modes
@@ -48,11 +53,7 @@ def test_variables_that_are_none_fail_where_they_are_assigned(gradysim, folder, 
     with (folder / "protocol.py").open("a") as protocol:
         protocol.write(CARELESS.format("self.provider.tracked_variables = None"))
     done = gradysim("run", "test.ini", "--mode", mode, "-r", "0", *OF_CARELESS, *options)
-    assert done.returncode == 1
-    assert done.stderr.splitlines()[-2] == "TypeError: tracked_variables = None: expected a dict"
-    assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
-    assert "said = 1" in done.stdout
-    assert (folder / f"out/General-#0.{mode}.json").is_file()
+    assert_told_with_results(done, folder, mode, "TypeError: tracked_variables = None: expected a dict")
 
 
 @both_modes
