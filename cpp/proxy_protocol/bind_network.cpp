@@ -129,7 +129,8 @@ void bind_network(py::module_& module) {
         .def(
             "schedule",
             [](Network& network, double time, py::function callback) {
-                network.schedule(SimTime::of_event(time), [callback = std::move(callback)] { callback(); });
+                network.schedule(SimTime::of_event(time, network.now()),
+                                 [callback = std::move(callback)] { callback(); });
             },
             py::arg("time"), py::arg("callback"))
         .def("finish", &Network::finish)

@@ -198,7 +198,7 @@ void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) 
             if (!std::isfinite(time_s)) {
                 throw Unreadable();
             }
-            node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s));
+            node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s, node.now()));
         },
         [&] { return ask("wrong_timer", timer, timestamp, node.id(), node.now().seconds()); });
 }

@@ -1,7 +1,5 @@
 #include "proxy_protocol/python_protocol.hpp"
 
-#include <bit>
-#include <cstdint>
 #include <utility>
 
 #include "proxy_protocol/python_text.hpp"
@@ -42,33 +40,22 @@ void PythonProtocol::handle_packet(const netsim::Payload& message) {
 }
 
 void PythonProtocol::handle_telemetry(const netsim::Position& position) {
-    // Telemetry(current_position=(x, y, z)), up to a hundred times a second for each node. If the protocol kept no
-    // reference to the last one, nobody can tell whether this is a new one: it is used again, as zip() does with its
-    // tuples.
-    if (!telemetry_ || Py_REFCNT(telemetry_.ptr()) != 1 || Py_REFCNT(coordinates_.ptr()) != 2) {
-        auto* type = reinterpret_cast<PyTypeObject*>(telemetry_class_.ptr());
-        telemetry_ = py::reinterpret_steal<py::object>(type->tp_alloc(type, 0));
-        coordinates_ = py::tuple(3);
-        if (!telemetry_ ||
-            PyObject_SetAttr(telemetry_.ptr(), current_position_.ptr(), coordinates_.ptr()) != 0) {
-            throw py::error_already_set();
-        }
+    // Telemetry(current_position=(x, y, z)), up to a hundred times a second for each node: without the call of its __init__.
+    auto* type = reinterpret_cast<PyTypeObject*>(telemetry_class_.ptr());
+    const auto telemetry =
+        py::reinterpret_steal<py::object>(type->tp_new(type, no_arguments_.ptr(), nullptr));
+    const auto coordinates = py::reinterpret_steal<py::object>(PyTuple_New(3));
+    if (!telemetry || !coordinates) {
+        throw py::error_already_set();
     }
     const double values[] = {position.x, position.y, position.z};
-    for (Py_ssize_t index = 0; index < 3; ++index) {
-        PyObject* old = PyTuple_GET_ITEM(coordinates_.ptr(), index);
-        if (old != nullptr && std::bit_cast<std::uint64_t>(PyFloat_AS_DOUBLE(old)) ==
-                                  std::bit_cast<std::uint64_t>(values[index])) {
-            continue;  // vehicles often fly along an axis, and stand still
-        }
-        PyObject* value = PyFloat_FromDouble(values[index]);
-        if (value == nullptr) {
-            throw py::error_already_set();
-        }
-        PyTuple_SET_ITEM(coordinates_.ptr(), index, value);
-        Py_XDECREF(old);
+    for (Py_ssize_t axis = 0; axis < 3; ++axis) {
+        PyTuple_SET_ITEM(coordinates.ptr(), axis, py::float_(values[axis]).release().ptr());
     }
-    call(handle_telemetry_, telemetry_);
+    if (PyObject_SetAttr(telemetry.ptr(), current_position_.ptr(), coordinates.ptr()) != 0) {
+        throw py::error_already_set();
+    }
+    call(handle_telemetry_, telemetry);
 }
 
 void PythonProtocol::finish() {

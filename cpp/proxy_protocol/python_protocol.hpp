@@ -31,8 +31,7 @@ private:
     pybind11::object on_failure_;
     pybind11::object telemetry_class_;
     pybind11::object current_position_;  // the interned name of Telemetry's field
-    pybind11::object telemetry_;         // the last one handed out, and the tuple in it
-    pybind11::object coordinates_;
+    pybind11::tuple no_arguments_;
     pybind11::object initialize_;  // the interned names of the methods
     pybind11::object handle_timer_;
     pybind11::object handle_packet_;

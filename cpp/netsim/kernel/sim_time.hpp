@@ -37,6 +37,12 @@ public:
         const bool is_too_late = seconds > longest_run_s && seconds <= std::numeric_limits<double>::max();
         return is_too_late ? never() : from_seconds(seconds);
     }
+    // The same for who reckons from now().seconds(): what is not before that is not before `now` either. From 8192 s on, float
+    // seconds are more than a picosecond apart, and those of an instant may lie before it.
+    static SimTime of_event(double seconds, SimTime now) {
+        const SimTime event = of_event(seconds);
+        return seconds >= now.seconds() && event < now ? now : event;
+    }
     // An instant that no run reaches.
     static constexpr SimTime never() { return from_us(9'210'000'000'000); }
     static constexpr SimTime max() { return SimTime(std::numeric_limits<std::int64_t>::max()); }

@@ -58,6 +58,16 @@ TEST(SimTime, AnEventAfterTheLongestRunIsNever) {
     EXPECT_GT(SimTime::never(), SimTime::from_seconds(SimTime::longest_run_s));
 }
 
+TEST(SimTime, AnEventForNowIsNotBeforeIt) {
+    const SimTime now = SimTime::from_ps(9'021'889'050'000'001);
+    ASSERT_LT(SimTime::of_event(now.seconds()), now);
+    EXPECT_EQ(SimTime::of_event(now.seconds(), now), now);
+    const double before_s = std::nextafter(now.seconds(), 0);
+    EXPECT_EQ(SimTime::of_event(before_s, now), SimTime::of_event(before_s));
+    const double later_s = now.seconds() + 1e-9;
+    EXPECT_EQ(SimTime::of_event(later_s, now), SimTime::of_event(later_s));
+}
+
 TEST(SimTime, TheTimeOfAnEventHasToBeANumber) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (const double seconds : {std::nan(""), infinity, -infinity, -9.3e6}) {

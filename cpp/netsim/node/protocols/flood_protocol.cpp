@@ -101,8 +101,7 @@ void FloodProtocol::handle_packet(const Payload& message) {
     most_hops_ = std::max(most_hops_, hops);
     if (hops < config_.hop_limit) {
         const double time_s = node_.now().seconds() + node_.random().uniform(0, config_.jitter_s);
-        // Not before now, whatever the rounding.
-        node_.schedule_timer(text(number, hops + 1), std::max(node_.now(), SimTime::of_event(time_s)));
+        node_.schedule_timer(text(number, hops + 1), SimTime::of_event(time_s, node_.now()));
     }
 }
 

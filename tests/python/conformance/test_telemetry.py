@@ -1,0 +1,72 @@
+"""A protocol may do with a telemetry what it likes: the next one is another."""
+
+from typing import Any
+
+import pytest
+from perfect_channel import MODES, Case
+
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position
+from python.quiet_protocol import Quiet
+
+
+class Flying(Quiet):
+    """Flies along x, and writes down where."""
+
+    def initialize(self) -> None:
+        self.places: list[Position] = []
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(100.0, 0.0, 0.0))
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        x, y, z = telemetry.current_position
+        self.places.append((x, y, z))
+
+    def finish(self) -> None:
+        self.provider.tracked_variables["places"] = self.places
+
+
+class Blurring(Flying):
+    """Puts another place over the one that it is told, as a sensor with an error would."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        self.places.append(telemetry.current_position)
+        telemetry.current_position = (0.0, 0.0, 0.0)
+
+
+class Marking(Flying):
+    """Leaves a mark on every telemetry, and finds those left before."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        super().handle_telemetry(telemetry)
+        assert not hasattr(telemetry, "seen")
+        telemetry.seen = True  # type: ignore[attr-defined]
+
+
+class Keeping(Flying):
+    """Keeps all telemetries to read them in the end."""
+
+    def initialize(self) -> None:
+        super().initialize()
+        self.kept: list[Telemetry] = []
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        self.kept.append(telemetry)
+
+    def finish(self) -> None:
+        for telemetry in self.kept:
+            super().handle_telemetry(telemetry)
+        super().finish()
+
+
+def places(mode: str, protocol: type[Flying]) -> Any:
+    case = Case([(0.0, 0.0, 0.0)], telemetry_interval_s=0.125, speed_mps=8.0, duration_s=1.0)
+    return case.run(mode, protocol).nodes[0].tracked_variables["places"]
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("protocol", [Blurring, Marking, Keeping])
+def test_each_telemetry_is_its_own(mode: str, protocol: type[Flying]) -> None:
+    flown = places(mode, Flying)
+    assert len(set(flown)) >= 7
+    assert places(mode, protocol) == flown
