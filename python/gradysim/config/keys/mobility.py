@@ -21,7 +21,14 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     _own(
         "typename",
         "typename",
-        choice(MASSLESS, STATIONARY, STATIC_GRID, ARDUPILOT),
+        choice(
+            MASSLESS,
+            STATIONARY,
+            STATIC_GRID,
+            ARDUPILOT,
+            otherwise="protocols move their nodes here, with plugins for waypoints, random trips and more"
+            " (docs/guides/plugins.md)",
+        ),
         "How it moves: as its protocol says (missions, random waypoints: docs/guides/plugins.md), or not;"
         " StaticGridMobility: it does not, and starts in a grid; ArdupilotMobility: as its protocol says,"
         " flown by a real autopilot (docs/guides/ardupilot.md)",

@@ -8,6 +8,7 @@ from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_
 from gradysim.config.keys.interface import WLAN, interface_in, written_for
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS
 from gradysim.config.matching.groups import Group
+from gradysim.config.matching.inet_modules import instead_of_module
 from gradysim.config.matching.lookup import Found
 from gradysim.config.protocol.parameter_unit import annotations_of
 from gradysim.config.protocol.parameters import parameters_of
@@ -28,9 +29,12 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
     if re.fullmatch(r"num(?!ber)[a-z]\w*", base) and len(found.parts) == 2:
         size = f"`*.num{base[3].upper()}{base[4:]}`"
         return f"`{key}` matches no node; expected a capital letter where the group's name begins: {size}"
+    inets = instead_of_module([base])
     match = nearest(base, [*(group.name for group in groups), *NETWORK_MODULES])
     group = next((group for group in groups if group.name == match), None)
-    if match is not None:
+    if inets and not any(group.name == match for group in groups):
+        hint = inets
+    elif match is not None:
         nearest_parts = [found.parts[0].text, group.written if group else match]
         nearest_parts += [part.text for part in found.parts[2:]]
         hint = f"; did you mean `{'.'.join(nearest_parts)}`?"
@@ -73,7 +77,8 @@ def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Seque
     if interface and _is_of_first_interface(key[interface.end() :]):  # the nearest key would be this one
         expected = "one of an interface that `numWlanInterfaces` of the node counts"
         return f"`{key}` matches no parameter; expected {expected}"
-    hint = written_for(_hint(found, groups, classes), key)
+    below_node = key.split(".")[1 if key.startswith("**.") else 2 :]
+    hint = instead_of_module(below_node) or written_for(_hint(found, groups, classes), key)
     return f"`{key}` matches no parameter; expected {expected}{hint}"
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from gradysim.config.errors.config_error import BadValue
-from gradysim.config.errors.nearest import did_you_mean
+from gradysim.config.errors.nearest import did_you_mean, misspelt
 from gradysim.config.value.operators import Value
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import UNITS, Dimension
@@ -188,13 +188,19 @@ def file_name() -> Kind:
     return replace(text(), expected='the name of a file in quotes ("...")', is_file=True, unit="file")
 
 
-def choice(*names: str) -> Kind:
-    """One of some texts."""
+def choice(*names: str, otherwise: str = "") -> Kind:
+    """One of some texts.
+
+    `otherwise` is said of a text that is none of them misspelt: what does here what other simulators have it
+    for.
+    """
 
     def convert(value: Value) -> str:
         name = _text_of(value)
         if name not in names:
-            raise BadValue(f"`{name}` is not known", did_you_mean(name, names))
+            means_another = otherwise and name and misspelt(name, names) is None
+            hint = f"; {otherwise}" if means_another else did_you_mean(name, names)
+            raise BadValue(f"`{name}` is not known", hint)
         return name
 
     quoted = [_quoted(name) for name in names]

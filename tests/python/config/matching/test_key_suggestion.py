@@ -20,6 +20,21 @@ NODES = "expected one of `groundStation`, `uavs[*]`"
             f"`*.uavz[*].mobility.sped` matches no node; {NODES}; did you mean `*.uavs[*].mobility.sped`?",
         ),
         (
+            "*.physicalEnvironment.config",
+            f"`*.physicalEnvironment.config` matches no node; {NODES}; "
+            "obstacles are below `environment` here: `gradysim keys environment`",
+        ),
+        (
+            "*.uavs[*].app[0].typename",
+            "`*.uavs[*].app[0].typename` matches no parameter; expected the name of one; "
+            "the messages of a node are those of its protocol here, `protocol.class`",
+        ),
+        (
+            "**.ipv4.arp.typename",
+            "`**.ipv4.arp.typename` matches no parameter; expected the name of one; "
+            "nodes are addressed by their ids here, and this line can go",
+        ),
+        (
             "*.radioMedum.pathLoss.alpha",
             f"`*.radioMedum.pathLoss.alpha` matches no node; {NODES}; "
             "did you mean `*.radioMedium.pathLoss.alpha`?",

@@ -24,6 +24,20 @@ from gradysim.config.value.kinds import (
 
 
 @pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("WaypointMobility", "; here it is otherwise"),
+        ("MaslessMobility", "; did you mean `MasslessMobility`?"),
+    ],
+)
+def test_what_other_simulators_have_is_told_from_what_is_misspelt(name: str, hint: str) -> None:
+    kind = choice("MasslessMobility", "StationaryMobility", otherwise="here it is otherwise")
+    with pytest.raises(BadValue) as caught:
+        kind.convert(name)
+    assert caught.value.suggestion == hint
+
+
+@pytest.mark.parametrize(
     ("kind", "written", "expected"),
     [
         (quantity("s"), "100ms", 0.1),
