@@ -5,6 +5,7 @@ from dataclasses import replace
 from functools import cache, lru_cache
 
 from gradysim.config.errors.config_error import BadValue
+from gradysim.config.protocol.native import NativeProtocol
 from gradysim.config.protocol.parameter_unit import annotations_of, unit_of
 from gradysim.config.value.kinds import Kind, Scalar, boolean, integer, number_in, si_number, text
 from gradysim.config.value.operators import Value
@@ -35,20 +36,30 @@ def _float_without_unit(name: str) -> Kind:
 
 
 @cache
-def _integer_of(name: str, default: int, unit: str | None) -> Kind:
-    number = "a whole number" if unit is None else f"a whole number of {unit}, without the unit"
+def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> Kind:
+    number = "a whole number" if unit is None else f"a whole number of {unit}"
     whole = integer(at_most=None)
 
     def convert(value: Value) -> Scalar:
         try:
-            return whole.convert(value)
+            return whole.convert(value if unit is None else _without_unit(value, unit))
         except BadValue as error:
-            if isinstance(value, Quantity) and not error.suggestion:
+            if isinstance(value, Quantity) and not error.suggestion and not is_native:
                 hint = f"; for other numbers write `{name}: float = {default}` in the class"
                 raise BadValue(error.problem, hint) from None
             raise
 
     return replace(whole, convert=convert, expected=f"{number}, as the parameter is an int")
+
+
+def _without_unit(value: Value, unit: str) -> Value:
+    """A quantity as the plain number that it is in `unit`."""
+    if not isinstance(value, Quantity) or value.unit is None:
+        return value
+    number = float(number_in(unit).convert(value))
+    if not number.is_integer():
+        raise BadValue(f"`{value}` is no whole number of {unit}")
+    return Quantity(int(number))
 
 
 _BOOLEAN = boolean()
@@ -72,7 +83,7 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
         for name, default in vars(base).items():
             if name.startswith("_") or name in _CONTRACT:
                 continue
-            kind = _kind_of(name, default, annotations.get(name), unit_of(cls, name))
+            kind = _kind_of(cls, name, default, annotations.get(name))
             if kind is not None:
                 parameters[name] = kind
             else:
@@ -80,13 +91,14 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     return parameters
 
 
-def _kind_of(name: str, default: object, annotation: object, unit: str | None) -> Kind | None:
+def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: object) -> Kind | None:
+    unit = unit_of(cls, name)
     if type(default) is bool:
         return _BOOLEAN
     if type(default) is float or (type(default) is int and _mentions_float(annotation)):
         return _float_of(name, unit)
     if type(default) is int:
-        return _integer_of(name, default, unit)
+        return _integer_of(name, default, unit, is_native=issubclass(cls, NativeProtocol))
     return _TEXT if type(default) is str else None
 
 

@@ -122,12 +122,18 @@ def test_an_angle_is_in_the_unit_of_the_name(name: str, value: float) -> None:
     assert converted(name, "90deg") == pytest.approx(value, rel=1e-12)
 
 
-@pytest.mark.parametrize(("name", "written"), [("whole", "5s"), ("whole", "1.5"), ("period_ms", "5s")])
+@pytest.mark.parametrize(("name", "written"), [("whole", "5s"), ("whole", "1.5"), ("period_ms", "5500us")])
 def test_where_a_parameter_is_an_int_what_to_write_for_other_numbers_is_said(name: str, written: str) -> None:
     with pytest.raises(BadValue) as caught:
         converted(name, written)
     default = getattr(Mobile, name)
     assert caught.value.suggestion == f"; for other numbers write `{name}: float = {default}` in the class"
+
+
+@pytest.mark.parametrize("written", ["5000", "5s", "5000ms", "2500 * 2ms"])
+def test_an_int_is_in_the_unit_of_the_name(written: str) -> None:
+    assert converted("period_ms", written) == 5000
+    assert type(converted("period_ms", written)) is int
 
 
 def test_decibels_stay_decibels() -> None:
@@ -173,6 +179,4 @@ def test_other_types_are_refused(name: str, written: str) -> None:
 def test_that_a_parameter_is_an_int_is_said() -> None:
     kinds = parameters_of(Mobile)
     assert kinds["whole"].expected == "a whole number, as the parameter is an int"
-    assert kinds["period_ms"].expected == (
-        "a whole number of ms, without the unit, as the parameter is an int"
-    )
+    assert kinds["period_ms"].expected == "a whole number of ms, as the parameter is an int"
