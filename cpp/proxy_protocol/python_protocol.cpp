@@ -32,11 +32,11 @@ void PythonProtocol::initialize() {
 }
 
 void PythonProtocol::handle_timer(const std::string& timer) {
-    call(handle_timer_, python_from_utf8(timer));
+    call(handle_timer_, text_for(handle_timer_, timer));
 }
 
 void PythonProtocol::handle_packet(const netsim::Payload& message) {
-    call(handle_packet_, python_from_utf8(*message));
+    call(handle_packet_, text_for(handle_packet_, *message));
 }
 
 void PythonProtocol::handle_telemetry(const netsim::Position& position) {
@@ -72,6 +72,15 @@ void PythonProtocol::call(py::handle method, py::handle argument) {
     PyObject* arguments[] = {nullptr, protocol_.ptr(), argument.ptr()};
     check(PyObject_VectorcallMethod(method.ptr(), arguments + 1, 2 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr),
           method);
+}
+
+py::object PythonProtocol::text_for(py::handle method, const std::string& text) {
+    try {
+        return python_from_utf8(text);
+    } catch (const py::error_already_set& failure) {  // a native protocol sent what is no UTF-8
+        on_failure_(failure.value(), method);
+        throw;
+    }
 }
 
 void PythonProtocol::check(PyObject* result, py::handle method) {

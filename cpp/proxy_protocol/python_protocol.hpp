@@ -25,6 +25,7 @@ public:
 private:
     void call(pybind11::handle method);
     void call(pybind11::handle method, pybind11::handle argument);
+    pybind11::object text_for(pybind11::handle method, const std::string& text);
     void check(PyObject* result, pybind11::handle method);
 
     pybind11::object protocol_;

@@ -33,10 +33,13 @@ void NodeConfig::validate_interfaces() const {
         try {
             wlan[index].validate();
         } catch (const ConfigError& error) {
-            throw wlan.size() == 1 ? error
-                                   : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
+            throw error_of_interface(index, error);
         }
     }
+}
+
+ConfigError NodeConfig::error_of_interface(std::size_t index, const ConfigError& error) const {
+    return wlan.size() == 1 ? error : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
 }
 
 }  // namespace netsim

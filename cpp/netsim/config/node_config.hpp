@@ -6,6 +6,7 @@
 
 #include "netsim/config/interface_config.hpp"
 #include "netsim/config/mobility_config.hpp"
+#include "netsim/error.hpp"
 #include "netsim/geometry/position.hpp"
 
 namespace netsim {
@@ -27,6 +28,8 @@ struct NodeConfig {
     // Throws ConfigError for the first field out of its range, here or in one of the parts: "radio.tx_power_w = …", if
     // there are several interfaces "wlan[1].radio.tx_power_w = …".
     void validate() const;
+    // An error of one of its interfaces, so told.
+    ConfigError error_of_interface(std::size_t index, const ConfigError& error) const;
 
 private:
     void validate_interfaces() const;

@@ -24,10 +24,9 @@ void RadioConfig::validate() const {
     constexpr double highest_carrier_hz = 1e12;
     constexpr double narrowest_hz = 1e3;
     constexpr double widest_hz = 1e9;
-    constexpr double strongest_w = 1e12;  // of LinkBudget::tx_power_w_for, too
     check_between("radio.carrier_hz", carrier_hz, lowest_carrier_hz, highest_carrier_hz, "Hz");
     check_between("radio.bandwidth_hz", bandwidth_hz, narrowest_hz, std::min(widest_hz, carrier_hz), "Hz");
-    check_between("radio.tx_power_w", tx_power_w, 0, strongest_w, "W");
+    check_between("radio.tx_power_w", tx_power_w, 0, largest_tx_power_w, "W");
     check_at_least("radio.communication_range_m", communication_range_m, 0, "m");
     check_greater("radio.sensitivity_w", sensitivity_w, 0, "W");
     check_greater("radio.energy_detection_w", energy_detection_w, 0, "W");

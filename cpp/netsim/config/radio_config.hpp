@@ -21,13 +21,15 @@ inline constexpr std::array<std::string_view, 2> snir_mode_names{"min", snir_by_
 inline constexpr std::array<std::string_view, 2> preamble_detection_names{"", "ThresholdPreambleDetection"};
 inline constexpr std::array<std::string_view, 2> frame_capture_names{"", "SimpleFrameCapture"};
 
+inline constexpr double largest_tx_power_w = 1e12;
+
 struct RadioConfig {
     // Sets the defaults of the radio of that interface. Throws ConfigError if it is none of interface_type_names.
     explicit RadioConfig(std::string_view interface_type_name = ieee80211_interface);
 
     double carrier_hz = 2.412e9;  // centre frequency, 1e6 … 1e12; channel 1 of 2.4 GHz; 802.15.4: 2.45 GHz
     double bandwidth_hz = 22e6;   // 1e3 … 1e9, at most carrier_hz; 802.15.4: 2.8 MHz
-    double tx_power_w = 0.02;     // 0 … 1e12; 802.15.4: 2.24 mW
+    double tx_power_w = 0.02;     // 0 … largest_tx_power_w; 802.15.4: 2.24 mW
     double communication_range_m = 60;  // unit disk medium only, ≥ 0
 
     // The least power to lock on to; > 0; -85 dBm; 802.15.4: -100 dBm.

@@ -11,15 +11,16 @@
 
 namespace netsim {
 
+constexpr std::size_t cache_line_bytes = 64;
+
 // So many pointers, one behind the other, lead at most from an event to what it will touch (Node::fetch_for_timer).
 constexpr int fetch_steps = 5;
 
 inline void fetch_bytes(const void* object, std::size_t bytes) {
     // GCC takes a function that does nothing else for one without any effect, and leaves out calls of it.
     asm volatile("");
-    constexpr std::size_t cache_line = 64;
     const auto* address = static_cast<const char*>(object);
-    for (std::size_t offset = 0; offset < bytes; offset += cache_line) {
+    for (std::size_t offset = 0; offset < bytes; offset += cache_line_bytes) {
         __builtin_prefetch(address + offset);
     }
 }

@@ -46,10 +46,8 @@ double RandomStream::uniform() {
     const std::uint64_t first = word % words_of_block;
     const auto words = block(word / words_of_block);
     const bool is_in_one_block = first + 1 < words_of_block;
-    const std::uint64_t high = words[first] >> 5;  // 27 bits
-    const std::uint64_t low =                      // 26 bits
-        (is_in_one_block ? words[first + 1] : block(word / words_of_block + 1).front()) >> 6;
-    return static_cast<double>((high << 26) | low) * 0x1p-53;
+    return uniform_of(words[first],
+                      is_in_one_block ? words[first + 1] : block(word / words_of_block + 1).front());
 }
 
 std::uint32_t RandomStream::uniform_int(std::uint32_t count) {

@@ -28,6 +28,11 @@ enum class Purpose : std::uint32_t {
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
+// Uniform in [0, 1): 27 bits of the one, 26 of the other.
+inline double uniform_of(std::uint32_t high_word, std::uint32_t low_word) {
+    return static_cast<double>((std::uint64_t{high_word >> 5} << 26) | (low_word >> 6)) * 0x1p-53;
+}
+
 class RandomStream {
 public:
     RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpose);

@@ -6,7 +6,7 @@
 // fragmentation (6LoWPAN), so a message of 90 B is the longest.
 //
 // Of a Frame, `duration_field` is not on the air; it says here whether an ACK is asked for (more than 0). `retry` isn't,
-// either: a frame with the sequence number of the last one is a repetition.
+// either: it says that the frame repeats the last one, which a receiver finds out by its sequence number.
 //
 // Source: IEEE Std 802.15.4-2006, 7.2.2 (formats), 7.4.1 (aMinMPDUOverhead = 9), 6.4.1 (aMaxPHYPacketSize = 127).
 #pragma once

@@ -47,11 +47,7 @@ LinkGaussians::Drawn LinkGaussians::draw(std::uint32_t low, std::uint32_t high, 
     const auto words =
         philox4x32({static_cast<std::uint32_t>(index), low, high, purpose},
                    {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
-    const auto uniform = [](std::uint32_t high_word, std::uint32_t low_word) {  // in [0, 1), 53 bits
-        return static_cast<double>((static_cast<std::uint64_t>(high_word >> 5) << 26) | (low_word >> 6)) *
-               0x1p-53;
-    };
-    return {1 - uniform(words[0], words[1]), uniform(words[2], words[3])};
+    return {1 - uniform_of(words[0], words[1]), uniform_of(words[2], words[3])};
 }
 
 // Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical

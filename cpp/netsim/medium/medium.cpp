@@ -172,12 +172,11 @@ void Medium::book_copies(const OnAir& entry, CopyCount copies) {
 
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void Medium::fetch(RadioId radio, FrameKind kind) const {
-    constexpr std::size_t cache_line = 64;
     const Touched& there = touched_[radio];
-    fetch_bytes(there.listener, 2 * cache_line);
-    fetch_bytes(there.interface, cache_line);
-    fetch_bytes(there.upper_layer, cache_line);
-    fetch_bytes(there.protocol, cache_line);
+    fetch_bytes(there.listener, 2 * cache_line_bytes);
+    fetch_bytes(there.interface, cache_line_bytes);
+    fetch_bytes(there.upper_layer, cache_line_bytes);
+    fetch_bytes(there.protocol, cache_line_bytes);
     fates_.fetch(links_.interface(radio).node, kind);
 }
 

@@ -124,9 +124,8 @@ const std::vector<Neighbours::Near>& Neighbours::near(const Position& centre, do
         }
     }
     if (!all_stand_) {
-        constexpr std::size_t cache_line = 64;
         for (std::size_t i = 0; i < found; ++i) {
-            fetch_bytes(entries_[found_[i]].trajectory, cache_line);
+            fetch_bytes(entries_[found_[i]].trajectory, cache_line_bytes);
         }
     }
     near_.clear();

@@ -25,7 +25,7 @@ public:
     void add(RadioId radio, const Trajectory& trajectory);
     std::size_t size() const { return radios_.size(); }
 
-    // Before each instant's `visit` and `farthest_m`. `reach_m` is a distance that will be asked for: the size of
+    // Before each instant's `near` and `farthest_m`. `reach_m` is a distance that will be asked for: the size of
     // the cells follows those that are usual.
     void prepare(SimTime now, Odometer& odometer, double reach_m);
 

@@ -1,7 +1,7 @@
 // Path loss: the share of a transmitted power that is left after a distance, a number from 0 to 1.
 //
 // These models are power laws, gain = coefficient / distance^exponent, capped at 1; the breakpoint model has
-// one law on each side of a distance. So one plain final class serves all, without a virtual call per
+// one law on each side of a distance. So one plain class serves all, without a virtual call per
 // receiver.
 //   FreeSpacePathLoss: gain = λ² / (16 π² d^α), with d the distance and λ = c / carrier the wavelength, in m.
 //     H. T. Friis, "A Note on a Simple Transmission Formula", 1946, has α = 2.

@@ -158,26 +158,25 @@ double LinkBudget::ratio_at(double power_w) const {
 
 double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
     constexpr double weakest_w = 1e-30;
-    constexpr double strongest_w = 1e12;
     constexpr double precision = 1e-9;
     check_greater("range_m", range_m, 0, "m");
     if (!(ratio > 0) || !(ratio < 1)) {
         throw ConfigError("ratio = " + text_of(ratio) + ": expected more than 0 and less than 1");
     }
     const double gain = steady_gain(range_m);
-    if (ratio_at(strongest_w * gain) < ratio) {
-        throw ConfigError("no power reaches " + text_of(range_m) + " m: even of " + text_of(strongest_w) +
-                          " W, too little is left there");
+    if (ratio_at(largest_tx_power_w * gain) < ratio) {
+        throw ConfigError("no power reaches " + text_of(range_m) + " m: even of " +
+                          text_of(largest_tx_power_w) + " W, too little is left there");
     }
     // The share never falls with the power, so the powers that do are all above one: bisection on a logarithmic scale.
     double too_weak_w = weakest_w;
-    double enough_w = strongest_w;
+    double enough_w = largest_tx_power_w;
     while (enough_w > too_weak_w * (1 + precision)) {
         const double middle_w = std::sqrt(too_weak_w) * std::sqrt(enough_w);
         (ratio_at(middle_w * gain) >= ratio ? enough_w : too_weak_w) = middle_w;
     }
     // A run rounds in other places; where a limit decides, all or nothing hangs on the last digit.
-    return std::min(enough_w * (1 + precision), strongest_w);
+    return std::min(enough_w * (1 + precision), largest_tx_power_w);
 }
 
 }  // namespace netsim

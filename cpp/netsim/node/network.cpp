@@ -91,9 +91,7 @@ void Network::check_with_medium(const NodeConfig& config) {
         try {
             check_with_medium(config.name, config.wlan[index]);
         } catch (const ConfigError& error) {
-            throw config.wlan.size() == 1
-                ? error
-                : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
+            throw config.error_of_interface(index, error);
         }
         check_with_others(config, index);
     }
@@ -160,8 +158,8 @@ Radio& Network::radio(InterfaceId id) {
 void Network::capture(NodeId node, const std::string& path, std::int32_t interface) {
     const std::string& name = this->node(node).name();
     if (perfect_channel_) {
-        throw ConfigError("cannot capture the frames of " + name +
-                          ": medium.typename = \"UnitDiskRadioMedium\" has no radios; expected " +
+        throw ConfigError("cannot capture the frames of " + name + ": medium.typename = \"" +
+                          std::string(unit_disk_medium) + "\" has no radios; expected " +
                           "Ieee80211ScalarRadioMedium or another radio medium");
     }
     const std::size_t count = this->node(node).interfaces().size();
@@ -194,9 +192,20 @@ void Network::close_captures() {
     }
 }
 
-void Network::check_initialized(const char* call) const {
+std::size_t Network::place_of(NodeId node) const {
+    if (node < 0 || node >= node_count_) {
+        throw SimulationError("there is no node " + std::to_string(node) + ": there are " +
+                              std::to_string(node_count_) + ", from 0 on");
+    }
+    return static_cast<std::size_t>(node);
+}
+
+void Network::check_runs(const char* call) const {
     if (!initialized_) {
         throw SimulationError("nothing runs before initialize(): call it before " + std::string(call) + "()");
+    }
+    if (finished_) {
+        throw SimulationError("finish() has ended the run: expected " + std::string(call) + "() before it");
     }
 }
 
@@ -230,6 +239,8 @@ void Network::schedule(SimTime time, std::function<void()> call) {
 }
 
 void Network::finish() {
+    check_runs("finish");
+    finished_ = true;
     for (Node& node : nodes_) {
         node.finish();
     }

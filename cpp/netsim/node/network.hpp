@@ -41,8 +41,9 @@ public:
     // Nodes get the ids 0, 1, … in the order of adding. The reference stays valid as long as the network. Throws
     // ConfigError for values out of range, and SimulationError after initialize().
     Node& add_node(const NodeConfig& config);
-    Node& node(NodeId id) { return nodes_.at(static_cast<std::size_t>(id)); }
-    const Node& node(NodeId id) const { return nodes_.at(static_cast<std::size_t>(id)); }
+    // Throws SimulationError for an id that no node has.
+    Node& node(NodeId id) { return nodes_[place_of(id)]; }
+    const Node& node(NodeId id) const { return nodes_[place_of(id)]; }
     std::int32_t node_count() const { return node_count_; }
 
     // Writes what the radio of the node's wlan[interface] sends and receives from now on to a pcap file, until
@@ -55,20 +56,21 @@ public:
     // Calls the protocols' initialize, in the order of ids, at time 0. Throws what their check finds wrong before that, and
     // SimulationError the second time.
     void initialize();
-    // Runs the events up to and including `limit`; false if `max_events` ran before that.
+    // Runs the events up to and including `limit`; false if `max_events` ran before that. Nothing happens if `limit` is over.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
-        check_initialized("run_until");
+        check_runs("run_until");
         return simulator_.run_until(limit, max_events);
     }
     // Runs one event, if there is one up to and including `limit`; otherwise returns false, and the clock stays.
     bool step(SimTime limit) {
-        check_initialized("step");
+        check_runs("step");
         return simulator_.step(limit);
     }
     // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
     // run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
-    // Calls the protocols' finish, in the order of ids, and closes the captures.
+    // Calls the protocols' finish, in the order of ids, and closes the captures. The run ends with it: what comes after it is a
+    // SimulationError, also a second finish.
     void finish();
     // Drops the protocols and what was scheduled, which may own more than their memory (a Python object that
     // refers back to its node).
@@ -82,7 +84,8 @@ public:
     const MessageFates& message_fates() const { return message_fates_; }
 
 private:
-    void check_initialized(const char* call) const;
+    std::size_t place_of(NodeId node) const;
+    void check_runs(const char* call) const;
     // What nodes of one configuration share, made for the first of them. Both throw ConfigError for what cannot be.
     std::shared_ptr<const RadioKind> radio_kind(RadioConfig config);
     std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);
@@ -114,6 +117,7 @@ private:
     ScheduledCalls scheduled_calls_{simulator_};
     std::int32_t node_count_ = 0;
     bool initialized_ = false;
+    bool finished_ = false;
 };
 
 }  // namespace netsim

@@ -1,5 +1,7 @@
 #include "netsim/node/node.hpp"
 
+#include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "netsim/error.hpp"
@@ -35,9 +37,19 @@ void Node::call_protocol(const char* callback, Call call) {
     }
     try {
         call(*protocol_);
-    } catch (const SimulationError& error) {
-        throw ProtocolError(error.what(), id_, callback, now());
+    } catch (const std::runtime_error& error) {  // a SimulationError is one
+        std::throw_with_nested(ProtocolError(error.what(), id_, callback, now()));
+    } catch (const std::logic_error& error) {
+        std::throw_with_nested(ProtocolError(error.what(), id_, callback, now()));
     }
+}
+
+void Node::send_through(std::int32_t interface, NodeId destination, Payload payload) {
+    NetworkInterface& through = interface_at(interface);
+    if (!payload) {
+        throw SimulationError("node " + std::to_string(id_) + " cannot send nothing: the payload is null");
+    }
+    through.send(destination, std::move(payload));
 }
 
 void Node::observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable) {
@@ -70,7 +82,7 @@ NetworkInterface& Node::interface_at(std::int32_t index) {
 }
 
 void Node::broadcast(Payload payload, std::int32_t interface) {
-    interface_at(interface).send(broadcast_id, std::move(payload));
+    send_through(interface, broadcast_id, std::move(payload));
 }
 
 void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
@@ -81,7 +93,7 @@ void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
     if (destination == id_) {
         throw SimulationError("node " + std::to_string(id_) + " cannot send a message to itself");
     }
-    interface_at(interface).send(destination, std::move(payload));
+    send_through(interface, destination, std::move(payload));
 }
 
 void Node::schedule_timer(std::string timer, SimTime time) {
@@ -116,20 +128,19 @@ void Node::message_received(const Frame& frame) {
 }
 
 void Node::fetch_for_timer(int step) const {
-    constexpr std::size_t cache_line = 64;
     if (step == 0) {
         fetch_before(*this, name_);
     } else if (step == 1) {
         timers_.fetch();
-        fetch_bytes(protocol_.get(), 2 * cache_line);
+        fetch_bytes(protocol_.get(), 2 * cache_line_bytes);
         fetch(*mobility_);
-        fetch_bytes(interfaces_.data(), cache_line);
+        fetch_bytes(interfaces_.data(), cache_line_bytes);
     } else if (step == 2) {
         if (protocol_) {
             protocol_->fetch();
         }
         if (!interfaces_.empty()) {
-            fetch_bytes(interfaces_.front().get(), cache_line);
+            fetch_bytes(interfaces_.front().get(), cache_line_bytes);
         }
     } else if (!interfaces_.empty()) {
         interfaces_.front()->fetch(step - 3);

@@ -83,6 +83,7 @@ public:
 
 private:
     NetworkInterface& interface_at(std::int32_t index);
+    void send_through(std::int32_t interface, NodeId destination, Payload payload);
     template <typename Call>
     void call_protocol(const char* callback, Call call);
     void message_received(const Frame& frame) override;

@@ -1,7 +1,8 @@
 // The contract of a protocol in C++: the same five events as in Python.
 //
 // A protocol reacts to events and acts through its Node (send, go_to, schedule_timer, …). The Python proxy is
-// one implementation; native protocols, in protocols/, are others. An exception thrown by a callback ends the run.
+// one implementation; native protocols, in protocols/, are others. An exception thrown by a callback ends the run: a
+// std::runtime_error (SimulationError, too) or std::logic_error as a ProtocolError, in which it is nested, others as they are.
 #pragma once
 
 #include <string>

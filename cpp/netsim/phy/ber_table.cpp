@@ -179,10 +179,9 @@ double BerTableErrorModel::success_probability(const Mode& mode, double snir, in
 }
 
 double BerTableErrorModel::log_header_success(const Mode& mode, double snir) const {
-    const bool is_ofdm = mode.family == ModeFamily::ofdm;
-    const auto curves = rates_.find(is_ofdm ? 6'000'000 : 1'000'000);
+    const auto curves = rates_.find(mode.header_bitrate_bps);
     return curves == rates_.end() ? nist_.log_header_success(mode, snir)
-                                  : log_success(curves->second, snir, is_ofdm ? 3 : 6);
+                                  : log_success(curves->second, snir, mode.header_bits / 8);
 }
 
 double BerTableErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {

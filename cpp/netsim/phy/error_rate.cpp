@@ -117,10 +117,6 @@ double cck_11_fit(double snir) {
     return dividend / divisor;
 }
 
-// The bits of the PHY header.
-constexpr double ofdm_header_bits = 24;
-constexpr double dsss_header_bits = 48;
-
 // Of what bounds are worked out from, and of what they bound.
 constexpr double bounds_rounding = 1e-9;
 
@@ -155,10 +151,10 @@ double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
     const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
     if (mode.family == ModeFamily::ofdm) {
         static const BitErrorBounds& header = ofdm_bounds(Constellation::bpsk, CodeRate::one_half);
-        return ofdm_header_bits * rate(header) + bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
+        return mode.header_bits * rate(header) + bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
     }
     NETSIM_ASSERT(mode.family == ModeFamily::dsss);
-    return dsss_header_bits * rate(dsss_bounds(1'000'000)) + bits * rate(dsss_bounds(mode.bitrate_bps));
+    return mode.header_bits * rate(dsss_bounds(1'000'000)) + bits * rate(dsss_bounds(mode.bitrate_bps));
 }
 
 double log_success(double bit_error, double bits) {
@@ -192,9 +188,10 @@ double NistErrorModel::success_probability(const Mode& mode, double snir, int ps
 
 double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
     NETSIM_ASSERT(snir >= 0);
-    return mode.family == ModeFamily::ofdm
-               ? log_success(coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir), ofdm_header_bits)
-               : log_success(dsss_1_bit_error(snir), dsss_header_bits);
+    return log_success(mode.family == ModeFamily::ofdm
+                           ? coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir)
+                           : dsss_1_bit_error(snir),
+                       mode.header_bits);
 }
 
 // Of n bits that fail independently, each with at most b, all survive with at least 1 − n b.

@@ -31,6 +31,8 @@ constexpr Mode dsss(std::string_view name, ModeFamily family, std::int64_t bitra
             .signal_extension = us(0),
             .preamble = us(144),
             .header = us(48),
+            .header_bits = 48,
+            .header_bitrate_bps = 1'000'000,
             .phy_rx_start_delay = us(192)};
 }
 
@@ -47,6 +49,8 @@ constexpr Mode ofdm(std::string_view name, int data_bits_per_symbol, bool mandat
             .signal_extension = signal_extension,
             .preamble = us(16),
             .header = us(4),
+            .header_bits = 24,
+            .header_bitrate_bps = 6'000'000,
             .phy_rx_start_delay = us(25)};
 }
 

@@ -39,8 +39,10 @@ struct Mode {
     int data_bits_per_symbol = 0;  // N_DBPS
     SimTime signal_extension;
 
-    SimTime preamble;            // until the PHY header begins
-    SimTime header;              // SIGNAL or PLCP header
+    SimTime preamble;     // until the PHY header begins
+    SimTime header;       // SIGNAL or PLCP header
+    int header_bits = 0;  // of it, and how fast they are sent
+    std::int64_t header_bitrate_bps = 0;
     SimTime phy_rx_start_delay;  // from the start of a frame on the air until the PHY reports it
 
     // Bits of the data part as sent: for OFDM with service field, tail and padding.

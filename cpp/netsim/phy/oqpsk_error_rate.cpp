@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "netsim/error.hpp"
-#include "netsim/phy/oqpsk_mode.hpp"
+#include "netsim/phy/modes.hpp"
 
 namespace netsim {
 
@@ -28,7 +28,7 @@ double OqpskErrorModel::bit_error_rate(double snir) {
 
 double OqpskErrorModel::success_probability(const Mode& mode, double snir, int psdu_bytes) const {
     NETSIM_ASSERT(mode.family == ModeFamily::oqpsk);
-    const auto bits = static_cast<double>(oqpsk_header_bits + mode.data_bits(psdu_bytes));
+    const auto bits = static_cast<double>(mode.header_bits + mode.data_bits(psdu_bytes));
     return std::exp(bits * std::log1p(-bit_error_rate(snir)));
 }
 

@@ -10,8 +10,6 @@
 
 namespace netsim {
 
-inline constexpr int oqpsk_header_bits = 16;
-
 inline constexpr Mode oqpsk_250_kbps{.name = "O-QPSK 250 kbps",
                                      .format = PpduFormat::oqpsk,
                                      .family = ModeFamily::oqpsk,
@@ -20,6 +18,8 @@ inline constexpr Mode oqpsk_250_kbps{.name = "O-QPSK 250 kbps",
                                      .signal_extension = SimTime(),
                                      .preamble = SimTime::from_us(128),
                                      .header = SimTime::from_us(64),
+                                     .header_bits = 16,
+                                     .header_bitrate_bps = 250'000,
                                      .phy_rx_start_delay = SimTime::from_us(192)};
 
 }  // namespace netsim

@@ -42,8 +42,8 @@ TEST(Network, ReferencesToNodesStayValid) {
 TEST(Network, ANodeOfAnotherIdIsAnError) {
     Network network(MediumConfig(), 1);
     network.add_node(silent_node());
-    EXPECT_THROW(network.node(1), std::out_of_range);
-    EXPECT_THROW(network.node(-1), std::out_of_range);
+    EXPECT_THROW(network.node(1), SimulationError);
+    EXPECT_THROW(network.node(-1), SimulationError);
 }
 
 TEST(Network, ChecksItsConfigurations) {
@@ -108,6 +108,18 @@ TEST(Network, IsInitializedOnce) {
     EXPECT_THROW(network.initialize(), SimulationError);
     network.run_until(s(1));
     EXPECT_EQ(receiver.packets.size(), 1U);
+}
+
+TEST(Network, NothingRunsAfterFinish) {
+    Network network(MediumConfig(), 1);
+    const Recorder& recorder = test::add_recorder(network, silent_node());
+    EXPECT_THROW(network.finish(), SimulationError);
+    network.initialize();
+    network.finish();
+    EXPECT_THROW(network.finish(), SimulationError);
+    EXPECT_THROW(network.run_until(s(1)), SimulationError);
+    EXPECT_THROW(network.step(s(1)), SimulationError);
+    EXPECT_EQ(recorder.finished.size(), 1U);
 }
 
 TEST(Network, NothingRunsIfACheckRefusesAProtocol) {

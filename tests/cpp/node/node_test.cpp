@@ -1,9 +1,13 @@
 #include "netsim/node/node.hpp"
 
 #include <cstdint>
+#include <exception>
 #include <limits>
+#include <map>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -184,6 +188,25 @@ TEST_F(NodeTest, AMessageToAnUnknownNodeIsAnErrorThatNamesThoseThatExist) {
 
 TEST_F(NodeTest, AMessageToItselfIsAnError) {
     EXPECT_EQ(error_of([this] { first->send(0, "text"); }), "node 0 cannot send a message to itself");
+}
+
+TEST_F(NodeTest, AMessageWithoutAPayloadIsAnError) {
+    EXPECT_EQ(error_of([this] { first->node.broadcast(nullptr); }),
+              "node 0 cannot send nothing: the payload is null");
+    EXPECT_EQ(error_of([this] { first->node.send(1, nullptr); }),
+              "node 0 cannot send nothing: the payload is null");
+}
+
+TEST_F(NodeTest, AnErrorOfTheStandardLibraryInItsProtocolDoesSoToo) {
+    first->on_initialize = [](Recorder&) { std::ignore = std::map<int, int>().at(3); };
+    try {
+        network.initialize();
+        FAIL() << "no error";
+    } catch (const ProtocolError& error) {
+        EXPECT_STREQ(error.what(), "map::at");
+        EXPECT_STREQ(error.callback(), "initialize");
+        EXPECT_THROW(std::rethrow_if_nested(error), std::out_of_range);
+    }
 }
 
 TEST_F(NodeTest, AnErrorOfItsProtocolKnowsItsPlaceInTheRun) {

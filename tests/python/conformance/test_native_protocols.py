@@ -81,14 +81,14 @@ def assert_alike(native: RunResult, python: RunResult) -> None:
     assert what_happened(native) == what_happened(python)
 
 
-def test_every_native_protocol_is_compared() -> None:
+def test_every_native_protocol_that_has_a_counterpart_is_compared() -> None:
     compared = {
         spec.protocol.__name__
         for native, _ in PAIRS.values()
         for spec in scenario(*native).nodes
         if is_native(spec)
     }
-    assert compared == native_protocols().keys()
+    assert compared == {name for name, native in native_protocols().items() if native._python_class}
 
 
 @pytest.mark.parametrize("seed", [0, 1])
