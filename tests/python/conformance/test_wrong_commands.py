@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
@@ -75,6 +76,7 @@ TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, wha
     (send(SendMessageCommand("a", cast("int", [1]))), SEND, [r"\[1\]", ID]),
     (send(SendMessageCommand("a", 0)), SEND, ["itself", "another node"]),
     (send(CommunicationCommand(KIND, "a")), SEND, ["destination", "the id of a node"]),
+    (send(SimpleNamespace(command_type=KIND, message="a")), SEND, ["destination", "the id of a node"]),
     (send(CommunicationCommand(cast("Any", 9), "a")), SEND, ["9", r"SEND \(0\) or BROADCAST \(1\)"]),
     (send(SendMessageCommand("a", 1, interface=99)), SEND, [NO_INTERFACE + "99$"]),
     (send(BroadcastMessageCommand("a", interface=-1)), SEND, [NO_INTERFACE + "-1$"]),

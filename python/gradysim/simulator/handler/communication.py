@@ -172,7 +172,8 @@ class CommunicationHandler(INodeHandler):
         if event_loop is None or sender.id not in self._destinations:
             raise CommunicationException(f"node {sender.id} is not registered with the communication handler")
         message, kind = getattr(command, "message", None), getattr(command, "command_type", None)
-        interface = getattr(command, "interface", 0)  # commands of one's own may have none
+        # Commands of one's own may have neither.
+        address, interface = getattr(command, "destination", None), getattr(command, "interface", 0)
         if not isinstance(message, str):
             raise self._refusal(command, sender)
         if type(interface) is not int or interface:
@@ -181,10 +182,10 @@ class CommunicationHandler(INodeHandler):
         if kind == CommunicationCommandType.BROADCAST:
             destinations = self._destinations.values()
         elif kind == CommunicationCommandType.SEND:
-            destinations = (self._destination_of(command, sender),)
+            destinations = (self._destination_of(address, command, sender),)
         else:
             raise self._refusal(command, sender)
-        _logger.debug("%s sends to %s: %s", sender.id, command.destination, message)
+        _logger.debug("%s sends to %s: %s", sender.id, address, message)
         medium = medium or self.default_medium
         source = self._sources[sender.id]
         if self._transmits_one_by_one:
@@ -218,9 +219,11 @@ class CommunicationHandler(INodeHandler):
         copies, _ = _copies(message, source, (destination,), medium)
         _schedule(copies, source, medium, self._event_loop)
 
-    def _destination_of(self, command: CommunicationCommand, sender: Node[Any]) -> CommunicationDestination:
+    def _destination_of(
+        self, address: Any, command: CommunicationCommand, sender: Node[Any]
+    ) -> CommunicationDestination:
         try:
-            destination = self._destinations.get(command.destination)  # type: ignore[arg-type]
+            destination = self._destinations.get(address)
         except TypeError:  # As a list is not hashable.
             destination = None
         if destination is None or destination.node is sender:

@@ -64,10 +64,10 @@ def test_all_interfaces_share_the_one_medium(world, network, interface):
     assert received(nodes) == [[], [(0, "hi")], []]
 
 
-def test_a_command_of_ones_own_needs_no_interface(world, network):
+def test_a_broadcast_of_ones_own_needs_no_interface_and_no_destination(world, network):
     handler, nodes = network()
     kind = CommunicationCommandType.BROADCAST
-    handler.handle_command(SimpleNamespace(command_type=kind, message="hi", destination=None), nodes[0])
+    handler.handle_command(SimpleNamespace(command_type=kind, message="hi"), nodes[0])
     world.run()
     assert received(nodes) == [[], [(0, "hi")], []]
 
