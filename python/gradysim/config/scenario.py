@@ -39,6 +39,7 @@ from gradysim.config.runs.variables import depends_on_run, run_variables, substi
 from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.setting import Setting, SettingReader, read_scalar
 from gradysim.protocol.checked_values import checked_number
+from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ class CommunicationMediumSpec:
         failure_rate: Part of the messages that is lost, 0 to 1.
     """
 
-    transmission_range_m: float = 60.0
+    transmission_range_m: float = TRANSMISSION_RANGE_M
     delay_s: float = 0.0
     failure_rate: float = 0.0
 

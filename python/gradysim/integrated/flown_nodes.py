@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.flight_orders import give_order
+from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     MobilityCommand,
     SetSpeedMobilityCommand,
 )
 from gradysim.protocol.position import Position
-from gradysim.sitl.flown_node import UPDATE_S
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node

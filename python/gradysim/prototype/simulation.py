@@ -10,6 +10,7 @@ from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.native import NativeProtocol, text_of_only_integrated
 from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.scenario import Scenario
+from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.prototype.recorded_nodes import record_node
 from gradysim.results.node_recorder import NodeRecorder
 from gradysim.results.run_file import run_name
@@ -22,10 +23,6 @@ from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
-
-_UPDATE_S = MasslessMobilityConfiguration.update_rate
-_LEAST_UPDATE_S = 1e-6
-"""The shortest telemetry interval that the engine takes."""
 
 
 def build_simulation(
@@ -112,7 +109,7 @@ def update_rate_s(nodes: Iterable[NodeSpec]) -> float:
     """Return the time between two updates of all positions: 10 ms, or the shortest telemetry interval."""
     given = (spec.mobility.get("telemetry_interval_s") for spec in nodes)
     intervals_s = [float(interval.value) for interval in given if interval is not None and interval.value]
-    return max(min([_UPDATE_S, *intervals_s]), _LEAST_UPDATE_S)
+    return max(min([UPDATE_S, *intervals_s]), LEAST_TELEMETRY_INTERVAL_S)
 
 
 def communication_medium(scenario: Scenario) -> CommunicationMedium:
@@ -129,7 +126,7 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
     stationary = _stands_still(spec)
-    numbers = {"telemetry_interval": _UPDATE_S}  # of whom nothing is said, however often others are told
+    numbers = {"telemetry_interval": UPDATE_S}  # of whom nothing is said, however often others are told
     mobility.configure_node(spec.id, stationary=stationary, **numbers)
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
         if (setting := spec.mobility.get(field)) is not None:

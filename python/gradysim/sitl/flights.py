@@ -6,9 +6,10 @@ import os
 from collections.abc import Callable, Collection, Coroutine, Iterable
 from typing import Any
 
+from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.position import Position
 from gradysim.sitl.fleet import Fleet
-from gradysim.sitl.flown_node import UPDATE_S, FlownNode, check_start
+from gradysim.sitl.flown_node import FlownNode, check_start
 from gradysim.sitl.lock_step_flight import LockStepFlight
 from gradysim.sitl.lock_step_group import LockStepGroup
 from gradysim.sitl.pilot import Pilot

@@ -5,17 +5,12 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.position import Position
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.frame import home_of
 from gradysim.sitl.quadcopter import Vector
 from gradysim.sitl.unprivileged import DEFAULT_USER
-
-UPDATE_S = 0.01
-"""Simulated time between two places of a node, in both modes."""
-
-DEFAULT_SPEED_MPS = 10.0
-"""Ground speed until a protocol sets another."""
 
 _SEA_LEVEL_DEGC, _LAPSE_DEGCPM = 15.0, 0.0065
 """Of the standard atmosphere (ISO 2533), in which ArduPilot's simulated barometers are."""
@@ -46,7 +41,7 @@ class FlownNode:
     id: int
     name: str
     start: Position
-    speed_mps: float = DEFAULT_SPEED_MPS
+    speed_mps: float = SPEED_MPS
     program: str | os.PathLike[str] | None = None
     user: str | None = DEFAULT_USER
     parameters: Mapping[str, float] = field(default_factory=dict)

@@ -9,6 +9,7 @@ from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.config.keys.mobility import ARDUPILOT, STATIC_GRID
 from gradysim.config.value.expression import parse_value
 from gradysim.integrated.engine_defaults import engine_defaults
+from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, SPEED_MPS, UPDATE_S
 
 MADE_WITH = {
     "medium.typename": _netsim.MediumConfig,
@@ -88,3 +89,14 @@ def test_every_default_that_is_listed_may_be_written() -> None:
         if not key.default:
             default = getattr(structs[key.struct][""], key.field)
             assert key.kind.convert(parse_value(key.kind.show(default))) is not None, key.path
+
+
+def test_nodes_of_which_nothing_is_said_move_the_same_in_both_modes() -> None:
+    mobility = engine_defaults()["mobility"][""]
+    assert (mobility.speed_mps, mobility.telemetry_interval_s) == (SPEED_MPS, UPDATE_S)
+
+
+def test_the_least_telemetry_interval_is_the_same_in_both_modes() -> None:
+    validate_with("mobility.telemetry_interval_s", LEAST_TELEMETRY_INTERVAL_S)
+    with pytest.raises(ValueError, match="telemetry_interval_s"):
+        validate_with("mobility.telemetry_interval_s", math.nextafter(LEAST_TELEMETRY_INTERVAL_S, 0))

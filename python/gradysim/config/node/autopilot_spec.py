@@ -8,7 +8,7 @@ from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.keys.mobility import ARDUPILOT
 from gradysim.config.value.setting import Setting
-from gradysim.sitl.flown_node import DEFAULT_SPEED_MPS
+from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.sitl.unprivileged import DEFAULT_USER
 
 
@@ -31,7 +31,7 @@ class AutopilotSpec:
     user_source: Source
     program: str | None = None
     user: str | None = DEFAULT_USER
-    speed_mps: float = DEFAULT_SPEED_MPS
+    speed_mps: float = SPEED_MPS
     parameters: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -56,7 +56,7 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
         user_source=user.source if user else typename.source,
         program=str(program.value) or None if program else None,
         user=str(user.value) or None if user else DEFAULT_USER,
-        speed_mps=float(speed.value) if speed else DEFAULT_SPEED_MPS,
+        speed_mps=float(speed.value) if speed else SPEED_MPS,
         parameters=_parameters(parameters) if parameters else {},
     )
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.refused_commands import wrong_communication
+from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.interface_index import checked_interface
@@ -37,7 +38,7 @@ class CommunicationMedium:
         failure_rate: Probability that a receiver in range misses the message, each one by itself; 0 to 1.
     """
 
-    transmission_range: float = 60
+    transmission_range: float = TRANSMISSION_RANGE_M
     delay: float = 0
     failure_rate: float = 0
 

@@ -5,6 +5,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.position import Position
 from gradysim.simulator.number_range import is_in_range
 from gradysim.simulator.reference_coordinates import check_reference
@@ -45,7 +46,7 @@ class ArdupilotMobilityConfiguration:
     """
 
     update_rate: float = 0.1
-    default_speed: float = 10
+    default_speed: float = SPEED_MPS
     reference_coordinates: Position = (0, 0, 0)
     generate_report: bool = True
     simulate_drones: bool = True

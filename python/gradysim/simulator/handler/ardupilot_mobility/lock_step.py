@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
+from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
@@ -17,7 +18,7 @@ from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.flights import Flights
-from gradysim.sitl.flown_node import UPDATE_S, FlownNode
+from gradysim.sitl.flown_node import FlownNode
 
 _logger = logging.getLogger(__name__)
 

@@ -7,6 +7,7 @@ from typing import Any, cast
 from gradysim.encapsulator.command_numbers import three_numbers
 from gradysim.encapsulator.geo_target import geo_target
 from gradysim.encapsulator.refused_commands import wrong_mobility
+from gradysim.protocol.defaults import SPEED_MPS, UPDATE_S
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
@@ -34,8 +35,8 @@ class MasslessMobilityConfiguration:
         reference_coordinates: (latitude deg, longitude deg, altitude m) of the origin of the frame.
     """
 
-    update_rate: float = 0.01
-    default_speed: float = 10
+    update_rate: float = UPDATE_S
+    default_speed: float = SPEED_MPS
     reference_coordinates: Position = (0, 0, 0)
 
     def __post_init__(self) -> None:
