@@ -4,16 +4,16 @@
 object: `execute` may raise, `result` tells at any time how far the run came.
 """
 
+import contextlib
 import random
 import weakref
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from time import perf_counter, process_time
 from typing import TYPE_CHECKING
 
 from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.protocol.siblings import siblings_importable
-from gradysim.config.scenario import Scenario, require_scenario
+from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import (
@@ -35,6 +35,7 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.results.delays import Delays
 from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
+from gradysim.results.run_account import RunAccount
 from gradysim.results.run_file import run_name
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
@@ -83,11 +84,8 @@ class IntegratedRun:
         names what is no node, two interfaces would write one file, a handler cannot work in this mode or
         `real_time` is no factor, and what the constructor of a protocol raises.
         """
-        require_scenario(scenario)
-        self._started = (perf_counter(), process_time())
-        self._cost = (0.0, 0.0)
+        self._account = RunAccount(scenario)
         self._scenario = scenario
-        self._complete = False
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
@@ -144,41 +142,30 @@ class IntegratedRun:
         to its end raises CaptureError when all else is done, or adds a note to what was raised before.
         """
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
-        with captures_completed_after_failure(self._network), siblings:
+        captures = captures_completed_after_failure(self._network)
+        with captures, siblings, self._account.of_execution():
             self._execute(progress, should_stop)
 
     def _execute(
         self, progress: Callable[[float], None] | None, should_stop: Callable[[], bool] | None
     ) -> None:
-        network = self._network
+        network, account = self._network, self._account
         random.seed(self._scenario.seed)  # another run may have been built in between
         try:
-            try:
+            with contextlib.suppress(KeyboardInterrupt):
                 self._handlers.initialize()
                 network.initialize()
                 self._flown.initialize()
-                self._complete = run_in_slices(
-                    self._advance(),
-                    lambda: network.now,
-                    progress,
-                    should_stop,
-                )
-            except KeyboardInterrupt:
-                self._complete = False
+                account.complete = run_in_slices(self._advance(), lambda: network.now, progress, should_stop)
             with capture_errors():
                 network.finish()
-            self._handlers.finalize(complete=self._complete)
+            self._handlers.finalize(complete=account.complete)
         except load_netsim().ProtocolError as failure:
-            self._complete = False
             raise self._native_failure(failure) from None
-        except BaseException:
-            self._complete = False
-            raise
         finally:
             self._handlers.finalize_after_failure()
             self._flown.close()
             network.release_protocols()
-            self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
 
     def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
         """Return what a native protocol got wrong, told as the exception of one in Python."""
@@ -201,9 +188,9 @@ class IntegratedRun:
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
-        scenario, network = self._scenario, self._network
+        network = self._network
         nodes = node_results(
-            scenario,
+            self._scenario,
             (
                 (node.position, encapsulator.provider.tracked_variables)
                 for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
@@ -211,20 +198,10 @@ class IntegratedRun:
             [network.frames_by_bitrate(node.id) for node in self._nodes],
             self._recorders,
         )
-        return RunResult(
-            config=scenario.config,
-            run=scenario.run_number,
-            repetition=scenario.repetition,
-            iterations=scenario.iterations,
-            settings_hash=scenario.settings_hash,
-            file_hashes=scenario.file_hashes,
-            seed=scenario.seed,
+        return self._account.result(
             mode="integrated",
             sim_time_s=network.now,
-            wall_s=self._cost[0],
-            cpu_s=self._cost[1],
             events=network.event_count,
-            interrupted=not self._complete,
             fingerprint=network.fingerprint,
             fates={"frames": network.frame_fates(), "messages": network.message_fates()},
             message_delays={kind: Delays(**told) for kind, told in network.message_delays().items()},

@@ -4,16 +4,17 @@
 object: `execute` may raise, `result` tells at any time how far the run came.
 """
 
+import contextlib
 import random
 from collections.abc import Callable, Iterable
-from time import perf_counter, process_time
 
 from gradysim.config.protocol.siblings import siblings_importable
-from gradysim.config.scenario import Scenario, require_scenario
+from gradysim.config.scenario import Scenario
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.delays import constant_delays
 from gradysim.results.node_recorder import recorders_of
 from gradysim.results.node_results import node_results
+from gradysim.results.run_account import RunAccount
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.simulator.handler.interface import INodeHandler
@@ -44,11 +45,8 @@ class PrototypeRun:
         `real_time` is no factor, what the constructor of a protocol raises, and SitlError when an autopilot
         does not start.
         """
-        require_scenario(scenario)
-        self._started = (perf_counter(), process_time())
-        self._cost = (0.0, 0.0)
+        self._account = RunAccount(scenario)
         self._scenario = scenario
-        self._complete = False
         random.seed(scenario.seed)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         with siblings_importable(node.protocol for node in scenario.nodes):
@@ -65,47 +63,25 @@ class PrototypeRun:
         passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
         handler raises, as for an assertion that failed. Handlers are finalized in any case.
         """
-        try:
-            with siblings_importable(node.protocol for node in self._scenario.nodes):
-                self._execute(progress, should_stop)
-        except BaseException:
-            self._complete = False
-            raise
-        finally:
-            self._cost = (perf_counter() - self._started[0], process_time() - self._started[1])
-
-    def _execute(
-        self, progress: Callable[[float], None] | None, should_stop: Callable[[], bool] | None
-    ) -> None:
-        simulator = self._simulator
-        try:
-            self._complete = run_in_slices(
-                lambda max_events: not simulator.run_events(max_events),
-                lambda: simulator.current_time,
-                progress,
-                should_stop,
-            )
-        except KeyboardInterrupt:
-            self._complete = False
-        simulator.finalize(complete=self._complete)
+        simulator, account = self._simulator, self._account
+        siblings = siblings_importable(node.protocol for node in self._scenario.nodes)
+        with account.of_execution(), siblings:
+            with contextlib.suppress(KeyboardInterrupt):
+                account.complete = run_in_slices(
+                    lambda max_events: not simulator.run_events(max_events),
+                    lambda: simulator.current_time,
+                    progress,
+                    should_stop,
+                )
+            simulator.finalize(complete=account.complete)
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
-        scenario, simulator = self._scenario, self._simulator
-        return RunResult(
-            config=scenario.config,
-            run=scenario.run_number,
-            repetition=scenario.repetition,
-            iterations=scenario.iterations,
-            settings_hash=scenario.settings_hash,
-            file_hashes=scenario.file_hashes,
-            seed=scenario.seed,
+        simulator = self._simulator
+        return self._account.result(
             mode="prototype",
             sim_time_s=simulator.current_time,
-            wall_s=self._cost[0],
-            cpu_s=self._cost[1],
             events=simulator.iteration,
-            interrupted=not self._complete,
             fingerprint=None,
             fates={
                 "copies": self._ledger.copy_fates(),
@@ -117,7 +93,7 @@ class PrototypeRun:
                 if any(counts.values())
             },
             nodes=node_results(
-                scenario,
+                self._scenario,
                 (
                     (node.position, node.protocol_encapsulator.provider.tracked_variables)
                     for node in simulator.nodes

@@ -52,6 +52,13 @@ def test_result_of_a_whole_run(result_of, mode):
     assert result.cpu_s > 0
 
 
+def test_the_cost_counts_from_building_to_the_end(result_of, monkeypatch):
+    for clock, times in (("perf_counter", [10.0, 12.5]), ("process_time", [3.0, 4.0])):
+        monkeypatch.setattr(f"gradysim.results.run_account.{clock}", iter(times).__next__)
+    result = result_of()
+    assert (result.wall_s, result.cpu_s) == (2.5, 1.0)
+
+
 def test_what_the_nodes_tracked(result_of):
     nodes = result_of("class Tested(Talker): pass").nodes
     assert [node.tracked_variables for node in nodes] == [{"heard": 20, "finished": True}] * 2

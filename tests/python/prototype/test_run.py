@@ -52,13 +52,6 @@ def test_before_a_run_its_result_is_there(make_scenario):
     assert (result.interrupted, result.sim_time_s, result.wall_s, result.cpu_s) == (True, 0, 0, 0)
 
 
-def test_the_cost_counts_from_building_to_the_end(make_scenario, monkeypatch):
-    for clock, times in (("perf_counter", [10.0, 12.5]), ("process_time", [3.0, 4.0])):
-        monkeypatch.setattr(f"gradysim.prototype.run.{clock}", iter(times).__next__)
-    result = run(make_scenario())
-    assert (result.wall_s, result.cpu_s) == (2.5, 1.0)
-
-
 def test_a_run_in_which_finish_fails_is_not_complete(make_scenario):
     failing = PrototypeRun(make_scenario("class Tested(Quiet):\n    def finish(self): raise ArithmeticError"))
     with pytest.raises(ArithmeticError):
