@@ -2,12 +2,13 @@
 
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.commands.arguments import Mode
 from gradysim.commands.asked import Asked
-from gradysim.commands.simulators import ids_of_fates
-from gradysim.commands.written_files import are_there
+from gradysim.commands.files_of_run import files_beside_result, files_for_omnetpp
+from gradysim.commands.simulators import ids_of_fates, nodes_of_vectors
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
@@ -32,7 +33,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
     for scenario in scenarios:
-        complete = are_there(scenario, mode, asked)
+        complete = _has_left_its_files(scenario, mode, asked)
         changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, asked))
         if changed == () and complete:
             done.append(scenario.run_number)
@@ -53,3 +54,37 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
             file=sys.stderr,
         )
     return left
+
+
+def _has_left_its_files(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
+    """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
+    from gradysim.results.run_file import has_written
+
+    files = files_for_omnetpp(scenario, mode, asked)
+    return (
+        has_written(scenario, mode, asked.directory, files_beside_result(scenario, mode, asked))
+        and _have_labels(files, scenario, mode)
+        and _has_vectors(files, scenario, asked)
+    )
+
+
+def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
+    """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
+    from gradysim.results.database import storable
+    from gradysim.results.read_files import run_attributes
+    from gradysim.results.run_identity import lasting_attributes
+
+    expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
+    found = [run_attributes(file) for file in files]
+    return all(
+        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
+        for attributes in found
+    )
+
+
+def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:
+    """Whether the last of the files has vectors of all nodes that are asked for."""
+    from gradysim.results.read_files import recorded_modules
+
+    expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, asked)}
+    return not expected or expected <= recorded_modules(files[-1])

@@ -10,7 +10,12 @@ from gradysim.commands.asked import Asked
 from gradysim.commands.current_folder import back_afterwards
 from gradysim.commands.exit_code import OK, say_mistake
 from gradysim.commands.one_run import report, run_one
-from gradysim.commands.result_dir import check_may_be_written_to, make_result_dir
+from gradysim.commands.result_dir import (
+    check_file_names,
+    check_may_be_written_to,
+    check_sqlite,
+    make_result_dir,
+)
 from gradysim.commands.resume import left_to_do
 from gradysim.commands.run_options import (
     FatesAtOption,
@@ -39,7 +44,7 @@ from gradysim.commands.warnings import (
     warn_of_unread_variables,
     warn_of_what_is_seldom_meant,
 )
-from gradysim.commands.written_files import check_can_be_written, check_names_fit, write_files
+from gradysim.commands.written_files import write_files
 
 if TYPE_CHECKING:
     from gradysim.config.scenario import Scenario
@@ -76,14 +81,14 @@ def run(
     # What protocols print, also when they are imported, must not get between the JSON objects.
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
         try:
-            check_can_be_written(asked)
+            check_sqlite(asked)
             if asked.writes_files:
                 make_result_dir(asked.directory)
             with waiting(f"reading {file}", shown=bar):
                 scenarios = load(file, config, runs, settings, seed)
             check, build = simulator(mode, asked)
             check_names(scenarios, asked)
-            check_names_fit(scenarios, mode, asked)
+            check_file_names(scenarios, mode, asked)
             warn_of_equal_seeds(scenarios)
             if resume:
                 scenarios = left_to_do(scenarios, mode, asked)
