@@ -34,16 +34,7 @@ from gradysim.commands.run_options import (
 from gradysim.commands.scenarios import load
 from gradysim.commands.several_runs import one_after_the_other, several_at_once
 from gradysim.commands.simulators import check_names, simulator
-from gradysim.commands.warnings import (
-    warn_of_bands_beside_frequencies,
-    warn_of_doubtful_times,
-    warn_of_equal_seeds,
-    warn_of_mission_speeds,
-    warn_of_plugins_without_telemetry,
-    warn_of_shadowed_lines,
-    warn_of_unread_variables,
-    warn_of_what_is_seldom_meant,
-)
+from gradysim.commands.warnings import tell, warnings_of_lines, warnings_of_networks, warnings_of_seeds
 from gradysim.commands.written_files import write_files
 
 if TYPE_CHECKING:
@@ -89,24 +80,19 @@ def run(
             check, build = simulator(mode, asked)
             check_names(scenarios, asked)
             check_file_names(scenarios, mode, asked)
-            warn_of_equal_seeds(scenarios)
+            tell(warnings_of_seeds(scenarios))
             if resume:
                 scenarios = left_to_do(scenarios, mode, asked)
                 if not scenarios:
                     return OK
             if asked.writes_files:
                 check_may_be_written_to(asked.directory)
-            warn_of_shadowed_lines(scenarios[0])
-            warn_of_unread_variables(scenarios[0])
-            warn_of_bands_beside_frequencies(scenarios)
-            warn_of_doubtful_times(scenarios)
-            warn_of_mission_speeds(scenarios)
-            warn_of_plugins_without_telemetry(scenarios)
+            tell(warnings_of_lines(scenarios))
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
                     check(scenario, is_built_next=len(scenarios) == 1)
             if mode == "integrated":
-                warn_of_what_is_seldom_meant(scenarios)
+                tell(warnings_of_networks(scenarios))
 
             def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
                 with back_afterwards():

@@ -3,17 +3,18 @@
 from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
 from gradysim.commands.exit_code import OK, say_mistake
 from gradysim.commands.scenarios import load
-from gradysim.commands.warnings import warn_of_unread_variables
+from gradysim.commands.warnings import tell
 
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
+    from gradysim.config.doubts.unread_variables import unread_variables
     from gradysim.config.errors.config_error import ConfigError
     from gradysim.config.runs.iterations import text_of_iterations
 
     try:
         scenarios = load(file, config, None, settings)
-        warn_of_unread_variables(scenarios[0])
+        tell(unread_variables(scenarios[0].unread_variables, scenarios[0].lines))
         for scenario in scenarios:
             values = {**scenario.iterations, "repetition": scenario.repetition}
             print(f"Run {scenario.run_number}: {text_of_iterations(values)}")

@@ -104,7 +104,7 @@ def test_an_error_about_something_else_is_not_told_as_one_of_the_output(folder):
         code = (
             "import errno, sys; from gradysim.commands import run; from gradysim.cli import main\n"
             f"def fail(*_): raise {error}\n"
-            "run.warn_of_equal_seeds = fail\n"
+            "run.warnings_of_seeds = fail\n"
             "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '--quiet']))"
         )
         done = run_command(folder, sys.executable, "-c", code)
