@@ -17,7 +17,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
 

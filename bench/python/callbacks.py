@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from statistics import median
 
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"

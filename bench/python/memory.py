@@ -10,7 +10,7 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.integrated.run import IntegratedRun
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"

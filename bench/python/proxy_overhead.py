@@ -19,8 +19,8 @@ from time import process_time
 from typing import Any
 
 from gradysim import _netsim
+from gradysim.config import Scenario, load_scenarios
 from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.encapsulator.netsim import NetsimProvider
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.integrated.network import build_network

@@ -10,7 +10,7 @@ from statistics import median
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.results.run_result import RunResult
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "zigzag.ini"

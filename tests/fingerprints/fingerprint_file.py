@@ -5,9 +5,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from gradysim.config import load_scenarios
 from gradysim.config.file.reader import read_ini
 from gradysim.config.file.sections import config_names
-from gradysim.config.scenario import load_scenarios
 from gradysim.integrated.run import run
 
 ROOT = Path(__file__).resolve().parents[2]

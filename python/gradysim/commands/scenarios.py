@@ -19,7 +19,7 @@ def load(
     Says on the error output which of `settings` have no effect, because others before them have their keys.
     """
     from gradysim.config.errors.argument_names import ArgumentNames
-    from gradysim.config.scenario import load_scenarios
+    from gradysim.config.load import load_scenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)

@@ -9,13 +9,16 @@
     matching              which entry is in force for what
     runs, node, obstacle  the parts of a Scenario
     doubts                what is valid and probably not meant
+
+`load` reads one `scenario` after the other, `networks` the part of each, `network`, that runs may share.
 """
 
 from gradysim.config.errors.config_error import ConfigError, format_config_error
 from gradysim.config.errors.source import Source
+from gradysim.config.load import load_scenarios
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.scenario import CommunicationMediumSpec, Scenario, load_scenarios
+from gradysim.config.scenario import CommunicationMediumSpec, Scenario
 from gradysim.config.value.setting import Setting
 
 __all__ = [

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 from gradysim.cli import main
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
 
 INI = """[General]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.config import Scenario, load_scenarios
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import Scenario, load_scenarios
 
 PROTOCOLS = """
 from gradysim.protocol.interface import IProtocol

@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.node_names import check_node_names, nodes_named
-from gradysim.config.scenario import load_scenarios
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.run import IntegratedRun
 from gradysim.results.run_result import RunResult
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.native_protocols import is_native, native_protocols
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult

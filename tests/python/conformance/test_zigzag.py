@@ -25,8 +25,8 @@ from typing import Any, cast
 
 import pytest
 
+from gradysim.config import Scenario, load_scenarios
 from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand

@@ -12,7 +12,7 @@ import pytest
 import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.cli import main
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.simulator.handler.ardupilot_mobility import ArdupilotMobilityException
 
 PAGE = "docs/guides/ardupilot.md"

@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli import main
-from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.calibration import calibrate
 
 

@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.integrated.scenario_warnings import scenario_warnings
 
 

@@ -2,9 +2,9 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
-from gradysim.config.scenario import load_scenarios
 from gradysim.config.value.setting import Setting
 from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.network import check_scenario

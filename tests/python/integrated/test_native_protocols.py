@@ -3,10 +3,10 @@ from pathlib import Path
 import pytest
 
 import gradysim.prototype.run
+from gradysim.config import load_scenarios
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.protocol.loader import ProtocolLoader
 from gradysim.config.protocol.parameters import parameters_of
-from gradysim.config.scenario import load_scenarios
 from gradysim.config.value.expression import parse_value
 from gradysim.integrated.native_protocols import native_protocols
 from gradysim.integrated.network import check_scenario

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
 
 SATURATION = Path(__file__).resolve().parents[3] / "configs" / "reference" / "saturation.ini"

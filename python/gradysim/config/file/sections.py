@@ -1,5 +1,6 @@
 """Which sections a configuration consists of, in the order in which they are searched."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from gradysim.config.errors.config_error import ConfigError
@@ -60,7 +61,7 @@ def config_names(ini: IniFile) -> list[str]:
     return names or [GENERAL]
 
 
-def unused_sections(ini: IniFile, used: list[Section]) -> list[str]:
+def unused_sections(ini: IniFile, used: Sequence[Section]) -> list[str]:
     """Names of the sections that are not `used` and that no other section extends."""
     extended = {
         base.strip()
@@ -137,7 +138,7 @@ def _is_true(entry: Entry) -> bool:
     return entry.text == "true"
 
 
-def what_to_run_instead(ini: IniFile, config: str, sections: list[Section], name: str) -> str:
+def what_to_run_instead(ini: IniFile, config: str, sections: Sequence[Section], name: str) -> str:
     """What to add to an error of a configuration that lacks something: a misspelt section, or the others.
 
     `name` is what the caller calls that of a configuration.

@@ -19,7 +19,7 @@ from gradysim.config.keys.omnetpp_options import (
     IGNORED_MODULES,
     IGNORED_OPTIONS,
 )
-from gradysim.config.keys.options import NETWORK
+from gradysim.config.keys.options import NETWORK, OPTIONS
 from gradysim.config.value.parameter_context import differs_between_parameters
 from gradysim.config.value.pattern import Pattern, compile_pattern
 
@@ -171,6 +171,15 @@ def network_name(network: Entry | None) -> str:
 def is_option(entry: Entry) -> bool:
     """Whether the key is one of an option: it has no dot."""
     return "." not in entry.key
+
+
+def options_in_force(entries: Iterable[Entry]) -> dict[str, Entry]:
+    """The entry in force for each option that is given and not left at its default."""
+    options: dict[str, Entry] = {}
+    for entry in entries:
+        if entry.key in OPTIONS:
+            options.setdefault(entry.key, entry)
+    return {key: entry for key, entry in options.items() if entry.text != "default"}
 
 
 def is_ignored(entry: Entry) -> bool:

@@ -5,12 +5,14 @@ stage before it, `iterations`, has left nothing but names between the braces.
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.file.reader import Entry
+from gradysim.config.file.sections import Ranked
+from gradysim.config.matching.lookup import is_ignored
 from gradysim.config.runs.iterations import file_names_of_iterations, text_of_iterations
 
 _VARIABLE = re.compile(r"\$\{([^{}]*)\}")
@@ -55,6 +57,13 @@ def substitute(entry: Entry, variables: Mapping[str, str]) -> Entry:
         return variables[match[1]]
 
     return replace(entry, text=_VARIABLE.sub(value, entry.text))
+
+
+def substituted(ranked: Iterable[Ranked], variables: Mapping[str, str]) -> list[Ranked]:
+    """The entries with their variables replaced, but for OMNeT++'s own."""
+    return [
+        Ranked(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked
+    ]
 
 
 def depends_on_run(entry: Entry) -> bool:

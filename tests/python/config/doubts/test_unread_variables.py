@@ -1,7 +1,7 @@
 from typing import Any
 
+from gradysim.config import load_scenarios
 from gradysim.config.doubts.unread_variables import unread_variables
-from gradysim.config.scenario import load_scenarios
 from python.config.conftest import BASE
 
 RTS = "**.rtsThreshold = ${rts=3000B, 100B}\n"

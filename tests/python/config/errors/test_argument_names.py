@@ -4,9 +4,9 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.errors.argument_names import ArgumentNames
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import load_scenarios
 
 NO_SUCH = {"overrides": ["*.numUavs=two"], "seed": -1, "runs": "x"}
 

@@ -2,9 +2,9 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import Scenario, load_scenarios
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.matching.key_check import NoSuchNodeError
-from gradysim.config.scenario import Scenario, load_scenarios
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,8 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import load_scenarios
 
 NODES = "expected one of `groundStation`, `uavs[*]`"
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.protocol.loader import ProtocolLoader
-from gradysim.config.scenario import load_scenarios
 
 
 @pytest.fixture

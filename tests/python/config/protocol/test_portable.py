@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import Scenario, load_scenarios
 from gradysim.config.protocol.loader import ProtocolLoader
 from gradysim.config.protocol.native import native_protocol
 from gradysim.config.protocol.origin import Origin, origin_of
 from gradysim.config.protocol.portable import class_from, portable
-from gradysim.config.scenario import Scenario, load_scenarios
 from gradysim.prototype.run import run
 from python.quiet_protocol import Quiet
 

@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.config import Scenario, load_scenarios
 from gradysim.config.runs.file_hashes import FileHashes, text_of_files
-from gradysim.config.scenario import Scenario, load_scenarios
 
 
 def test_names_are_seen_from_the_folder(tmp_path: Path) -> None:

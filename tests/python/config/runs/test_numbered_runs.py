@@ -2,8 +2,8 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import load_scenarios
 
 
 def test_a_constraint_chooses_combinations_and_numbers_close_up(folder: Any) -> None:

@@ -2,8 +2,8 @@ from typing import Any
 
 import pytest
 
+from gradysim.config import load_scenarios
 from gradysim.config.runs.unread_variables import UnreadVariables
-from gradysim.config.scenario import load_scenarios
 from python.config.conftest import BASE
 
 RTS = "**.rtsThreshold = ${rts=3000B, 100B}\n"

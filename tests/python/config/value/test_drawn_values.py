@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gradysim.config.scenario import Scenario, load_scenarios
+from gradysim.config import Scenario, load_scenarios
 
 SCATTERED = """\
 *.uavs[*].mobility.initialX = uniform(0m, 1km)

@@ -9,7 +9,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.results.run_result import RunResult
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"

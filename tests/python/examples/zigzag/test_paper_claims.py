@@ -16,7 +16,7 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 import gradysim.prototype.run
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import pytest
 
-from gradysim.config.scenario import load_scenarios
+from gradysim.config import load_scenarios
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.interface import IProvider
 from gradysim.protocol.messages.mobility import MobilityCommandType

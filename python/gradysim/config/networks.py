@@ -1,0 +1,80 @@
+"""The networks of all runs: those that are alike are read once, and what no run reads is found."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from gradysim.config.errors.source import Source
+from gradysim.config.file.reader import Entry
+from gradysim.config.file.sections import Ranked
+from gradysim.config.matching.key_check import NoSuchNodeError
+from gradysim.config.matching.lookup import is_ignored, is_option
+from gradysim.config.network import Network, read_network
+from gradysim.config.protocol.loader import ProtocolLoader
+from gradysim.config.runs.file_hashes import FileHashes
+from gradysim.config.runs.iterations import IterationVariable
+from gradysim.config.runs.unread_variables import UnreadVariables, line_instead, unread_variables
+from gradysim.config.runs.variables import depends_on_run, substitute, substituted
+from gradysim.config.value.drawing_functions import drawing_function_in
+from gradysim.config.value.setting import SettingReader
+
+
+class Networks:
+    """Reads the network of one run after the other."""
+
+    def __init__(self, ranked: Sequence[Ranked], folder: Path, instead: str, source: Source) -> None:
+        """Begin with the first run.
+
+        Args:
+            ranked: The entries of the configuration, with names for the values of a run.
+            folder: That of the .ini file.
+            instead: What messages about nodes that are not there end in.
+            source: The place of the configuration.
+        """
+        self._ranked = ranked
+        self._instead = instead
+        self._source = source
+        self._loader, self._hashes = ProtocolLoader(), FileHashes(folder)
+        parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
+        self._varying = [entry for entry in parameters if depends_on_run(entry)]
+        self._always_draws = any(drawing_function_in(entry.text) for entry in parameters)
+        self._last: tuple[tuple[str | int, ...], Network, SettingReader] | None = None
+        self._of_other_runs: list[Sequence[Source]] = []
+        self._read: set[Source] = set()
+
+    def of_run(self, variables: Mapping[str, str], seed: int) -> Network:
+        """Return the network of a run: that of the run before if what it is made of is the same.
+
+        Raises ConfigError for anything that is wrong.
+        """
+        texts = [substitute(entry, variables).text for entry in self._varying]
+        draws = self._always_draws or any(map(drawing_function_in, texts))
+        made_of = (*texts, *([seed] if draws else ()))
+        if self._last is None or made_of != self._last[0]:
+            settings = SettingReader(seed)
+            entries = substituted(self._ranked, variables)
+            network = read_network(entries, settings, self._loader, self._hashes, self._instead, self._source)
+            self._of_other_runs.append(network.lines_of_other_runs)
+            self._read |= settings.lines_read()
+            self._last = made_of, network, settings
+        return self._last[1]
+
+    def check_lines_of_other_runs(self) -> None:
+        """Raise NoSuchNodeError for the first line that each of the runs leaves to others."""
+        first, *others = self._of_other_runs
+        for line in first:
+            if all(line in lines for lines in others):
+                raise NoSuchNodeError(
+                    f"`{line.key}` matches no node in any run; expected a node that some run has", line
+                )
+
+    def unread(
+        self, lines: Sequence[Entry], variables: Sequence[IterationVariable]
+    ) -> tuple[UnreadVariables, ...]:
+        """Return which of the variables, of these lines of the configuration, no run up to now has read."""
+        assert self._last is not None
+        _, network, settings = self._last
+        nodes, parameters = [spec.name for spec in network.nodes], settings.parameters_read()
+        return tuple(
+            UnreadVariables(line, names, line_instead(line, network.lookup, nodes, parameters))
+            for line, names in unread_variables(lines, variables, self._read).items()
+        )
