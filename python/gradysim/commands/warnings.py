@@ -34,11 +34,11 @@ def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     from gradysim.config.doubts.plugins_without_telemetry import plugins_without_telemetry
     from gradysim.config.doubts.shadowed_lines import shadowed_lines
     from gradysim.config.doubts.unread_variables import unread_variables
-    from gradysim.config.keys.radio_media import RADIO_MEDIA
+    from gradysim.config.keys.radio_media import has_radios
 
     first = scenarios[0]
     medium = first.medium.get("typename")
-    has_powers = medium is None or medium.value in RADIO_MEDIA.names
+    has_powers = medium is None or has_radios(medium.value)
     yield from shadowed_lines(first.sections, has_powers=has_powers)
     yield from unread_variables(first.unread_variables, first.lines)
     networks = {id(scenario.nodes): scenario.nodes for scenario in scenarios}.values()

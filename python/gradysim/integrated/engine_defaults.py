@@ -1,6 +1,8 @@
 """The defaults of the engine's configurations, for lists of keys."""
 
 from gradysim.config.key_list import Structs
+from gradysim.config.keys.interface import IEEE802154
+from gradysim.config.keys.radio_media import IEEE802154_MEDIUM
 from gradysim.integrated.compiled_part import load_netsim
 
 
@@ -10,12 +12,12 @@ def engine_defaults() -> Structs:
     return {
         "medium": {
             "": netsim.MediumConfig(),
-            "802.15.4": netsim.MediumConfig("Ieee802154NarrowbandScalarRadioMedium"),
+            "802.15.4": netsim.MediumConfig(IEEE802154_MEDIUM),
         },
         "interface": {"": netsim.NodeConfig("node").wlan[0]},
         "radio": {
             "": netsim.RadioConfig(),
-            "802.15.4": netsim.RadioConfig("Ieee802154NarrowbandInterface"),
+            "802.15.4": netsim.RadioConfig(IEEE802154.names[0]),
         },
         "antenna": {"": netsim.AntennaConfig()},
         "mac": {"": netsim.MacConfig()},

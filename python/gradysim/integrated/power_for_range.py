@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.keys.interface import DEFAULT_INTERFACE
-from gradysim.config.keys.radio_media import RADIO_MEDIA
+from gradysim.config.keys.radio_media import has_radios
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at_line
@@ -27,7 +27,7 @@ class PowersForRanges:
     def __init__(self, medium: "MediumConfig") -> None:
         """For nodes in that medium."""
         self._medium = medium
-        self._has_powers = medium.typename in RADIO_MEDIA.names
+        self._has_powers = has_radios(medium.typename)
         self._known: dict[object, float] = {}
 
     def set_powers(self, config: "NodeConfig", spec: NodeSpec) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.config.errors.source import Source
 from gradysim.config.keys.interface import IEEE802154
-from gradysim.config.keys.radio_media import RADIO_MEDIA
+from gradysim.config.keys.radio_media import has_radios
 from gradysim.config.node.interface_spec import InterfaceSpec
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.config.scenario import Scenario
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def radio_warnings(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
     """Yield one line of text for each: "FILE:LINE: warning: ..."."""
-    if medium.typename not in RADIO_MEDIA.names:
+    if not has_radios(medium.typename):
         return
     yield from _stations_without_a_common_mode(scenario)
     yield from _radios_that_nobody_hears(scenario)

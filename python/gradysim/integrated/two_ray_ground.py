@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from gradysim.config.keys.radio_media import RADIO_MEDIA
+from gradysim.config.keys.radio_media import has_radios
 from gradysim.config.node.node_spec import NodeSpec
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ _TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
 def ground_hint(medium: "MediumConfig", nodes: Sequence[NodeSpec]) -> str:
     """Return what to do about those of `nodes` that start on the ground, or "" if nothing is to be done."""
     low = [node.name for node in nodes if node.initial_position[2] == 0]
-    if medium.typename not in RADIO_MEDIA.names or medium.path_loss not in _TWO_RAY or not low:
+    if not has_radios(medium.typename) or medium.path_loss not in _TWO_RAY or not low:
         return ""
     start = "starts" if len(low) == 1 else f"and {len(low) - 1} more start"
     return (

@@ -13,7 +13,7 @@ from gradysim.config.errors.nearest import nearest
 from gradysim.config.errors.source import Source
 from gradysim.config.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.config.keys.key import Key
-from gradysim.config.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID
+from gradysim.config.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID, STATIONARY
 from gradysim.config.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import is_misspelt_class
@@ -205,7 +205,7 @@ class _NodeBuilder:
         typename = mobility.get("typename")
         is_static_grid = typename is not None and typename.value == STATIC_GRID
         if is_static_grid:
-            mobility["typename"] = replace(mobility["typename"], value="StationaryMobility")
+            mobility["typename"] = replace(mobility["typename"], value=STATIONARY)
             position[STATIC_GRID] = found[_TYPENAME]
         position_settings = self._position(found, position, path_of)
         values = {field: float(setting.value) for field, setting in position_settings.items()}
