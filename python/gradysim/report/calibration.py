@@ -6,6 +6,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
+from gradysim.config.value.decibels import db_from_ratio, dbm_from_w
 from gradysim.integrated.calibration import Calibration
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ def text(calibration: Calibration, encoding: str = "utf-8") -> str:
     """Return all of it as text, for an output of that encoding."""
     c = calibration
     above = (
-        f"{10 * math.log10(c.snr_at_range):.2f} dB above the" if math.isfinite(c.snr_at_range) else "without"
+        f"{db_from_ratio(c.snr_at_range):.2f} dB above the" if math.isfinite(c.snr_at_range) else "without"
     )
     to = "another one like it" if c.receiver == c.sender else c.receiver
     wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
@@ -55,7 +56,7 @@ def _in_mw(power_w: float) -> str:
 
 def _in_dbm(power_w: float) -> str:
     """Three digits after the point, rounded up."""
-    return f"{math.ceil(10_000 * math.log10(power_w * 1000)) / 1000:.3f}"
+    return f"{math.ceil(1000 * dbm_from_w(power_w)) / 1000:.3f}"
 
 
 def _in_metres(distance_m: float) -> str:
@@ -67,7 +68,7 @@ def _what_decides(level: str, level_w: float | None) -> list[str]:
     if level_w is None:
         return []
     decides = (
-        f"The receiver's {level} of {10 * math.log10(level_w * 1000):g} dBm decides, not the noise:"
+        f"The receiver's {level} of {dbm_from_w(level_w):g} dBm decides, not the noise:"
         " no slower bitrate would do with less power."
     )
     return [*wrap(decides, width=88), ""]

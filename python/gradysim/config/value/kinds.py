@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.errors.nearest import did_you_mean, misspelt
+from gradysim.config.value.decibels import db_from_ratio, ratio_from_db
 from gradysim.config.value.operators import Value
 from gradysim.config.value.quantity import Quantity
 from gradysim.config.value.units import UNITS, Dimension
@@ -127,8 +128,8 @@ def power_ratio() -> Kind:
     level = quantity("dB", at_least=-300, at_most=300)
     return replace(
         level,
-        convert=lambda value: math.pow(10.0, float(level.convert(value)) / 10.0),
-        show=lambda ratio: level.show(10.0 * math.log10(float(ratio))),
+        convert=lambda value: ratio_from_db(float(level.convert(value))),
+        show=lambda ratio: level.show(db_from_ratio(float(ratio))),
     )
 
 
@@ -244,7 +245,7 @@ def _in_unit(value: float, unit: str, shown: str) -> str:
     source, target = UNITS[unit], UNITS[shown]
     number = value * float(source.factor / target.factor)
     if target.logarithmic:
-        number = 10.0 * math.log10(number) if number > 0 else -math.inf
+        number = db_from_ratio(number)
     return f"{number:.6g}{shown}"
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from gradysim.config.errors.config_error import BadValue
+from gradysim.config.value.decibels import db_from_ratio, ratio_from_db
 from gradysim.config.value.units import Dimension, Unit
 
 Number = int | Fraction | float
@@ -62,13 +63,13 @@ class Quantity:
         if unit.logarithmic:
             ratio = self.unit.factor / unit.factor
             if self.unit.logarithmic:
-                return float(self.number) + 10.0 * math.log10(ratio)
+                return float(self.number) + db_from_ratio(float(ratio))
             linear = float(self.number * ratio)
             if linear <= 0.0:
                 raise BadValue(f"`{self}` has no logarithm, so it is no number of {unit.name}")
-            return 10.0 * math.log10(linear)
+            return db_from_ratio(linear)
         if self.unit.logarithmic:
-            return math.pow(10.0, float(self.number) / 10.0) * float(self.unit.factor / unit.factor)
+            return ratio_from_db(float(self.number)) * float(self.unit.factor / unit.factor)
         scale = self.unit.factor / unit.factor
         if isinstance(self.number, float):
             return self.number * float(scale)
