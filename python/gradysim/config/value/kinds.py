@@ -133,39 +133,6 @@ def power_ratio() -> Kind:
     )
 
 
-def channel_of_2_4_ghz() -> Kind:
-    """A channel of the 2.4 GHz band, counted from 0 as INET does, converted to its centre in hertz.
-
-    The centres are those of IEEE 802.11-2020, 15.4.4.3: 2.412 GHz and every 5 MHz from there, the 14th at
-    2.484 GHz.
-    """
-    index = integer(0, 13)
-
-    def convert(value: Value) -> float:
-        try:
-            channel = int(index.convert(value))
-        except BadValue as error:
-            raise BadValue(error.problem, error.suggestion or _hint_at_5_ghz(value)) from None
-        return 2.484e9 if channel == 13 else 2.412e9 + 5e6 * channel
-
-    def show(carrier_hz: Scalar) -> str:
-        if carrier_hz == 2.484e9:
-            return "13"
-        channel = (float(carrier_hz) - 2.412e9) / 5e6
-        return f"{channel:g}" if channel.is_integer() else "none"
-
-    return Kind("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert, unit="0 to 13", show=show)
-
-
-def _hint_at_5_ghz(value: Value) -> str:
-    """For a number that only the 5 GHz band has: centre 5 GHz + 5 MHz each (IEEE 802.11-2020, annex E)."""
-    if isinstance(value, Quantity) and value.unit is None and value.number in range(36, 178):
-        return (
-            f"; channel {value} of the 5 GHz band is `radio.centerFrequency = {5000 + 5 * value.number}MHz`"
-        )
-    return ""
-
-
 def boolean() -> Kind:
     """True or false."""
 

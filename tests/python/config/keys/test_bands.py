@@ -26,6 +26,27 @@ def test_first_and_last_channel(band: str, first_mhz: float, last: int, last_mhz
         CHANNELS[band].convert(parse_value(str(last + 1)))
 
 
+def test_channels_at_2_4_ghz_are_5_mhz_apart() -> None:
+    assert CHANNELS["2.4 GHz"].convert(parse_value("5")) == 2.437e9
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("36", "; channel 36 of the 5 GHz band is `radio.centerFrequency = 5180MHz`"),
+        ("177", "; channel 177 of the 5 GHz band is `radio.centerFrequency = 5885MHz`"),
+        ("35", ""),
+        ("178", ""),
+        ("36.0", "; did you mean `36`, or `int(...)` of an expression?"),
+        ("40s", ""),
+    ],
+)
+def test_a_channel_of_the_5_ghz_band_is_told_by_its_frequency(text: str, hint: str) -> None:
+    with pytest.raises(BadValue) as caught:
+        CHANNELS["2.4 GHz"].convert(parse_value(text))
+    assert caught.value.suggestion == hint
+
+
 def test_a_band_alone_is_its_first_channel() -> None:
     assert first_channel_of_band().convert(parse_value('"5 GHz (20 MHz)"')) == 5.01e9
 

@@ -2,15 +2,12 @@ import math
 import re
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from gradysim.config.errors.config_error import BadValue
 from gradysim.config.value.expression import parse_value
 from gradysim.config.value.kinds import (
     Kind,
     boolean,
-    channel_of_2_4_ghz,
     choice,
     integer,
     number,
@@ -52,9 +49,6 @@ def test_what_other_simulators_have_is_told_from_what_is_misspelt(name: str, hin
         (whole_bytes(), "1KiB", 1024),
         (power_ratio(), "4dB", 10**0.4),
         (power_ratio(), "10dB", 10.0),
-        (channel_of_2_4_ghz(), "0", 2.412e9),
-        (channel_of_2_4_ghz(), "5", 2.437e9),
-        (channel_of_2_4_ghz(), "13", 2.484e9),
         (boolean(), "true", True),
         (text(), '"x"', "x"),
         (choice("b", "a"), '"a"', "a"),
@@ -104,7 +98,6 @@ def test_converts(kind: Kind, written: str, expected: object) -> None:
         (integer(1), "0", "it is out of range"),
         (whole_bytes(), "3b", "`3b` is no whole number of bytes"),
         (power_ratio(), "4", "`4` has no unit"),
-        (channel_of_2_4_ghz(), "14", "it is out of range"),
         (boolean(), "1", "it is a number"),
         (boolean(), '"true"', "it is a text"),
         (text(), "3m", "it is a quantity"),
@@ -146,27 +139,3 @@ def test_refuses(kind: Kind, written: str, problem: str) -> None:
 )
 def test_says_what_it_expects(kind: Kind, expected: str) -> None:
     assert kind.expected == expected
-
-
-@pytest.mark.parametrize(
-    ("text", "hint"),
-    [
-        ("36", "; channel 36 of the 5 GHz band is `radio.centerFrequency = 5180MHz`"),
-        ("177", "; channel 177 of the 5 GHz band is `radio.centerFrequency = 5885MHz`"),
-        ("35", ""),
-        ("178", ""),
-        ("36.0", "; did you mean `36`, or `int(...)` of an expression?"),
-        ("40s", ""),
-    ],
-)
-def test_a_channel_of_the_5_ghz_band_is_told_by_its_frequency(text: str, hint: str) -> None:
-    with pytest.raises(BadValue) as caught:
-        channel_of_2_4_ghz().convert(parse_value(text))
-    assert caught.value.suggestion == hint
-
-
-@given(st.integers(0, 13))
-def test_channels_are_in_the_band(channel: int) -> None:
-    centre = channel_of_2_4_ghz().convert(parse_value(str(channel)))
-    assert isinstance(centre, float)
-    assert 2.4e9 < centre < 2.5e9
