@@ -87,10 +87,10 @@ def _obstacles_far_from_all_nodes(scenario: Scenario) -> Iterator[str]:
     corners = [corner for obstacle in scenario.obstacles for ring in obstacle.rings for corner in ring]
     if not corners or not scenario.nodes:
         return
-    west, east = min(x for x, _ in corners), max(x for x, _ in corners)
-    south, north = min(y for _, y in corners), max(y for _, y in corners)
+    south, north = min(x for x, _ in corners), max(x for x, _ in corners)
+    west, east = min(y for _, y in corners), max(y for _, y in corners)
     nearest_m = min(
-        math.hypot(max(west - x, x - east, 0), max(south - y, y - north, 0))
+        math.hypot(max(south - x, x - north, 0), max(west - y, y - east, 0))
         for x, y, _ in (spec.initial_position for spec in scenario.nodes)
     )
     if nearest_m > _OF_NO_USE_M:

@@ -50,7 +50,7 @@ def geo_to_cartesian(ref_coord: Position, target_coord: Position) -> Position:
 
 
 def rotate_position_2d(position: Position, angle_degrees: float) -> Position:
-    """Turn a point counter-clockwise about the z axis, seen from above; z stays."""
+    """Turn a point about the z axis, from x (North) towards y (East); z stays."""
     cosine = math.cos(math.radians(angle_degrees))
     sine = math.sin(math.radians(angle_degrees))
     x, y, z = position

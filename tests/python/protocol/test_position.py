@@ -60,7 +60,7 @@ def test_nearby_points_lie_on_the_tangent_plane(latitude, longitude, north_deg, 
     assert y == pytest.approx(east_deg * METRES_PER_DEGREE * math.cos(math.radians(latitude)), abs=1e-3)
 
 
-def test_rotation_is_counter_clockwise():
+def test_rotation_is_from_x_towards_y():
     assert rotate_position_2d((1, 0, 5), 90) == pytest.approx((0, 1, 5))
 
 

@@ -45,11 +45,11 @@ def misplaced_ring(rings: Sequence[Ring]) -> tuple[int, int] | None:
     for number, points in enumerate(samples, start=1):
         if any(_depth_m(point, outer) < -_TOUCH_M for point in points):
             return number, 0
-    wests, easts = [min(ring)[0] for ring in inner], [max(ring)[0] for ring in inner]
-    order = sorted(range(len(inner)), key=wests.__getitem__)
+    souths, norths = [min(ring)[0] for ring in inner], [max(ring)[0] for ring in inner]
+    order = sorted(range(len(inner)), key=souths.__getitem__)
     for place, one in enumerate(order):
         for other in order[place + 1 :]:
-            if wests[other] > easts[one]:
+            if souths[other] > norths[one]:
                 break
             for within, around in ((other, one), (one, other)):
                 if any(_depth_m(point, inner[around]) > _TOUCH_M for point in samples[within]):
@@ -86,8 +86,8 @@ def _point_within(ring: Ring) -> Corner:
         if (begin[1] > y) != (end[1] > y)
     )
     parts = zip(xs[::2], xs[1::2], strict=True)
-    west, east = max(parts, key=lambda pair: pair[1] - pair[0], default=(ring[0][0], ring[0][0]))
-    return (west + east) / 2, y
+    south, north = max(parts, key=lambda pair: pair[1] - pair[0], default=(ring[0][0], ring[0][0]))
+    return (south + north) / 2, y
 
 
 @dataclass(frozen=True)
@@ -98,9 +98,9 @@ class _Side:
     corner: int
     begin: Corner
     end: Corner
-    west: float
+    south: float
     """The least x."""
-    east: float
+    north: float
     """The largest x."""
 
 
@@ -120,9 +120,9 @@ def crossing_sides(rings: Sequence[Ring]) -> tuple[tuple[int, int], tuple[int, i
 
 def _crossing_among(sides: list[_Side]) -> tuple[tuple[int, int], tuple[int, int]] | None:
     """The same, of these sides. Those that overlap in x are compared; if too many do, parted before."""
-    sides = sorted(sides, key=lambda side: side.west)
-    wests = [side.west for side in sides]
-    ends = [bisect_right(wests, side.east) for side in sides]  # of those behind a side that overlap with it
+    sides = sorted(sides, key=lambda side: side.south)
+    souths = [side.south for side in sides]
+    ends = [bisect_right(souths, side.north) for side in sides]  # of those behind a side that overlap with it
     if sum(ends) - sum(range(1, len(sides) + 1)) > _FEW * len(sides) and (halves := _halves(sides)):
         return _crossing_among(halves[0]) or _crossing_among(halves[1])
     for index, (one, end) in enumerate(zip(sides, ends, strict=True), start=1):

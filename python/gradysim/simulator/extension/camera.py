@@ -30,7 +30,7 @@ class CameraConfiguration:
         camera_reach: How far it sees; m, >= 0.
         camera_theta: Angle between the axis of the cone and its side; degrees, 0 to 180.
         facing_elevation: Where the axis points: 0 up, 90 to the horizon, 180 down; degrees.
-        facing_rotation: Counter-clockwise from the x axis, seen from above; degrees.
+        facing_rotation: From x (North) towards y (East); degrees.
     """
 
     camera_reach: float

@@ -43,7 +43,7 @@ class MobilityLeaderConfiguration:
     Attributes:
         broadcast_interval: Mean time between two broadcasts; s, > 0.
         follower_timeout: A follower that has not answered for this long is one no more; s, > 0.
-        initial_orientation: Which way the leader looks at first: degrees, counter-clockwise seen from above.
+        initial_orientation: Which way the leader looks at first: degrees, from x (North) towards y (East).
         broadcast_jitter: Each interval has one broadcast, at a random moment of its first part, which is this
             long; 0 to 1 intervals. With 0 all leaders that were made together send in lock-step: on a real
             channel none of them is heard.
@@ -95,7 +95,7 @@ class MobilityLeaderPlugin:
 
     @property
     def orientation(self) -> float:
-        """Which way the leader looks: degrees, counter-clockwise seen from above."""
+        """Which way the leader looks: degrees, from x (North) towards y (East)."""
         return self._orientation
 
     def set_orientation(self, orientation: float) -> None:
