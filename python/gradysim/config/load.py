@@ -39,7 +39,7 @@ def load_scenarios(
         config: Name of the configuration in it.
         runs: Numbers of the runs that are wanted, or a text such as "0,2,5..9"; None for all.
         overrides: "KEY=VALUE" texts that come before all of the file; of several that match, the first.
-        seed: Seed of run 0, to which run N adds N; None for the file's seed-set.
+        seed: Seed of run 0, to which run N adds N, each 0 to 2^63 - 1; None for the file's seed-set.
         names: What messages call these arguments.
 
     Returns:

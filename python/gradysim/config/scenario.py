@@ -23,8 +23,8 @@ class CommunicationMediumSpec:
     """Prototype mode's medium.
 
     Attributes:
-        transmission_range_m: Distance up to which a message arrives.
-        delay_s: Time from sending to arrival.
+        transmission_range_m: Distance up to which a message arrives, >= 0.
+        delay_s: Time from sending to arrival, >= 0.
         failure_rate: Part of the messages that is lost, 0 to 1.
     """
 
@@ -45,7 +45,7 @@ class Scenario:
         seed: Of all random streams of the run, 0 to 2^63 - 1. Those of values that the file draws are
             included: they are drawn when it is read, so that `replace(scenario, seed=...)` leaves them.
         description: What the configuration says of itself, or "".
-        sim_time_limit_s: Simulated time at which the run ends.
+        sim_time_limit_s: Simulated time at which the run ends, > 0 and at most 9,200,000.
         nodes: In the order of their ids.
         medium: Fields of MediumConfig that were set; the others keep their defaults.
         communication_medium: Prototype mode's medium.

@@ -81,9 +81,16 @@ def calibrate(
 ) -> Calibration:
     """Find the transmitter power with which the share `ratio` of broadcast frames is received at `range_m`.
 
-    Nobody else sends meanwhile; antennas look at each other, nothing is in between. `sender` and `receiver`
-    are names of nodes, or of their interfaces, `relay.wlan[1]`, by default wlan[0]; without them the first
-    node sends, to another one of its kind.
+    Nobody else sends meanwhile; antennas look at each other, nothing is in between.
+
+    Args:
+        scenario: The radios and the medium.
+        range_m: Distance between the two nodes, > 0.
+        ratio: More than 0 and less than 1.
+        message_bytes: Length of the message in each frame, from 0 to what the MTU leaves.
+        sender: Name of a node, or of its interface, `relay.wlan[1]`, by default wlan[0]; None for the first
+            node.
+        receiver: The same; None for another one like the sender.
 
     Raises:
         ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.

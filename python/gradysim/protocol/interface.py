@@ -1,7 +1,8 @@
 """The contract between a protocol and the environment that it runs in.
 
 A protocol is a set of callbacks (`IProtocol`); all it can do to the world goes through its provider
-(`IProvider`). Neither knows which environment stands behind the other.
+(`IProvider`). Neither knows which environment stands behind the other. What commands raise is in
+`gradysim.protocol.errors`.
 """
 
 from abc import ABC, abstractmethod
@@ -25,11 +26,21 @@ class IProvider(ABC):
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Hand a message to the node's radio. Nothing tells whether it arrives."""
+        """Hand a message, which is a text, to the node's radio. Nothing tells whether it arrives.
+
+        Raises:
+            CommunicationException: The message is no text or too long for the network, or there is no such
+                destination or interface.
+        """
 
     @abstractmethod
     def send_mobility_command(self, command: MobilityCommand) -> None:
-        """Hand an order to the node's vehicle."""
+        """Hand an order to the node's vehicle.
+
+        Raises:
+            MasslessMobilityException: It is no place in the scene or no speed, or the node cannot move. Other
+                vehicles of prototype mode, which scripts add, have exceptions of their own.
+        """
 
     @abstractmethod
     def schedule_timer(self, timer: str, timestamp: float) -> None:
@@ -38,11 +49,18 @@ class IProvider(ABC):
         Args:
             timer: Any name. Several timers of the same name may be pending.
             timestamp: Absolute time in seconds, of the same clock as `current_time`; not in the past.
+
+        Raises:
+            TimerException: The name is no text, or the time is past or no finite number.
         """
 
     @abstractmethod
     def cancel_timer(self, timer: str) -> None:
-        """Forget every pending timer of that name; nothing happens if there is none."""
+        """Forget every pending timer of that name; nothing happens if there is none.
+
+        Raises:
+            TimerException: The name is no text.
+        """
 
     @abstractmethod
     def current_time(self) -> float:

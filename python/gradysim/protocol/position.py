@@ -29,8 +29,9 @@ def geo_to_cartesian(ref_coord: Position, target_coord: Position) -> Position:
     """Place a geographic point in the frame whose origin is another one.
 
     Args:
-        ref_coord: (latitude deg, longitude deg, altitude m) of the origin.
-        target_coord: (latitude deg, longitude deg, altitude m) of the point.
+        ref_coord: (latitude deg, longitude deg, altitude m) of the origin; latitudes are -90 to 90 deg,
+            longitudes any angle, and nothing is checked.
+        target_coord: The same of the point.
 
     Returns:
         (x, y, z) in metres: North, East and up of the origin. x is the length of the meridian between
@@ -58,7 +59,10 @@ def rotate_position_2d(position: Position, angle_degrees: float) -> Position:
 
 
 def _haversine_distance(coord1: Sequence[float], coord2: Sequence[float]) -> float:
-    """Great-circle distance in metres between two points (latitude deg, longitude deg), by the haversine."""
+    """Great-circle distance in metres between two points (latitude deg, longitude deg).
+
+    The haversine formula (R. W. Sinnott, Virtues of the Haversine, Sky and Telescope 68, 1984).
+    """
     phi_1 = math.radians(coord1[0])
     phi_2 = math.radians(coord2[0])
     sin_lat = math.sin((phi_2 - phi_1) / 2.0)
