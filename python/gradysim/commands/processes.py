@@ -44,7 +44,10 @@ class _Running:
 
 @dataclass(frozen=True)
 class _Printed:
-    """What a run that has ended has printed. Files would be too many to keep open behind a long run."""
+    """What a run that has ended has printed, no longer in files.
+
+    Runs are told in their order: while one takes long, more may wait behind it than may have files open.
+    """
 
     output: bytes
     error_output: bytes

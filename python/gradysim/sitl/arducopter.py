@@ -35,7 +35,7 @@ PARAMETERS: Mapping[str, float] = {
     **{f"RC{n}_{end}": v for n in range(1, 5) for end, v in (("MIN", 1000), ("MAX", 2000))},
     **{f"RC{n}_TRIM": v for n, v in ((1, 1500), (2, 1500), (3, 1000), (4, 1500))},
 }
-"""What differs from ArduCopter's defaults. A name that it does not know is the end of version 3."""
+"""What differs from ArduCopter's defaults. Version 3 ends at a name that it does not know."""
 
 _AT_ONCE = "1000"
 """A pace that it never reaches: who waits for physics is not to wait for the wall's clock besides."""

@@ -41,7 +41,8 @@ class Flights:
         Args:
             nodes: In the order of their ids.
             reference: (latitude deg, longitude deg, altitude m) of the origin.
-            on_text: Called with a node's name and what its autopilot says; knows nobody who closes these.
+            on_text: Called with a node's name and what its autopilot says. It must not refer to an object
+                that closes these when nobody refers to that any more: these would, for ever.
             console_folder: Keeps what each autopilot prints; None to throw it away.
             timeout_s: For each step before the simulation begins, wall time and that of the vehicle.
         """
