@@ -79,7 +79,7 @@ class NetsimProvider(CheckedProvider):
         self._reference_coordinates = reference_coordinates
         self._random = RandomStream(seed, node.id, Purpose.PROTOCOL)
         self.tracked_variables: dict[str, Any] = {}
-        # An attribute of the instance hides the method of the class: a call goes straight to the engine.
+        # Each hides the method of the class that has its name: a call goes straight to the engine.
         for name in _SAME_IN_THE_ENGINE:
             setattr(self, name, getattr(node, name))
         if steer is not None:
@@ -89,6 +89,10 @@ class NetsimProvider(CheckedProvider):
     def random(self) -> Random:
         """The protocol's own random numbers: the same for the same seed and node, in both modes."""
         return self._random
+
+    # What IProvider asks for by name. But for mobility commands that no autopilot carries out, calls do not
+    # get here: they go to the attributes of the instance, which __init__ sets. These do the same for whoever
+    # calls them by the class, as super() does.
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
         """Hand a message to the node's network interface."""
@@ -160,6 +164,9 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
             self._note(failure, "__init__")
             raise
         self._node.set_protocol(self.protocol, self._note)
+
+    # What IEncapsulator asks for by name. The engine calls the protocol itself; these are for handlers that
+    # call a node's protocol by its encapsulator, as in prototype mode.
 
     def initialize(self) -> None:
         """Call the protocol's method of this name, as do the four below."""
