@@ -5,7 +5,7 @@ import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-_LENGTH = 16
+HASH_DIGITS = 16
 """Hexadecimal digits, as many as a fingerprint has."""
 
 _MOST_NAMES = 3
@@ -51,6 +51,6 @@ def hash_of(file: Path) -> str:
         if not file.is_file():  # a pipe, of which nothing would be left for whoever needs it, or gone
             return ""
         with file.open("rb") as content:
-            return hashlib.file_digest(content, "sha256").hexdigest()[:_LENGTH]
+            return hashlib.file_digest(content, "sha256").hexdigest()[:HASH_DIGITS]
     except OSError:  # a secret, or a name that none can have: whoever needs it will say
         return ""

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from gradysim.config.file.sections import Ranked
 from gradysim.config.keys.options import NETWORK
 from gradysim.config.matching.lookup import is_ignored
+from gradysim.config.runs.file_hashes import HASH_DIGITS
 from gradysim.config.runs.labels import LABEL_OPTIONS
 
 OF_NO_RUN = (
@@ -20,9 +21,6 @@ OF_NO_RUN = (
 )
 """Options that say which runs there are, or nothing of what happens in them."""
 
-_LENGTH = 16
-"""Hexadecimal digits, as many as a fingerprint has."""
-
 
 def entries_of_the_hash(ranked: Iterable[Ranked]) -> list[Ranked]:
     """Return the entries that count: the first one of each key, if it says something of a run."""
@@ -36,4 +34,4 @@ def entries_of_the_hash(ranked: Iterable[Ranked]) -> list[Ranked]:
 def settings_hash(entries: Iterable[Ranked]) -> str:
     """Return the hash of entries whose variables have been replaced: of keys, values and their order."""
     text = "\0".join(f"{entry.key}={entry.text}" for _, entry in entries)
-    return hashlib.sha256(text.encode()).hexdigest()[:_LENGTH]
+    return hashlib.sha256(text.encode()).hexdigest()[:HASH_DIGITS]
