@@ -12,6 +12,11 @@ from typing import Any
 from gradysim.protocol.position import Position
 
 
+def is_plain_number(value: object) -> bool:
+    """Whether it is an int or a float, which JSON has, too; a truth value is none."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 def checked_number(
     name: str, value: Any, accept: Callable[[float], bool], expected: str, error: type[Exception]
 ) -> float:

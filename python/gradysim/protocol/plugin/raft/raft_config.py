@@ -4,6 +4,7 @@ import random
 from enum import Enum
 from typing import Any, Self
 
+from gradysim.protocol.checked_values import is_plain_number
 from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
 
 _LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
@@ -38,7 +39,7 @@ class RaftConfig:
         Raises:
             ValueError: A bound is negative, or the lower one is not below the upper one.
         """
-        if not (_is_number(min_timeout) and _is_number(max_timeout)):
+        if not (is_plain_number(min_timeout) and is_plain_number(max_timeout)):
             raise ValueError(f"election timeouts are numbers of ms, got {min_timeout!r} and {max_timeout!r}")
         if min_timeout < 0 or max_timeout < 0:
             raise ValueError(f"election timeouts must be >= 0 ms, got {min_timeout!r} and {max_timeout!r}")
@@ -197,7 +198,3 @@ class RaftConfig:
             f"heartbeat_interval={self._heartbeat_interval}, "
             f"consensus_variables={list(self._consensus_variables)})"
         )
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)

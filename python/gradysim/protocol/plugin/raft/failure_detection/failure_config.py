@@ -2,6 +2,8 @@
 
 import warnings
 
+from gradysim.protocol.checked_values import is_plain_number
+
 _MINIMUM_TIMEOUT_MS = 100
 _RISKY_TIMEOUT_MS = 50
 
@@ -56,7 +58,7 @@ class FailureConfig:
         Raises:
             ValueError: It is <= 0.
         """
-        if not _is_number(timeout_ms) or not timeout_ms > 0:
+        if not is_plain_number(timeout_ms) or not timeout_ms > 0:
             raise ValueError(f"an absolute timeout must be > 0 ms, got {timeout_ms!r}")
         if timeout_ms < _RISKY_TIMEOUT_MS:
             warnings.warn(
@@ -70,7 +72,7 @@ class FailureConfig:
         Raises:
             ValueError: It is <= 0, or the timeout would be shorter than 100 ms.
         """
-        if not _is_number(interval_ms) or not interval_ms > 0:
+        if not is_plain_number(interval_ms) or not interval_ms > 0:
             raise ValueError(f"a heartbeat interval must be > 0 ms, got {interval_ms!r}")
         if not self.is_using_absolute_timeout():
             _check_timeout(self._timeout_multiplier, interval_ms)
@@ -139,10 +141,6 @@ class FailureConfig:
             f"recovery_threshold={self._recovery_threshold}, "
             f"detection_interval={self._detection_interval}, timeout={timeout})"
         )
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _at_least_one(name: str, value: int) -> int:
