@@ -13,7 +13,7 @@
 `load` reads one `scenario` after the other, `networks` the part of each, `network`, that runs may share.
 """
 
-from gradysim.config.errors.config_error import ConfigError, format_config_error
+from gradysim.config.errors.config_error import ConfigError
 from gradysim.config.errors.source import Source
 from gradysim.config.load import load_scenarios
 from gradysim.config.node.node_spec import NodeSpec
@@ -28,7 +28,6 @@ __all__ = [
     "Scenario",
     "Setting",
     "Source",
-    "format_config_error",
     "load_scenarios",
     "parametrize",
 ]

@@ -161,11 +161,6 @@ class Fleet:
         """End all autopilots and remove their files; no-op if that has happened."""
         self._end()
 
-    @property
-    def pids(self) -> list[int]:
-        """The process ids of those that run."""
-        return [process.pid for process in self._processes if process.is_running]
-
     def _reachable(self, program: Path) -> Path:
         """Return a program that the user can read, whatever folder the given one is in."""
         if self._user is None:

@@ -19,6 +19,11 @@ async def launched(fleet, identifier=0, timeout_s=20):
     return Vehicle(link), connection
 
 
+def running(fleet):
+    """The ids of its processes."""
+    return [process.pid for process in fleet._processes if process.is_running]
+
+
 def fly(fleet, steps):
     """Do the steps, a coroutine function of a vehicle that has been met."""
 

@@ -8,7 +8,7 @@ import pytest
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
-from python.sitl.fleet_flight import HOME, fly, launched, new_fleet, ready
+from python.sitl.fleet_flight import HOME, fly, launched, new_fleet, ready, running
 
 pytestmark = pytest.mark.usefixtures("own_folder")
 
@@ -26,7 +26,7 @@ def test_closing_ends_all_and_removes_their_files(toy_copter, tmp_path):
 
     async def run():
         connections = [(await launched(fleet, identifier))[1] for identifier in range(3)]
-        pids = fleet.pids
+        pids = running(fleet)
         for connection in connections:
             connection.close()
         await asyncio.sleep(0)
@@ -44,7 +44,7 @@ def test_a_fleet_that_is_dropped_ends_too(toy_copter, tmp_path):
     async def run():
         fleet = new_fleet(toy_copter())
         _, connection = await launched(fleet)
-        pids = fleet.pids
+        pids = running(fleet)
         connection.close()
         await asyncio.sleep(0)
         return pids

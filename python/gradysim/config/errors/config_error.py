@@ -54,8 +54,3 @@ class BadValue(ValueError):  # noqa: N818 - no error of its own: see below
         self.problem = problem
         self.suggestion = suggestion
         self.expected = expected
-
-
-def format_config_error(error: ConfigError) -> str:
-    """The text that a user sees: "FILE:LINE: what is wrong; what was expected; did you mean ...?"."""
-    return str(error)

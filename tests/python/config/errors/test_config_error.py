@@ -1,7 +1,7 @@
 import pickle
 from pathlib import Path
 
-from gradysim.config.errors.config_error import BadValue, ConfigError, format_config_error
+from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.errors.source import Source
 
 SOURCE = Source(Path("a.ini"), 7, "*.x.mobility.speed", "-1mps")
@@ -47,10 +47,6 @@ def test_at_does_not_repeat_what_an_override_says() -> None:
 def test_survives_pickling() -> None:
     error = pickle.loads(pickle.dumps(ConfigError("wrong", SOURCE)))
     assert (str(error), error.source) == ("a.ini:7: wrong", SOURCE)
-
-
-def test_format_is_the_text() -> None:
-    assert format_config_error(ConfigError("wrong", SOURCE)) == "a.ini:7: wrong"
 
 
 def test_bad_value_holds_its_suggestion_apart() -> None:

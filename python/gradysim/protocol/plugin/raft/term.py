@@ -30,11 +30,6 @@ def next_own_term(current_term: int, node_id: int) -> int:
     return _term(max(row + 1, node_id), node_id)
 
 
-def owner_of(term: int) -> int:
-    """Return the id of the only node that can lead `term` (>= 1)."""
-    return _place(term)[1]
-
-
 def _term(row: int, column: int) -> int:
     return row * (row + 1) // 2 + column + 1
 

@@ -6,8 +6,8 @@ import pytest
 
 from gradysim.protocol.plugin.raft import RaftMode, RaftState
 from gradysim.protocol.plugin.raft.node_timers import ELECTION_TIMER
-from gradysim.protocol.plugin.raft.term import owner_of
 from python.protocol.plugin.raft.modes import BOTH_MODES
+from python.protocol.plugin.raft.term_owner import owner_of
 
 
 @BOTH_MODES

@@ -1,7 +1,8 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.protocol.plugin.raft.term import next_own_term, owner_of
+from gradysim.protocol.plugin.raft.term import next_own_term
+from python.protocol.plugin.raft.term_owner import owner_of
 
 IDS = st.integers(0, 300)
 TERMS = st.integers(0, 100_000)
