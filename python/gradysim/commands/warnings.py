@@ -50,5 +50,5 @@ def warnings_of_networks(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     """Yield a line for each line that no model reads, and the like, once for all runs of integrated mode."""
     from gradysim.integrated.scenario_warnings import scenario_warnings
 
-    different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}.values()
-    yield from dict.fromkeys(text for scenario in different for text in scenario_warnings(scenario))
+    different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}
+    yield from scenario_warnings(different.values())

@@ -1,7 +1,7 @@
 """What is allowed in a scenario and yet seldom meant: told before a run, which goes on all the same."""
 
 import math
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from gradysim.config.doubts.unread_lines import Chosen, UnreadLines
@@ -19,20 +19,21 @@ if TYPE_CHECKING:
 _OF_NO_USE_M = 100e3  # farther than any node flies to
 
 
-def scenario_warnings(scenario: Scenario) -> list[str]:
-    """Return one line of text for each: "FILE:LINE: warning: ..."."""
-    medium = medium_config(scenario)
-    return [
-        *_unread_lines(scenario, medium),
-        *_nodes_on_the_ground(scenario, medium),
-        *_obstacles_far_from_all_nodes(scenario),
-        *radio_warnings(scenario, medium),
-    ]
+def scenario_warnings(scenarios: Iterable[Scenario]) -> list[str]:
+    """Return one line of text for each, once for all runs of a configuration: "FILE:LINE: warning: ..."."""
+    unread = UnreadLines()
+    others: list[str] = []
+    for scenario in scenarios:
+        medium = medium_config(scenario)
+        _add_lines(unread, scenario, medium)
+        others += _nodes_on_the_ground(scenario, medium)
+        others += _obstacles_far_from_all_nodes(scenario)
+        others += radio_warnings(scenario, medium)
+    return [*unread.texts(), *dict.fromkeys(others)]
 
 
-def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
-    """The parameters of models that were not chosen."""
-    lines = UnreadLines()
+def _add_lines(lines: UnreadLines, scenario: Scenario, medium: "MediumConfig") -> None:
+    """Those of one run: the parameters of models that no run has chosen are read by none."""
     of_network = _sources("medium", scenario.medium)
     chosen = _chosen({"medium": medium}, of_network)
     lines.add(of_network, chosen)
@@ -58,7 +59,6 @@ def _unread_lines(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
                 "csma": interface.csma,
             }
             lines.add(sources, _chosen(structs, {*of_network, *sources}), name)
-    return lines.texts()
 
 
 def _sources(struct: str, settings: Mapping[str, Setting]) -> dict[str, Source]:

@@ -115,7 +115,7 @@ def test_a_plugin_without_telemetry_is_told_once_for_all_runs(
     )
     arguments = ["--mode", mode, "--set", "repeat=2", "--set", "**.telemetryInterval=0s", "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    told = "--set **.telemetryInterval=0s: warning: Tested will not get beyond its first waypoint"
+    told = "--set **.telemetryInterval=0s: warning: uavs will not get beyond the first waypoint"
     assert capsys.readouterr().err.count(told) == 1
 
 

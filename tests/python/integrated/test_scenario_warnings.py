@@ -37,9 +37,21 @@ def warnings(make_scenario: MakeScenario) -> Callable[..., list[str]]:
     """`warnings(*settings)`: the texts for two nodes with these settings."""
 
     def of(*settings: str) -> list[str]:
-        return scenario_warnings(make_scenario("class Tested(Talker): pass", *settings))
+        return scenario_warnings([make_scenario("class Tested(Talker): pass", *settings)])
 
     return of
+
+
+def test_what_one_run_of_a_study_reads_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "study.ini"
+    file.write_text(
+        '[General]\nsim-time-limit = 1s\n*.node.protocol.typename = "SinkProtocol"\n'
+        '*.radioMedium.pathLoss.typename = ${"LogNormalShadowing", "RicianFading"}\n'
+        "*.radioMedium.pathLoss.sigma = 6\n*.radioMedium.pathLoss.k = 6dB\n*.radioMedium.pathLoss.shapeFactor = 2\n"
+    )
+    (text,) = scenario_warnings(load_scenarios(file))
+    assert "study.ini:7: warning: nothing reads `*.radioMedium.pathLoss.shapeFactor`" in text
+    assert text.endswith('and it is "LogNormalShadowing" or "RicianFading"')
 
 
 def test_a_band_at_an_802154_interface(warnings: Callable[..., list[str]]) -> None:
@@ -139,7 +151,7 @@ def test_a_material_is_for_losses_that_depend_on_it(warnings: Callable[..., list
 
 
 def test_obstacles_of_a_file_count_too() -> None:
-    (text,) = scenario_warnings(load_scenarios(CONFIGS / "town/town.ini", "General", "0")[0])
+    (text,) = scenario_warnings(load_scenarios(CONFIGS / "town/town.ini", "General", "0"))
     assert "nothing reads `*.environment.obstacles`" in text
 
 
@@ -151,7 +163,7 @@ def test_nodes_on_the_ground_under_two_rays(warnings: Callable[..., list[str]]) 
 
 @pytest.mark.parametrize(("file", "config"), EXAMPLES, ids=lambda part: getattr(part, "stem", part))
 def test_examples_have_no_such_lines(file: Path, config: str) -> None:
-    assert scenario_warnings(load_scenarios(file, config, "0")[0]) == []
+    assert scenario_warnings(load_scenarios(file, config, "0")) == []
 
 
 IDEAL = '*.radioMedium.obstacleLoss.typename="IdealObstacleLoss"'

@@ -11,6 +11,7 @@ from functools import lru_cache
 
 from gradysim.config.doubts.protocol_code import called_name, code_of
 from gradysim.config.errors.source import Source
+from gradysim.config.keys.mobility import STATIONARY
 from gradysim.config.node.node_spec import NodeSpec
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin
@@ -22,19 +23,27 @@ _WITH_TELEMETRY = RandomMobilityPlugin.initiate_random_trip.__name__
 
 
 def plugins_without_telemetry(nodes: Iterable[NodeSpec]) -> Iterator[str]:
-    """Yield one line of text for each protocol that a line stops, "FILE:LINE: warning: ..."."""
-    told: set[tuple[Source, type[IProtocol]]] = set()
+    """Yield one line of text for each group of nodes that a line stops, "FILE:LINE: warning: ..."."""
+    told: set[tuple[Source, type[IProtocol], str]] = set()
     for spec in nodes:
         interval = spec.mobility.get("telemetry_interval_s")
-        if interval is None or interval.value != 0 or (interval.source, spec.protocol) in told:
+        if interval is None or interval.value != 0 or _stands(spec):
             continue
-        told.add((interval.source, spec.protocol))
+        stopped = (interval.source, spec.protocol, spec.group)
+        if stopped in told:
+            continue
+        told.add(stopped)
         for plugin in _that_need_telemetry(spec.protocol):
             yield (
-                f"{interval.source}: warning: {spec.protocol.__name__} will not get beyond its first"
-                f" waypoint, as its {plugin} goes on by telemetry, and 0s is none; expected an interval such"
-                " as 10ms"
+                f"{interval.source}: warning: {spec.group} will not get beyond the first waypoint, as the"
+                f" {plugin} of {spec.protocol.__name__} goes on by telemetry, and 0s is none; expected an"
+                " interval such as 10ms"
             )
+
+
+def _stands(spec: NodeSpec) -> bool:
+    typename = spec.mobility.get("typename")
+    return typename is not None and typename.value == STATIONARY
 
 
 @lru_cache(maxsize=1024)

@@ -2,7 +2,8 @@
 
 OMNeT++ takes them without a word, and so may a file that is shared with it; but who writes such a line mostly
 believes that it does something. What reads a key stands in the tables of keys. A line counts as read as soon
-as one node, or the network, reads it: a line with wildcards is meant for those who have what it is about.
+as one node, or the network, reads it in one run of a study: a line with wildcards is meant for those who have
+what it is about.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping

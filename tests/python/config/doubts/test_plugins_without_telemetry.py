@@ -36,18 +36,18 @@ def told(folder: Any, code: str, line: str = "**.telemetryInterval = 0s", name: 
 def test_a_plugin_that_would_wait_for_ever_is_told_once(folder: Any, code: str, plugin: str) -> None:
     (text,) = told(folder, code)
     assert text == (
-        f"{folder.ini}:8: warning: Flies will not get beyond its first waypoint, as its {plugin} goes on by"
-        " telemetry, and 0s is none; expected an interval such as 10ms"
+        f"{folder.ini}:8: warning: uavs will not get beyond the first waypoint, as the {plugin} of Flies goes"
+        " on by telemetry, and 0s is none; expected an interval such as 10ms"
     )
 
 
 def test_plugins_of_bases_and_by_the_names_of_their_modules_count(folder: Any) -> None:
     code = "random_mobility.RandomMobilityPlugin(protocol=self).initiate_random_trip()"
     (text,) = told(folder, code, name="Derived")
-    assert "warning: Derived will not get" in text
+    assert "RandomMobilityPlugin of Derived goes on" in text
 
 
-def test_each_protocol_that_a_line_stops_is_told(folder: Any) -> None:
+def test_each_group_that_a_line_stops_is_told(folder: Any) -> None:
     line = '*.groundStation.protocol.class = "flies.py:Derived"\n**.telemetryInterval = 0s'
     assert len(told(folder, MISSION, line)) == 2
 
@@ -65,7 +65,13 @@ def test_who_does_without_telemetry_is_not_told(folder: Any, code: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["", "**.telemetryInterval = 1s", "*.groundStation.mobility.telemetryInterval = 0s"]
+    "line",
+    [
+        "",
+        "**.telemetryInterval = 1s",
+        "*.groundStation.mobility.telemetryInterval = 0s",
+        '**.telemetryInterval = 0s\n*.uavs[*].mobility.typename = "StationaryMobility"',
+    ],
 )
-def test_telemetry_of_any_interval_is_fine(folder: Any, line: str) -> None:
+def test_telemetry_of_any_interval_is_fine_and_none_for_who_stands(folder: Any, line: str) -> None:
     assert told(folder, MISSION, line) == []
