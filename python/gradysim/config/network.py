@@ -23,6 +23,7 @@ from gradysim.config.node.nodes import build_nodes, load_protocols
 from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.config.obstacle.obstacles import obstacle_count, obstacle_files, read_obstacles
 from gradysim.config.protocol.loader import ProtocolLoader
+from gradysim.config.protocol.native import file_of_native
 from gradysim.config.runs.file_hashes import FileHashes
 from gradysim.config.scenario import CommunicationMediumSpec
 from gradysim.config.value.setting import Setting, SettingReader
@@ -97,7 +98,9 @@ def read_network(
         settings,
         (latitude, longitude, altitude) if {"latitude_deg", "longitude_deg"} <= reference.keys() else None,
     )
-    files = [file for protocol in set(protocols.values()) for file in protocol.files]
+    chosen = set(protocols.values())
+    files = [file for protocol in chosen for file in protocol.files]
+    files += [*obstacle_files(lookup, settings), *settings.files()]
     return Network(
         nodes=nodes,
         medium=read_struct("medium", found, settings, _path_of),
@@ -106,7 +109,7 @@ def read_network(
         ),
         reference_coordinates=(latitude, longitude, altitude),
         obstacles=obstacles,
-        file_hashes=hashes.of([*files, *obstacle_files(lookup, settings), *settings.files()]),
+        file_hashes=hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
         lines_of_other_runs=lines_of_other_runs,
         lookup=lookup,
     )

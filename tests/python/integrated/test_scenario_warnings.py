@@ -47,7 +47,8 @@ def test_what_one_run_of_a_study_reads_is_read(tmp_path: Path) -> None:
     file.write_text(
         '[General]\nsim-time-limit = 1s\n*.node.protocol.typename = "SinkProtocol"\n'
         '*.radioMedium.pathLoss.typename = ${"LogNormalShadowing", "RicianFading"}\n'
-        "*.radioMedium.pathLoss.sigma = 6\n*.radioMedium.pathLoss.k = 6dB\n*.radioMedium.pathLoss.shapeFactor = 2\n"
+        "*.radioMedium.pathLoss.sigma = 6\n*.radioMedium.pathLoss.k = 6dB\n"
+        "*.radioMedium.pathLoss.shapeFactor = 2\n"
     )
     (text,) = scenario_warnings(load_scenarios(file))
     assert "study.ini:7: warning: nothing reads `*.radioMedium.pathLoss.shapeFactor`" in text

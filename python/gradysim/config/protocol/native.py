@@ -6,8 +6,10 @@ table.
 """
 
 import importlib
-from collections.abc import Mapping
+import importlib.util
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 from gradysim.config.errors.config_error import BadValue
@@ -73,6 +75,17 @@ def native_protocols() -> Mapping[str, type[NativeProtocol]]:
     except ImportError as error:  # the compiled part's absence is one
         raise BadValue(f"native protocols are the engine's: {error}") from error
     return table
+
+
+def file_of_native(protocols: Iterable[type[IProtocol]]) -> dict[str, Path]:
+    """Return {name: the engine's file} if one of the protocols is native: it is what that consists of.
+
+    The name is the same wherever gradysim is installed.
+    """
+    if not any(issubclass(cls, NativeProtocol) for cls in protocols):
+        return {}
+    engine = importlib.util.find_spec("gradysim._netsim")
+    return {"gradysim/_netsim": Path(engine.origin)} if engine is not None and engine.origin else {}
 
 
 def native_protocol(name: str) -> type[NativeProtocol]:

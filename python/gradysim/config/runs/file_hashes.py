@@ -2,8 +2,9 @@
 
 import hashlib
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 
 HASH_DIGITS = 16
 """Hexadecimal digits, as many as a fingerprint has."""
@@ -19,9 +20,11 @@ class FileHashes:
         self._folder = folder.resolve()
         self._hashes: dict[Path, tuple[str, str]] = {}
 
-    def of(self, files: Iterable[Path]) -> dict[str, str]:
-        """Return {name: hash}, by name; names are seen from the folder of the .ini file."""
-        return dict(sorted({self._named(file) for file in files}))
+    def of(self, files: Iterable[Path], others: Mapping[str, Path] = MappingProxyType({})) -> dict[str, str]:
+        """Return {name: hash}, by name; names are seen from the folder of the .ini file, or are given."""
+        hashes = {self._named(file) for file in files}
+        hashes |= {(name, self._named(file)[1]) for name, file in others.items()}
+        return dict(sorted(hashes))
 
     def _named(self, file: Path) -> tuple[str, str]:
         known = self._hashes.get(file)

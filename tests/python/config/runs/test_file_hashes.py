@@ -75,6 +75,13 @@ def test_other_files_that_settings_name_count(tmp_path: Path) -> None:
     assert scenario.file_hashes.keys() == {"a.py", "helper.py", "map.geojson", "rates.csv"}
 
 
+def test_a_native_protocol_is_of_the_engine(tmp_path: Path) -> None:
+    pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
+    scenario = load(tmp_path, '*.other.protocol.typename = "SinkProtocol"')
+    assert scenario.file_hashes.keys() == {"a.py", "gradysim/_netsim", "helper.py"}
+    assert scenario.file_hashes["gradysim/_netsim"]
+
+
 def test_a_protocol_that_is_named_as_a_module(tmp_path: Path) -> None:
     (tmp_path / "test.ini").write_text(
         'sim-time-limit = 1s\n*.node.protocol.class = "python.quiet_protocol:Quiet"\n'
