@@ -92,7 +92,7 @@ def test_prototype_mode_names_the_class_to_use(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", BEACON)
     expected = (
         r"uavs\[0\]: the native protocol BeaconProtocol does not run in prototype mode; use `protocol.class` "
-        r'with "examples/reference/beacon.py:Beacon" instead, or integrated mode'
+        r'with "examples/reference/beacon.py:Beacon" of gradysim\'s sources instead, or integrated mode'
     )
     with pytest.raises(ConfigError, match=expected) as error:
         gradysim.prototype.run.run(scenario)

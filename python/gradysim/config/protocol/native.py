@@ -64,7 +64,8 @@ class NativeProtocol(IProtocol):
 
 def text_of_only_integrated(cls: type[NativeProtocol], mode: str) -> str:
     """Say that a native protocol cannot run in another mode, and what to do."""
-    hint = f'; use `protocol.class` with "{cls._python_class}" instead, or' if cls._python_class else "; use"
+    twin = f'; use `protocol.class` with "{cls._python_class}" of gradysim\'s sources instead, or'
+    hint = twin if cls._python_class else "; use"
     return f"the native protocol {cls.__name__} does not run in {mode}{hint} integrated mode"
 
 
