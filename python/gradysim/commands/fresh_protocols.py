@@ -14,9 +14,7 @@ def with_fresh_protocols(scenario: "Scenario") -> "Scenario":
     then: a run is the same as in a process of its own.
     """
     from gradysim.config.protocol.anew import loaded_anew
-    from gradysim.config.protocol.parametrize import forget_parametrized
 
-    forget_parametrized()
     anew = loaded_anew({node.protocol for node in scenario.nodes})
     if not anew:
         return scenario

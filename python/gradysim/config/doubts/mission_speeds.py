@@ -7,11 +7,11 @@ does, nothing is told.
 
 import ast
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
 
 from gradysim.config.doubts.protocol_code import called_name, code_of
 from gradysim.config.errors.source import Source
 from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.protocol.kept_with_class import kept_with_class
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
@@ -39,7 +39,7 @@ def mission_speeds(nodes: Iterable[NodeSpec]) -> Iterator[str]:
             )
 
 
-@lru_cache(maxsize=1024)
+@kept_with_class
 def _flies_at_the_default(protocol: type[IProtocol]) -> bool:
     """Whether it makes a mission plugin, neither configuration says a speed, and nothing sets one later."""
     code = code_of(protocol)

@@ -7,12 +7,12 @@ where the protocol itself sets one waypoint after the other, nothing is told.
 
 import ast
 from collections.abc import Iterable, Iterator
-from functools import lru_cache
 
 from gradysim.config.doubts.protocol_code import called_name, code_of
 from gradysim.config.errors.source import Source
 from gradysim.config.keys.mobility import STATIONARY
 from gradysim.config.node.node_spec import NodeSpec
+from gradysim.config.protocol.kept_with_class import kept_with_class
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin
 from gradysim.protocol.plugin.random_mobility import RandomMobilityPlugin
@@ -46,7 +46,7 @@ def _stands(spec: NodeSpec) -> bool:
     return typename is not None and typename.value == STATIONARY
 
 
-@lru_cache(maxsize=1024)
+@kept_with_class
 def _that_need_telemetry(protocol: type[IProtocol]) -> tuple[str, ...]:
     code = code_of(protocol)
     names = {node.attr for node in code if isinstance(node, ast.Attribute)}

@@ -3,13 +3,13 @@
 import ast
 import inspect
 import textwrap
-from functools import lru_cache
 
+from gradysim.config.protocol.kept_with_class import kept_with_class
 from gradysim.config.protocol.python_text import parsed_python
 from gradysim.protocol.interface import IProtocol
 
 
-@lru_cache(maxsize=1024)
+@kept_with_class
 def code_of(protocol: type[IProtocol]) -> tuple[ast.AST, ...]:
     """All that stands in a class and its bases, but for those of gradysim; nothing of one without a text."""
     return tuple(node for cls in protocol.__mro__ for node in _code(cls))

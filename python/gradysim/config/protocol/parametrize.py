@@ -2,9 +2,11 @@
 
 import types
 from collections.abc import Callable, Mapping
-from functools import lru_cache, wraps
+from functools import lru_cache, partial, wraps
 
 from gradysim.protocol.interface import IProtocol
+
+_SUBCLASSES = "_gradysim_parametrized"
 
 
 def parametrize(cls: type[IProtocol], parameters: Mapping[str, object]) -> type[IProtocol]:
@@ -14,15 +16,14 @@ def parametrize(cls: type[IProtocol], parameters: Mapping[str, object]) -> type[
     """
     if not parameters:
         return cls
-    return _parametrized(cls, tuple((name, type(value), value) for name, value in sorted(parameters.items())))
+    if _SUBCLASSES not in vars(cls):  # kept with their class: they go together
+        setattr(cls, _SUBCLASSES, lru_cache(maxsize=1024)(partial(_parametrized, cls)))
+    made: type[IProtocol] = vars(cls)[_SUBCLASSES](
+        tuple((name, type(value), value) for name, value in sorted(parameters.items()))
+    )
+    return made
 
 
-def forget_parametrized() -> None:
-    """Let go of the subclasses: with them go the classes, and modules, that nobody else has any more."""
-    _parametrized.cache_clear()
-
-
-@lru_cache(maxsize=1024)
 def _parametrized(cls: type[IProtocol], parameters: tuple[tuple[str, type, object], ...]) -> type[IProtocol]:
     """As above. The types are part of the key since 1, 1.0 and True are equal."""
     values = {name: value for name, _, value in parameters}
