@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 from gradysim.config.value.quoted import is_quoted, unquoted
 from gradysim.protocol.plain_value import plain_value
@@ -34,7 +34,7 @@ class NodeResult:
     """Name of the protocol's class."""
     position: tuple[float, float, float]
     """Where it ended: x, y, z in metres."""
-    tracked_variables: Mapping[str, object]
+    tracked_variables: Mapping[str, Any]
     """The last value of each variable that the protocol tracked."""
     frames_by_bitrate: Mapping[int, int] = field(default_factory=dict)
     """{bits per second: unicast frames sent at it, with retries}; empty for nodes without a rate control."""

@@ -4,10 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from gradysim.config.errors.nearest import did_you_mean
 from gradysim.config.errors.source import Source
 from gradysim.config.node.autopilot_spec import AutopilotSpec
 from gradysim.config.node.interface_spec import InterfaceSpec
 from gradysim.config.protocol.origin import Origin
+from gradysim.config.protocol.parameters import can_be_set, parameters_of
 from gradysim.config.protocol.portable import class_from, portable
 from gradysim.config.value.setting import Setting
 from gradysim.protocol.checked_values import checked_point
@@ -54,6 +56,12 @@ class NodeSpec:
         """Check what scripts replace. Raises TypeError and ValueError, which name the node."""
         if not isinstance(self.protocol, type):
             raise TypeError(f"the protocol of {self.name} must be a class, got {self.protocol!r}")
+        for name in self.protocol_parameters:
+            if not can_be_set(self.protocol, name):
+                hint = did_you_mean(name, parameters_of(self.protocol))
+                raise ValueError(
+                    f"`{name}` is no parameter of {self.protocol.__name__}, the protocol of {self.name}{hint}"
+                )
         place = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
         object.__setattr__(self, "initial_position", place)
 

@@ -2,9 +2,10 @@
 
 import re
 from dataclasses import replace
-from functools import cache, lru_cache
+from functools import cache
 
 from gradysim.config.errors.config_error import BadValue
+from gradysim.config.protocol.kept_with_class import kept_with_class
 from gradysim.config.protocol.native import NativeProtocol
 from gradysim.config.protocol.parameter_unit import annotations_of, unit_of
 from gradysim.config.value.kinds import Kind, Scalar, boolean, integer, number_in, si_number, text
@@ -68,7 +69,7 @@ _CONTRACT = {*dir(IProtocol), *annotations_of(IProtocol)}
 """Names that mean something to every environment."""
 
 
-@lru_cache(maxsize=1024)
+@kept_with_class
 def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
     """Names of the parameters that can be set, each with what its value has to be: the type of its default.
 
@@ -89,6 +90,13 @@ def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
             else:
                 parameters.pop(name, None)
     return parameters
+
+
+def can_be_set(cls: type[IProtocol], name: str) -> bool:
+    """Whether scripts may set that attribute of a protocol: one that it has or declares, of any type."""
+    return name not in _CONTRACT and (
+        hasattr(cls, name) or any(name in annotations_of(base) for base in cls.__mro__)
+    )
 
 
 def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: object) -> Kind | None:
