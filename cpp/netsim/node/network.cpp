@@ -204,6 +204,10 @@ void Network::check_runs(const char* call) const {
     if (!initialized_) {
         throw SimulationError("nothing runs before initialize(): call it before " + std::string(call) + "()");
     }
+    check_not_finished(call);
+}
+
+void Network::check_not_finished(const char* call) const {
     if (finished_) {
         throw SimulationError("finish() has ended the run: expected " + std::string(call) + "() before it");
     }
@@ -239,10 +243,12 @@ void Network::schedule(SimTime time, std::function<void()> call) {
 }
 
 void Network::finish() {
-    check_runs("finish");
+    check_not_finished("finish");
     finished_ = true;
-    for (Node& node : nodes_) {
-        node.finish();
+    if (initialized_) {
+        for (Node& node : nodes_) {
+            node.finish();
+        }
     }
     close_captures();
 }

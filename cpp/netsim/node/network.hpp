@@ -69,7 +69,7 @@ public:
     // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
     // run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
-    // Calls the protocols' finish, in the order of ids, and closes the captures. The run ends with it: what comes after it is a
+    // Calls the protocols' finish, in the order of ids, if they were initialized, and closes the captures. The run ends with it: what comes after it is a
     // SimulationError, also a second finish.
     void finish();
     // Drops the protocols and what was scheduled, which may own more than their memory (a Python object that
@@ -86,6 +86,7 @@ public:
 private:
     std::size_t place_of(NodeId node) const;
     void check_runs(const char* call) const;
+    void check_not_finished(const char* call) const;
     // What nodes of one configuration share, made for the first of them. Both throw ConfigError for what cannot be.
     std::shared_ptr<const RadioKind> radio_kind(RadioConfig config);
     std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);

@@ -4,8 +4,6 @@
 object: `execute` may raise, `result` tells at any time how far the run came.
 """
 
-import contextlib
-import random
 import weakref
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -15,6 +13,7 @@ from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.protocol.siblings import siblings_importable
 from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.failure import add_protocol_note
+from gradysim.encapsulator.global_random import global_random_of
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import (
     capture_errors,
@@ -90,7 +89,6 @@ class IntegratedRun:
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         files = checked_captures(captures or {}, scenario)
-        random.seed(scenario.seed)
         self._network, self._nodes = build_network(scenario)
         start_captures(self._network, scenario, files)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
@@ -98,7 +96,8 @@ class IntegratedRun:
         self._handlers = EngineHandlers(handlers, self._network)
         self._flown = FlownNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
-        with siblings_importable(spec.protocol for spec in scenario.nodes):
+        siblings = siblings_importable(spec.protocol for spec in scenario.nodes)
+        with siblings, global_random_of(scenario.seed):
             self._make_protocols()
         self._flown.take_off()
 
@@ -133,9 +132,11 @@ class IntegratedRun:
         progress: Callable[[float], None] | None = None,
         should_stop: Callable[[], bool] | None = None,
     ) -> None:
-        """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
+        """Run to the time limit, or until `should_stop()`, then `finish` the protocols.
 
-        `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
+        `should_stop()` and `progress(sim_time_s)` are called about ten times a second of wall time. After a
+        KeyboardInterrupt, too, protocols are finished before it is passed on: `result` has what was computed.
+        Python's `random` is as before when this returns or raises. What a protocol raises is
         passed on, with a note of node, time and callback, and ends the run without `finish`; what a native
         one gets wrong becomes a NativeProtocolError with such a note. So does what a handler raises, as for
         an assertion that failed. Handlers are finalized in any case. A capture file that could not be written
@@ -143,23 +144,28 @@ class IntegratedRun:
         """
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
         captures = captures_completed_after_failure(self._network)
-        with captures, siblings, self._account.of_execution():
+        stream = global_random_of(self._scenario.seed)
+        with captures, siblings, stream, self._account.of_execution():
             self._execute(progress, should_stop)
 
     def _execute(
         self, progress: Callable[[float], None] | None, should_stop: Callable[[], bool] | None
     ) -> None:
         network, account = self._network, self._account
-        random.seed(self._scenario.seed)  # another run may have been built in between
+        interrupt: KeyboardInterrupt | None = None
         try:
-            with contextlib.suppress(KeyboardInterrupt):
+            try:
                 self._handlers.initialize()
                 network.initialize()
                 self._flown.initialize()
                 account.complete = run_in_slices(self._advance(), lambda: network.now, progress, should_stop)
+            except KeyboardInterrupt as pressed:
+                interrupt = pressed
             with capture_errors():
                 network.finish()
             self._handlers.finalize(complete=account.complete)
+            if interrupt is not None:
+                raise interrupt
         except load_netsim().ProtocolError as failure:
             raise self._native_failure(failure) from None
         finally:

@@ -4,12 +4,11 @@
 object: `execute` may raise, `result` tells at any time how far the run came.
 """
 
-import contextlib
-import random
 from collections.abc import Callable, Iterable
 
 from gradysim.config.protocol.siblings import siblings_importable
 from gradysim.config.scenario import Scenario
+from gradysim.encapsulator.global_random import global_random_of
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.delays import constant_delays
 from gradysim.results.node_recorder import recorders_of
@@ -47,9 +46,9 @@ class PrototypeRun:
         """
         self._account = RunAccount(scenario)
         self._scenario = scenario
-        random.seed(scenario.seed)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
-        with siblings_importable(node.protocol for node in scenario.nodes):
+        siblings = siblings_importable(node.protocol for node in scenario.nodes)
+        with siblings, global_random_of(scenario.seed):
             self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
 
     def execute(
@@ -57,23 +56,30 @@ class PrototypeRun:
         progress: Callable[[float], None] | None = None,
         should_stop: Callable[[], bool] | None = None,
     ) -> None:
-        """Run to the time limit, to `should_stop()` or to a KeyboardInterrupt, then `finish` the protocols.
+        """Run to the time limit, or until `should_stop()`, then `finish` the protocols.
 
-        `progress(sim_time_s)` is called about ten times a second of wall time. What a protocol raises is
+        `should_stop()` and `progress(sim_time_s)` are called about ten times a second of wall time. After a
+        KeyboardInterrupt, too, protocols are finished before it is passed on: `result` has what was computed.
+        Python's `random` is as before when this returns or raises. What a protocol raises is
         passed on, with a note of node, time and callback, and ends the run without `finish`. So does what a
         handler raises, as for an assertion that failed. Handlers are finalized in any case.
         """
         simulator, account = self._simulator, self._account
         siblings = siblings_importable(node.protocol for node in self._scenario.nodes)
-        with account.of_execution(), siblings:
-            with contextlib.suppress(KeyboardInterrupt):
+        interrupt: KeyboardInterrupt | None = None
+        with account.of_execution(), siblings, global_random_of(self._scenario.seed):
+            try:
                 account.complete = run_in_slices(
                     lambda max_events: not simulator.run_events(max_events),
                     lambda: simulator.current_time,
                     progress,
                     should_stop,
                 )
+            except KeyboardInterrupt as pressed:
+                interrupt = pressed
             simulator.finalize(complete=account.complete)
+            if interrupt is not None:
+                raise interrupt
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""

@@ -23,7 +23,11 @@ _ForceFastExecution = FullSpeed  # the published name
 
 
 class SimulationBuilder:
-    """Collects handlers and nodes. `build` may be called again for another simulation of the same."""
+    """Collects handlers and nodes.
+
+    `build` may be called again for another simulation of the same, once the one before is over: both have the
+    handlers that were added, which know one simulation at a time.
+    """
 
     def __init__(self, configuration: SimulationConfiguration | None = None) -> None:
         """Without a configuration the defaults of `SimulationConfiguration` hold."""

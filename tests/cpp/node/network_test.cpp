@@ -110,10 +110,16 @@ TEST(Network, IsInitializedOnce) {
     EXPECT_EQ(receiver.packets.size(), 1U);
 }
 
+TEST(Network, WhoNeverBeganIsNotFinished) {
+    Network network(MediumConfig(), 1);
+    const Recorder& recorder = test::add_recorder(network, silent_node());
+    network.finish();
+    EXPECT_TRUE(recorder.finished.empty());
+}
+
 TEST(Network, NothingRunsAfterFinish) {
     Network network(MediumConfig(), 1);
     const Recorder& recorder = test::add_recorder(network, silent_node());
-    EXPECT_THROW(network.finish(), SimulationError);
     network.initialize();
     network.finish();
     EXPECT_THROW(network.finish(), SimulationError);

@@ -2,7 +2,6 @@
 
 import random
 import traceback
-from contextlib import suppress
 
 import pytest
 
@@ -80,6 +79,23 @@ def test_parameters_are_in_force_when_the_protocol_is_made(result_of):
     assert {node.protocol for node in result.nodes} == {"Tested"}
 
 
+def test_pythons_global_random_is_the_scripts_again(make_run):
+    drawing = (
+        "import random\n"
+        "class Tested(Quiet):\n"
+        "    def __init__(self): random.random()\n"
+        '    def initialize(self): self.provider.schedule_timer("fail", 0.5)\n'
+        "    def handle_timer(self, timer): raise ValueError(random.random())"
+    )
+    random.seed(42)
+    of_the_script = random.getstate()
+    made = make_run(drawing)
+    assert random.getstate() == of_the_script
+    with pytest.raises(ValueError, match=r"0\."):
+        made.execute()
+    assert random.getstate() == of_the_script
+
+
 def test_pythons_global_random_is_seeded(result_of):
     random.seed(1)
     result = result_of(
@@ -107,8 +123,11 @@ def test_a_run_that_is_stopped_is_finished_and_marked(make_run):
     assert result.nodes[0].tracked_variables["finished"]
 
 
-def test_a_keyboard_interrupt_stops_likewise(result_of):
-    result = result_of("class Tested(Talker):\n    def handle_packet(self, m): raise KeyboardInterrupt")
+def test_a_keyboard_interrupt_stops_likewise_and_is_passed_on(make_run):
+    interrupted = make_run("class Tested(Talker):\n    def handle_packet(self, m): raise KeyboardInterrupt")
+    with pytest.raises(KeyboardInterrupt):
+        interrupted.execute()
+    result = interrupted.result()
     assert result.interrupted
     assert result.sim_time_s == pytest.approx(0.1, abs=0.01)
     assert result.nodes[0].tracked_variables["finished"]
@@ -117,7 +136,7 @@ def test_a_keyboard_interrupt_stops_likewise(result_of):
 @pytest.mark.parametrize("callback", ["initialize", "finish"])
 def test_a_keyboard_interrupt_before_or_after_the_events(make_run, callback):
     interrupted = make_run(f"class Tested(Quiet):\n    def {callback}(self): raise KeyboardInterrupt")
-    with suppress(KeyboardInterrupt):  # that of `finish` comes through: there is nothing left to do
+    with pytest.raises(KeyboardInterrupt):
         interrupted.execute()
     assert interrupted.result().interrupted
 

@@ -123,8 +123,18 @@ def test_handlers_end_when_the_run_is_interrupted(make_scenario):
         raise KeyboardInterrupt
 
     handler = Scheduling(0.5, interrupt)
-    assert run(make_scenario(), handlers=[handler]).interrupted
+    with pytest.raises(KeyboardInterrupt):
+        run(make_scenario(), handlers=[handler])
     assert handler.ended == 1
+
+
+def test_an_interrupt_while_handlers_begin_is_passed_on(make_scenario):
+    class Beginning(Watching):
+        def initialize(self):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(make_scenario(), handlers=[Beginning()])
 
 
 @pytest.mark.parametrize(

@@ -63,7 +63,8 @@ def test_a_run_that_ctrl_c_ended_is_not_complete_but_finished(make_scenario):
     ended = PrototypeRun(
         make_scenario("class Tested(Talker):\n    def handle_timer(self, timer): raise KeyboardInterrupt")
     )
-    ended.execute()
+    with pytest.raises(KeyboardInterrupt):
+        ended.execute()
     assert ended.result().interrupted
     assert [node.tracked_variables["finished"] for node in ended.result().nodes] == [True, True]
 
