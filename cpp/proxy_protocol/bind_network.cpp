@@ -73,11 +73,25 @@ py::dict frames_by_bitrate(const Network& network, NodeId node) {
     return result;
 }
 
-py::dict message_fates(const Network& network) {
+template <typename Fates>
+py::dict named_fates(const Fates& fates) {
     py::dict result;
     for (std::size_t index = 0; index < message_kind_count; ++index) {
         result[message_kind_names[index]] =
-            named_counts(network.message_fates().counts(static_cast<MessageKind>(index)), message_fate_names);
+            named_counts(fates.counts(static_cast<MessageKind>(index)), message_fate_names);
+    }
+    return result;
+}
+
+py::dict message_fates(const Network& network) {
+    return named_fates(network.message_fates());
+}
+
+py::dict message_fates_from(const Network& network, NodeId sender) {
+    py::dict result;
+    std::size_t index = 0;
+    for (const auto& interface : network.node(sender).interfaces()) {
+        result[py::str("wlan[" + std::to_string(index++) + "]")] = named_fates(interface->message_fates());
     }
     return result;
 }
@@ -85,7 +99,7 @@ py::dict message_fates(const Network& network) {
 py::dict message_delays(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < message_kind_count; ++index) {
-        const DelayHistogram& delays = network.message_fates().delays(static_cast<MessageKind>(index));
+        const DelayHistogram& delays = network.message_delays().of(static_cast<MessageKind>(index));
         if (delays.count() == 0) {
             continue;
         }
@@ -144,6 +158,7 @@ void bind_network(py::module_& module) {
         .def("interferers_at", &interferers_at, py::arg("receiver"))
         .def("frames_by_bitrate", &frames_by_bitrate, py::arg("node"))
         .def("message_fates", &message_fates)
+        .def("message_fates_from", &message_fates_from, py::arg("sender"))
         .def("message_delays", &message_delays);
 }
 

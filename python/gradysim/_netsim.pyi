@@ -386,6 +386,8 @@ class Network:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
     def message_fates(self) -> dict[str, dict[str, int]]:
         """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""
+    def message_fates_from(self, sender: int) -> dict[str, dict[str, dict[str, int]]]:
+        """The same for each interface of one node: {"wlan[0]": {"broadcast" | "unicast": {fate: count}}}."""
     def message_delays(self) -> dict[str, dict[str, Any]]:
         """How long those that protocols got took: {"broadcast" | "unicast": fields of `Delays`}.
 

@@ -10,7 +10,7 @@
 namespace netsim {
 
 CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
-                           MessageFates& fates, NetworkInterfaceListener& listener)
+                           NetworkInterfaceListener& listener)
     : simulator_(simulator),
       radio_(radio),
       config_(config),
@@ -22,7 +22,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
       listener_(listener),
       draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
-      outbox_(radio.node(), config.queue_capacity, fates) {
+      outbox_(radio.node(), config.queue_capacity) {
     radio_.set_listener(*this);
     radio_.stop_watching_channel();
 }

@@ -45,7 +45,7 @@ namespace netsim {
 class CsmaCa802154 final : public NetworkInterface, private RadioListener {
 public:
     CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
-                 MessageFates& fates, NetworkInterfaceListener& listener);
+                 NetworkInterfaceListener& listener);
     CsmaCa802154(const CsmaCa802154&) = delete;
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
@@ -57,6 +57,7 @@ public:
         radio_.fetch(step);
     }
     std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
+    const MessageFates& message_fates() const override { return outbox_.message_fates(); }
     std::size_t queued_messages() const override { return outbox_.size(); }
 
 private:

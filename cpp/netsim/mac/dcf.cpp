@@ -10,13 +10,13 @@
 namespace netsim {
 
 Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-         std::uint64_t seed, MessageFates& fates, NetworkInterfaceListener& listener)
+         std::uint64_t seed, NetworkInterfaceListener& listener)
     : simulator_(simulator),
       radio_(radio),
       listener_(listener),
       contention_(simulator, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff),
                   *this),
-      outbox_(radio.node(), parameters->config.queue_capacity, fates),
+      outbox_(radio.node(), parameters->config.queue_capacity),
       parameters_(*parameters),
       retry_(parameters->retry_limits, parameters->contention_window, parameters->retry_rule),
       owned_parameters_(std::move(parameters)),

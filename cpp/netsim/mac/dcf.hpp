@@ -45,7 +45,7 @@ namespace netsim {
 class alignas(64) Dcf final : public NetworkInterface, private RadioListener, private ContentionListener {
 public:
     Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-        std::uint64_t seed, MessageFates& fates, NetworkInterfaceListener& listener);
+        std::uint64_t seed, NetworkInterfaceListener& listener);
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
@@ -59,6 +59,7 @@ public:
     std::size_t longest_message_bytes() const override {
         return parameters_.config.mtu_bytes - datagram_bytes(0);
     }
+    const MessageFates& message_fates() const override { return outbox_.message_fates(); }
     std::size_t queued_messages() const override { return outbox_.size(); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 

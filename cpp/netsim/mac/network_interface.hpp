@@ -10,6 +10,7 @@
 
 #include "netsim/mac/frame.hpp"
 #include "netsim/medium/interface_id.hpp"
+#include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
 
@@ -32,7 +33,9 @@ public:
     // A message will probably be sent soon: has what that touches brought into the cache (kernel/fetch.hpp). Its first line is
     // there; in step 0 what it leads to is asked for, in step 1 what that leads to.
     virtual void fetch(int step) const = 0;
-    // Messages that were accepted and are in no other fate yet: a census to check the ledger with.
+    // What became of the messages that this interface took.
+    virtual const MessageFates& message_fates() const = 0;
+    // Messages that wait or are in progress: a census to check the ledger with.
     virtual std::size_t queued_messages() const = 0;
     // {bitrate in bps: unicast frames sent with it, retries included} of a station that has a rate control.
     virtual std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const { return {}; }

@@ -21,7 +21,7 @@ namespace netsim {
 class Outbox {
 public:
     // Of the interface of `node`. So many frames can wait; the one in progress does not.
-    Outbox(NodeId node, int capacity, MessageFates& fates) : queue_(capacity), fates_(fates), node_(node) {}
+    Outbox(NodeId node, int capacity) : queue_(capacity), node_(node) {}
 
     // A frame of a message from this node that is accepted now, with the next number; without a duration field.
     Frame frame_of(NodeId destination, Payload payload, int psdu_bytes, SimTime now) {
@@ -51,6 +51,7 @@ public:
     // Of those that wait and the one in progress.
     std::size_t size() const { return queue_.size() + (in_progress_ ? 1 : 0); }
     bool empty() const { return !in_progress_ && queue_.empty(); }
+    const MessageFates& message_fates() const { return fates_; }
 
     // Takes the first of those that wait, of which there must be one, unless a frame is in progress.
     void begin_next() {
@@ -87,9 +88,9 @@ private:
 
     TxQueue queue_;
     std::shared_ptr<const Frame> in_progress_;
-    MessageFates& fates_;
     NodeId node_;
     std::uint32_t next_sequence_ = 0;
+    MessageFates fates_;
 };
 
 }  // namespace netsim

@@ -9,14 +9,12 @@ namespace netsim {
 
 UnitDiskInterface::UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface,
                                      double range_m, const Trajectory& trajectory, FrameFates& frame_fates,
-                                     MessageFates& message_fates, Fingerprint& fingerprint,
-                                     NetworkInterfaceListener& listener)
+                                     Fingerprint& fingerprint, NetworkInterfaceListener& listener)
     : simulator_(simulator),
       channel_(channel),
       range_m_(range_m),
       trajectory_(trajectory),
       frame_fates_(frame_fates),
-      message_fates_(message_fates),
       fingerprint_(fingerprint),
       listener_(listener),
       id_(interface.node) {

@@ -31,8 +31,8 @@ struct UnitDiskChannel {
 class UnitDiskInterface final : public NetworkInterface {
 public:
     UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface, double range_m,
-                      const Trajectory& trajectory, FrameFates& frame_fates, MessageFates& message_fates,
-                      Fingerprint& fingerprint, NetworkInterfaceListener& listener);
+                      const Trajectory& trajectory, FrameFates& frame_fates, Fingerprint& fingerprint,
+                      NetworkInterfaceListener& listener);
     UnitDiskInterface(const UnitDiskInterface&) = delete;
     UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 
@@ -40,6 +40,7 @@ public:
     void send(NodeId destination, Payload payload) override;
     void fetch(int /*step*/) const override { netsim::fetch(*this); }
     std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
+    const MessageFates& message_fates() const override { return message_fates_; }
     std::size_t queued_messages() const override { return 0; }
 
 private:
@@ -51,11 +52,11 @@ private:
     double range_m_;
     const Trajectory& trajectory_;
     FrameFates& frame_fates_;
-    MessageFates& message_fates_;
     Fingerprint& fingerprint_;
     NetworkInterfaceListener& listener_;
     NodeId id_;
     InstantCount sent_;
+    MessageFates message_fates_;
 
     struct Flight {  // a message between its sending and its delivery within the same instant
         std::shared_ptr<const Frame> frame;

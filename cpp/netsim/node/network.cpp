@@ -34,7 +34,7 @@ Node& Network::add_node(const NodeConfig& config) {
     config.validate();
     check_with_medium(config);  // all of it before anything is built, so that a refused node leaves no trace
     Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_, payload_hash_,
-                                     message_fates_);
+                                     message_delays_);
     node.set_node_count(&node_count_);
     frame_fates_.add_node();
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
@@ -51,9 +51,9 @@ Node& Network::add_node(const NodeConfig& config) {
 std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig& config, InterfaceId id,
                                                           Node& node) {
     if (perfect_channel_) {
-        return std::make_unique<UnitDiskInterface>(
-            simulator_, unit_disk_, id, config.radio.communication_range_m, node.trajectory(), frame_fates_,
-            message_fates_, fingerprint_, node.interface_listener());
+        return std::make_unique<UnitDiskInterface>(simulator_, unit_disk_, id,
+                                                   config.radio.communication_range_m, node.trajectory(),
+                                                   frame_fates_, fingerprint_, node.interface_listener());
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
     Radio& radio =
@@ -61,11 +61,11 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
                              node.trajectory(), seed_, node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
-        return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_, message_fates_,
+        return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_,
                                               node.interface_listener());
     }
     link_types_.push_back(LinkType::radiotap);
-    return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_, message_fates_,
+    return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_,
                                  node.interface_listener());
 }
 
@@ -251,6 +251,16 @@ void Network::finish() {
         }
     }
     close_captures();
+}
+
+MessageFateSums Network::message_fates() const {
+    MessageFateSums sum;
+    for (const Node& node : nodes_) {
+        for (const auto& interface : node.interfaces()) {
+            sum.add(interface->message_fates());
+        }
+    }
+    return sum;
 }
 
 void Network::release_protocols() {

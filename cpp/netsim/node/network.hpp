@@ -27,6 +27,7 @@
 #include "netsim/phy/radio.hpp"
 #include "netsim/phy/radio_kind.hpp"
 #include "netsim/trace/frame_fates.hpp"
+#include "netsim/trace/message_delays.hpp"
 #include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
@@ -81,7 +82,9 @@ public:
     std::size_t pending_count() const { return simulator_.pending_count(); }
     std::uint64_t fingerprint() const { return fingerprint_.value(); }
     const FrameFates& frame_fates() const { return frame_fates_; }
-    const MessageFates& message_fates() const { return message_fates_; }
+    // The sum over all interfaces; that of one: node(0).interfaces()[1]->message_fates().
+    MessageFateSums message_fates() const;
+    const MessageDelays& message_delays() const { return message_delays_; }
 
 private:
     std::size_t place_of(NodeId node) const;
@@ -103,7 +106,7 @@ private:
     Fingerprint fingerprint_;
     PayloadHash payload_hash_;
     FrameFates frame_fates_;
-    MessageFates message_fates_;
+    MessageDelays message_delays_;
     bool perfect_channel_;
     Medium medium_;
     UnitDiskChannel unit_disk_;

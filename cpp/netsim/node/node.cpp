@@ -19,11 +19,11 @@ constexpr std::uint64_t timer_word = 0x74696D6572;
 }  // namespace
 
 Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-           Fingerprint& fingerprint, PayloadHash& payload_hash, MessageFates& message_fates)
+           Fingerprint& fingerprint, PayloadHash& payload_hash, MessageDelays& message_delays)
     : simulator_(simulator),
       fingerprint_(fingerprint),
       payload_hash_(payload_hash),
-      message_fates_(message_fates),
+      message_delays_(message_delays),
       id_(id),
       mobility_(make_mobility(config.mobility, config.initial_position)),
       name_(config.name),
@@ -120,7 +120,7 @@ void Node::message_received(const Frame& frame) {
     if (!protocol_) {
         return;
     }
-    message_fates_.receive(message_kind(frame), now() - frame.accepted);
+    message_delays_.add(message_kind(frame), now() - frame.accepted);
     fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(frame.transmitter) << 40) ^
                      static_cast<std::uint64_t>(id_));
     fingerprint_.add(payload_hash_.of(frame.payload));

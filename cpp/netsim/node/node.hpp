@@ -21,14 +21,14 @@
 #include "netsim/node/protocol.hpp"
 #include "netsim/node/timers.hpp"
 #include "netsim/node/tracked_variables.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/message_delays.hpp"
 
 namespace netsim {
 
 class alignas(64) Node final : private NetworkInterfaceListener {
 public:
     Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-         Fingerprint& fingerprint, PayloadHash& payload_hash, MessageFates& message_fates);
+         Fingerprint& fingerprint, PayloadHash& payload_hash, MessageDelays& message_delays);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
@@ -103,7 +103,7 @@ private:
     Simulator& simulator_;
     Fingerprint& fingerprint_;
     PayloadHash& payload_hash_;
-    MessageFates& message_fates_;
+    MessageDelays& message_delays_;
     NodeId id_;
     bool observed_ = false;  // here, where it is at hand: most nodes are not
     const std::int32_t* node_count_ = nullptr;

@@ -110,7 +110,7 @@ TEST_F(CsmaCa802154Test, ALongerMessageIsRefused) {
                   "bytes less "
                   "MAC, IPv4 and UDP headers)");
     }
-    EXPECT_EQ(air.message_fates.accepted(MessageKind::broadcast), 0U);
+    EXPECT_EQ(sender.csma.message_fates().accepted(MessageKind::broadcast), 0U);
 }
 
 TEST_F(CsmaCa802154Test, AFrameWithoutAckIsRepeatedThreeTimes) {

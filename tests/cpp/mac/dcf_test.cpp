@@ -289,7 +289,7 @@ TEST_F(DcfTest, AMessageThatIsTooLongIsAnErrorThatSaysHowLongItMayBe) {
                   "less IPv4 and "
                   "UDP headers)");
     }
-    EXPECT_EQ(air.message_fates.accepted(MessageKind::unicast), 0U);
+    EXPECT_EQ(a->dcf.message_fates().accepted(MessageKind::unicast), 0U);
 }
 
 TEST_F(DcfTest, OnePairSharesTheChannelBothWays) {

@@ -14,12 +14,11 @@ class OutboxTest : public testing::Test {
 protected:
     bool add(NodeId destination) { return outbox.add(outbox.frame_of(destination, text, 164, SimTime{})); }
     std::uint64_t booked(MessageKind kind, MessageFate fate) const {
-        return fates.counts(kind)[static_cast<std::size_t>(fate)];
+        return outbox.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
     }
 
     Payload text = std::make_shared<const std::string>("text");
-    MessageFates fates;
-    Outbox outbox{7, capacity, fates};
+    Outbox outbox{7, capacity};
 };
 
 TEST_F(OutboxTest, FramesAreNumberedAndSayWhomTheyAreFor) {
@@ -74,7 +73,7 @@ TEST_F(OutboxTest, WhatDoesNotFitIsBooked) {
     add(broadcast_id);
     EXPECT_FALSE(add(broadcast_id));
     EXPECT_EQ(outbox.size(), 2U);
-    EXPECT_EQ(fates.accepted(MessageKind::broadcast), 3U);
+    EXPECT_EQ(outbox.message_fates().accepted(MessageKind::broadcast), 3U);
     EXPECT_EQ(booked(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
 }
 

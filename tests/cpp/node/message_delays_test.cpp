@@ -1,4 +1,4 @@
-// How long messages take, from the command that sends them to the protocol that gets them: MessageFates::delays.
+// How long messages take, from the command that sends them to the protocol that gets them: Network::message_delays.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -47,7 +47,7 @@ protected:
         network.initialize();
         network.run_until(SimTime::from_seconds(2));
     }
-    const DelayHistogram& of(MessageKind kind) const { return network.message_fates().delays(kind); }
+    const DelayHistogram& of(MessageKind kind) const { return network.message_delays().of(kind); }
 
     Network network{MediumConfig(), 1};
     const SimTime flight = us(1);
@@ -110,7 +110,7 @@ TEST_P(DelaysInContention, AreWhatReceiversMeasure) {
     network.initialize();
     network.run_until(SimTime::from_seconds(10));
     for (const MessageKind kind : both_kinds) {
-        const DelayHistogram& booked = network.message_fates().delays(kind);
+        const DelayHistogram& booked = network.message_delays().of(kind);
         const std::vector<SimTime>& expected = measured[static_cast<std::size_t>(kind)];
         ASSERT_GT(expected.size(), 50U);
         double sum_s = 0;

@@ -90,6 +90,29 @@ TEST(Network, ANodeWithTwoInterfacesHearsBothChannelsAndSendsOnTheOneItIsTold) {
     EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 2U);
 }
 
+TEST(Network, EachInterfaceTellsWhatBecameOfItsMessages) {
+    Network network(MediumConfig(), 1);
+    Recorder& relay = test::add_recorder(network, node_on({channel_1_hz, channel_6_hz}));
+    network.add_node(node_on({channel_1_hz}, {10, 0, 0}));
+    relay.on_initialize = [](Recorder& self) {
+        self.send(1, "there");
+        self.send(1, "not there", 1);
+        self.broadcast("to nobody", 1);
+    };
+    network.initialize();
+    network.run_until(s(1));
+    const auto count_of = [&network](std::size_t interface, MessageKind kind, MessageFate fate) {
+        return network.node(0).interfaces()[interface]->message_fates().counts(
+            kind)[static_cast<std::size_t>(fate)];
+    };
+    EXPECT_EQ(count_of(0, MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(count_of(0, MessageKind::unicast, MessageFate::retry_limit), 0U);
+    EXPECT_EQ(count_of(0, MessageKind::broadcast, MessageFate::sent), 0U);
+    EXPECT_EQ(count_of(1, MessageKind::unicast, MessageFate::acknowledged), 0U);
+    EXPECT_EQ(count_of(1, MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(count_of(1, MessageKind::broadcast, MessageFate::sent), 1U);
+}
+
 TEST(Network, AnInterfaceThatIsNotThereCannotSend) {
     Network network(MediumConfig(), 1);
     Recorder& sender = test::add_recorder(network, node_on({channel_1_hz, channel_6_hz}));

@@ -9,6 +9,7 @@
 
 #include "netsim/node/network.hpp"
 #include "support/narrowband_scenario.hpp"
+#include "support/random_interfaces.hpp"
 #include "support/random_scenario.hpp"
 #include "support/silent_node.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 using test::RandomScenario;
 using test::ScenarioRun;
 using test::silent_node;
+using test::Talker;
 
 SimTime s(double seconds) {
     return SimTime::from_seconds(seconds);
@@ -34,12 +36,14 @@ std::uint64_t sum_of(const auto& counts) {
 
 constexpr std::array all_frame_kinds{FrameKind::broadcast, FrameKind::unicast, FrameKind::ack, FrameKind::rts,
                                      FrameKind::cts};
+constexpr std::array both_message_kinds{MessageKind::broadcast, MessageKind::unicast};
 
 class Balance : public testing::TestWithParam<std::uint64_t> {
 protected:
-    // One of 802.11 stations, one with 802.15.4 devices.
-    static std::array<RandomScenario, 2> scenarios() {
-        return {test::make_random_scenario(GetParam()), test::make_narrowband_scenario(GetParam())};
+    // One of 802.11 stations, one with 802.15.4 devices, one of nodes with several interfaces.
+    static std::array<RandomScenario, 3> scenarios() {
+        return {test::make_random_scenario(GetParam()), test::make_narrowband_scenario(GetParam()),
+                test::with_random_interfaces(test::make_random_scenario(GetParam()))};
     }
     static void expect_balance(const Network& network) {
         for (const FrameKind kind : all_frame_kinds) {
@@ -48,19 +52,36 @@ protected:
                           network.frame_fates().copies(kind, overheard));
             }
         }
-        std::uint64_t queued = 0;
-        for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
-            const auto counts = network.message_fates().counts(kind);
-            EXPECT_EQ(sum_of(counts), network.message_fates().accepted(kind));
-            queued += counts[static_cast<std::size_t>(MessageFate::queued)];
-        }
         std::uint64_t census = 0;
         for (NodeId id = 0; id < network.node_count(); ++id) {
             for (const auto& interface : network.node(id).interfaces()) {
+                expect_balance(interface->message_fates(), interface->queued_messages());
                 census += interface->queued_messages();
             }
         }
+        expect_balance(network.message_fates(), census);
+    }
+    // Of one interface, or of all.
+    static void expect_balance(const auto& message_fates, std::uint64_t census) {
+        std::uint64_t queued = 0;
+        for (const MessageKind kind : both_message_kinds) {
+            const auto counts = message_fates.counts(kind);
+            EXPECT_EQ(sum_of(counts), message_fates.accepted(kind));
+            queued += counts[static_cast<std::size_t>(MessageFate::queued)];
+        }
         EXPECT_EQ(queued, census);
+    }
+    // Each message is in the ledger of an interface of the node that it came from, once.
+    static void expect_all_messages_accepted(Network& network) {
+        for (NodeId id = 0; id < network.node_count(); ++id) {
+            std::uint64_t accepted = 0;
+            for (const auto& interface : network.node(id).interfaces()) {
+                for (const MessageKind kind : both_message_kinds) {
+                    accepted += interface->message_fates().accepted(kind);
+                }
+            }
+            EXPECT_EQ(accepted, dynamic_cast<const Talker&>(*network.node(id).protocol()).sent());
+        }
     }
     // Fates at the receivers, without those that are kept only in sum.
     static void expect_nodes_add_up(const Network& network) {
@@ -89,6 +110,7 @@ TEST_P(Balance, HoldsAtEveryMomentOfARun) {
         for (int step = 1; step <= 20; ++step) {
             run.network.run_until(SimTime::from_ps(scenario.talk.until.ps() / 20 * step));
             expect_balance(run.network);
+            expect_all_messages_accepted(run.network);
             expect_nodes_add_up(run.network);
         }
     }
@@ -106,7 +128,7 @@ TEST_P(Balance, NothingIsLeftWhenTheAirIsDrained) {
                           0U);
             }
         }
-        for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
+        for (const MessageKind kind : both_message_kinds) {
             EXPECT_EQ(run.network.message_fates().counts(kind)[static_cast<std::size_t>(MessageFate::queued)],
                       0U);
         }

@@ -113,13 +113,12 @@ struct Received {
 // A radio with a MAC.
 struct Station final : NetworkInterfaceListener {
     Station(Simulator& simulator_, Medium& medium, InterfaceId interface, const RadioConfig& radio_config,
-            const MacConfig& mac_config, Position place, std::uint64_t seed, MessageFates& message_fates)
+            const MacConfig& mac_config, Position place, std::uint64_t seed)
         : simulator(simulator_),
           trajectory(place),
           radio(simulator_, medium, interface, kind_of(radio_config, medium), radio_config.tx_power_w,
                 trajectory, seed),
-          dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed, message_fates,
-              *this) {}
+          dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed, *this) {}
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, const std::string& text) {
@@ -165,8 +164,7 @@ public:
     Station& add_station(Position place, MacConfig mac = MacConfig(),
                          const RadioConfig& radio = RadioConfig()) {
         mac.initial_channel_busy = false;
-        return stations_.emplace_back(simulator, medium, next_node(), radio, mac, place, seed_,
-                                      message_fates);
+        return stations_.emplace_back(simulator, medium, next_node(), radio, mac, place, seed_);
     }
     Sniffer& add_sniffer(Position place, const RadioConfig& radio = RadioConfig()) {
         Sniffer& sniffer = sniffers_.emplace_back(place);
@@ -188,13 +186,17 @@ public:
     std::uint64_t broadcast_count_at(const BareRadio& receiver, FrameFate fate) const {
         return frame_fates.counts_at(receiver.id(), FrameKind::broadcast)[static_cast<std::size_t>(fate)];
     }
+    // From all stations.
     std::uint64_t message_count(MessageKind kind, MessageFate fate) const {
-        return message_fates.counts(kind)[static_cast<std::size_t>(fate)];
+        MessageFateSums sums;
+        for (const Station& station : stations_) {
+            sums.add(station.dcf.message_fates());
+        }
+        return sums.counts(kind)[static_cast<std::size_t>(fate)];
     }
 
     Simulator simulator;
     FrameFates frame_fates;
-    MessageFates message_fates;
     Fingerprint fingerprint;
     Medium medium;
 

@@ -46,7 +46,7 @@ struct Device final : NetworkInterfaceListener {
           trajectory(place),
           radio(air.simulator, air.medium, air.next_node(), kind_of(radio_config, air.medium),
                 radio_config.tx_power_w, trajectory, seed),
-          csma(air.simulator, radio, config, seed, air.message_fates, *this) {}
+          csma(air.simulator, radio, config, seed, *this) {}
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, std::size_t bytes) {
@@ -84,7 +84,13 @@ protected:
     static RandomStream draws_of(const Device& device) {
         return {seed, static_cast<std::uint32_t>(device.id()), Purpose::csma_backoff};
     }
-    std::uint64_t messages(MessageKind kind, MessageFate fate) const { return air.message_count(kind, fate); }
+    std::uint64_t messages(MessageKind kind, MessageFate fate) const {
+        MessageFateSums sums;
+        for (const Device& device : devices_) {
+            sums.add(device.csma.message_fates());
+        }
+        return sums.counts(kind)[static_cast<std::size_t>(fate)];
+    }
 
     Air air;
 

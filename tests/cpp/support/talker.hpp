@@ -77,6 +77,9 @@ public:
     void handle_telemetry(const Position&) override {}
     void finish() override {}
 
+    // Messages, through whatever interface.
+    std::uint64_t sent() const { return sent_; }
+
 private:
     void speak() {
         if (moves_) {
@@ -110,7 +113,7 @@ private:
     std::vector<Delivery>& deliveries_;
     RandomStream draws_;
     bool moves_;
-    int sent_ = 0;
+    std::uint64_t sent_ = 0;
 };
 
 }  // namespace netsim::test

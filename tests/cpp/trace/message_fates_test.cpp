@@ -8,7 +8,7 @@
 namespace netsim {
 namespace {
 
-std::uint64_t count_of(const MessageFates& fates, MessageKind kind, MessageFate fate) {
+std::uint64_t count_of(const auto& fates, MessageKind kind, MessageFate fate) {
     return fates.counts(kind)[static_cast<std::size_t>(fate)];
 }
 
@@ -42,6 +42,20 @@ TEST(MessageFates, KindsAreCountedApart) {
     EXPECT_EQ(fates.accepted(MessageKind::unicast), 0U);
     EXPECT_EQ(fates.counts(MessageKind::unicast), MessageFates::Counts{});
     EXPECT_EQ(count_of(fates, MessageKind::broadcast, MessageFate::sent), 1U);
+}
+
+TEST(MessageFateSums, AreThoseOfAllInterfaces) {
+    MessageFates fates;
+    fates.accept(MessageKind::unicast);
+    fates.accept(MessageKind::unicast);
+    fates.book(MessageKind::unicast, MessageFate::acknowledged);
+    MessageFateSums sums;
+    sums.add(fates);
+    sums.add(fates);
+    EXPECT_EQ(sums.accepted(MessageKind::unicast), 4U);
+    EXPECT_EQ(count_of(sums, MessageKind::unicast, MessageFate::acknowledged), 2U);
+    EXPECT_EQ(count_of(sums, MessageKind::unicast, MessageFate::queued), 2U);
+    EXPECT_EQ(sums.counts(MessageKind::broadcast), MessageFateSums::Counts{});
 }
 
 }  // namespace
