@@ -83,7 +83,10 @@ PcapOption = Annotated[
 
 FatesAtOption = Annotated[
     tuple[str, ...],
-    _of_nodes("tell what became of the frames that reached these nodes, and who interfered."),
+    _of_nodes(
+        "tell what became of the frames that reached these nodes, who interfered,"
+        " and what became of the messages that they sent."
+    ),
 ]
 
 JsonOption = Annotated[bool, _flag("Print one JSON object per run, one per line, no more.", "--json")]

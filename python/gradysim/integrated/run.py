@@ -68,8 +68,9 @@ class IntegratedRun:
         what `wlan[1]` of a node with FILE.pcap does is in FILE-wlan1.pcap. The files are complete when
         `execute` returns or raises.
 
-        `fates_at` are the ids of the nodes whose results tell what became of frames there and who interfered:
-        `NodeResult.frame_fates` and `interferers`. The run itself is the same, and as fast.
+        `fates_at` are the ids of the nodes whose results tell what became of frames there, who interfered,
+        and what became of messages that they sent: `NodeResult.frame_fates`, `interferers` and
+        `message_fates`. The run itself is the same, and as fast.
 
         `vectors_of` are the ids of the nodes whose results have a row for each assignment of a tracked
         variable that is a number, and for each telemetry: `NodeResult.vectors`.

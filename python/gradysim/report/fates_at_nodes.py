@@ -1,6 +1,6 @@
-"""What became of frames at single nodes, and who interfered there, for the summary of a run."""
+"""What became of frames at single nodes and of messages from them, for the summary of a run."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from rich import box
 from rich.console import RenderableType
@@ -21,9 +21,28 @@ def fates_at_nodes(nodes: Iterable[NodeResult], fates: Iterable[str]) -> Rendera
     }
     if not rows:
         return Text("no frame was strong enough to be received there")
+    return _tables("at", rows, fates)
+
+
+def messages_from_nodes(nodes: Iterable[NodeResult], fates: Iterable[str]) -> RenderableType:
+    """Return the same for each kind of message from each node, from each interface where it has several."""
+    rows = {
+        f"{_sender(node, interface)} {kind}": counts
+        for node in nodes
+        for interface, kinds in (node.message_fates or {}).items()
+        for kind, counts in kinds.items()
+    }
+    return _tables("from", rows, fates) if rows else Text("no protocol sent a message there")
+
+
+def _sender(node: NodeResult, interface: str) -> str:
+    return f"{node.name}.{interface}" if len(node.message_fates or {}) > 1 else node.name
+
+
+def _tables(corner: str, rows: Mapping[str, Mapping[str, int]], fates: Iterable[str]) -> CountTables:
     met = {fate for counts in rows.values() for fate in counts}
     return CountTables(
-        "at",
+        corner,
         {
             fate.replace("_", " "): {row: counts.get(fate, 0) for row, counts in rows.items()}
             for fate in fates

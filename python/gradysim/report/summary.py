@@ -12,7 +12,12 @@ from gradysim.config.runs.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
 from gradysim.protocol.readable_number import readable_number
 from gradysim.report.count_tables import CountTables
-from gradysim.report.fates_at_nodes import fates_at_nodes, interferer_table, kinds_overheard
+from gradysim.report.fates_at_nodes import (
+    fates_at_nodes,
+    interferer_table,
+    kinds_overheard,
+    messages_from_nodes,
+)
 from gradysim.results.delays import Delays
 from gradysim.results.run_result import NodeResult, RunResult
 
@@ -57,20 +62,26 @@ def summary(result: RunResult) -> RenderableType:
 
 
 def at_nodes(result: RunResult) -> list[RenderableType]:
-    """Return what became of frames at the nodes that the run was asked for, and who interfered there."""
+    """Return what became of frames at the nodes that the run was asked for, and of messages from them."""
     told = tuple(node for node in result.nodes if node.frame_fates is not None)
     if not told:
         return []
     shown = told if len(told) <= MAX_NODES else told[:NODES_OF_MANY]
-    fates = dict.fromkeys(fate for counts in result.fates["frames"].values() for fate in counts)
-    parts = [title("Fates of frames at nodes, whoever they were for"), fates_at_nodes(shown, fates)]
+    frames, messages = (names_of(result.fates[what]) for what in ("frames", "messages"))
+    parts = [title("Fates of frames at nodes, whoever they were for"), fates_at_nodes(shown, frames)]
     if overheard := kinds_overheard(shown):
         parts.append(Text(f"of {overheard}, frames for other nodes that were overheard count, too"))
     if any(node.interferers for node in shown):
         parts += [title("Lost to interference, and to whose frames"), interferer_table(shown)]
+    parts += [title("Messages from nodes and what became of them"), messages_from_nodes(shown, messages)]
     if len(shown) < len(told):
         parts.append(Text(f"… and {len(told) - len(shown):,} more nodes; --json has all"))
     return parts
+
+
+def names_of(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, None]:
+    """Return all fates in their order, whether there were any or not."""
+    return dict.fromkeys(fate for counts in kinds.values() for fate in counts)
 
 
 def title(text: str) -> Text:

@@ -32,7 +32,7 @@ def files_changed_since(
     """Return which files that settings name, such as protocols, the result in `directory` is older than.
 
     It is done if there are none. The result is that of just this run, with the same settings and seed, to its
-    end, and tells the fates of frames at the nodes `fates_at`, by their ids; None if there is no such result.
+    end, and tells the fates at the nodes `fates_at`, by their ids; None if there is no such result.
     """
     result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
     expected = {
@@ -73,7 +73,8 @@ def _changed(before: object, now: Mapping[str, str]) -> tuple[str, ...]:
 
 def _has_fates_at(fates_at: Iterable[int], nodes: object) -> bool:
     told = nodes if isinstance(nodes, list) else []
-    return {node.get("id") for node in told if isinstance(node, dict) and "frame_fates" in node}.issuperset(
+    asked = {"frame_fates", "message_fates"}
+    return {node.get("id") for node in told if isinstance(node, dict) and asked <= node.keys()}.issuperset(
         fates_at
     )
 

@@ -47,14 +47,17 @@ class NodeResult:
     others}, in the order of ids; None as above. Of those on the air when the interference was at its
     strongest, the strongest are named, as many as outweigh all the others together; a copy counts once
     for each of them."""
+    message_fates: Mapping[str, Mapping[str, Mapping[str, int]]] | None = None
+    """{interface: {kind: {fate: messages}}} of what its protocol sent through "wlan[0]", "wlan[1]" and so on,
+    all that there are, without zeros; None as above. Kinds: "broadcast", "unicast"."""
     vectors: tuple[Vector, ...] | None = None
     """What its numbers were over time; None unless the run was asked for it (`vectors_of`). Not in JSON."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the fields but `vectors` as plain values; see `plain_value` for those of other kinds.
 
-        `frames_by_bitrate` is left out where it is empty; its keys are texts then. `frame_fates` and
-        `interferers` are left out where they are None.
+        `frames_by_bitrate` is left out where it is empty; its keys are texts then. `frame_fates`,
+        `interferers` and `message_fates` are left out where they are None.
         """
         rates = {str(bitrate): frames for bitrate, frames in self.frames_by_bitrate.items()}
         return {
@@ -74,6 +77,11 @@ class NodeResult:
             told["frame_fates"] = {kind: dict(counts) for kind, counts in self.frame_fates.items()}
         if self.interferers is not None:
             told["interferers"] = dict(self.interferers)
+        if self.message_fates is not None:
+            told["message_fates"] = {
+                interface: {kind: dict(counts) for kind, counts in kinds.items()}
+                for interface, kinds in self.message_fates.items()
+            }
         return told
 
 

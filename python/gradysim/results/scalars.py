@@ -51,6 +51,8 @@ def _of_node(node: NodeResult, module: str) -> Iterator[Scalar]:
     yield from _fates(module, node.frame_fates or {})
     for interferer, copies in (node.interferers or {}).items():
         yield _count(module, f"interferer:{interferer}", copies)
+    for interface, kinds in (node.message_fates or {}).items():
+        yield from _fates(f"{module}.{interface}", kinds, "Message")
 
 
 def _fates(module: str, kinds: Mapping[str, Mapping[str, int]], suffix: str = "") -> Iterator[Scalar]:

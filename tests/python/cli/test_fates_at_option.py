@@ -10,6 +10,7 @@ def test_results_tell_of_the_nodes_that_are_named(gradysim):
     assert "frame_fates" not in first
     assert second["frame_fates"] == {"broadcast": {"delivered": 10}}
     assert second["interferers"] == {}
+    assert second["message_fates"] == {"wlan[0]": {"broadcast": {"sent": 10}}}
 
 
 @compiled
@@ -18,6 +19,16 @@ def test_the_summary_tells_of_them(gradysim):
     lines = [line.split() for line in done.stdout.splitlines()]
     assert ["uavs[0]", "broadcast", "10"] in lines
     assert ["uavs[1]", "broadcast", "10"] in lines
+
+
+@compiled
+def test_messages_of_one_group_are_told_apart_from_those_of_another(gradysim):
+    sensors = ["*.sensors.count=1", '*.sensors[*].protocol.typename="SaturatingSource"']
+    overrides = [word for line in sensors for word in ("--set", line)]
+    done = gradysim("run", "test.ini", "-r", "0", "--json", "--fates-at", "all", *overrides)
+    (run,) = objects(done.stdout)
+    kinds = {node["name"]: node["message_fates"]["wlan[0]"].keys() for node in run["nodes"]}
+    assert kinds == {"uavs[0]": {"broadcast"}, "uavs[1]": {"broadcast"}, "sensors[0]": {"unicast"}}
 
 
 @compiled

@@ -54,8 +54,15 @@ def test_scalars_do_without_vectors_and_vectors_without_scalars(gradysim, folder
 def test_fates_at_nodes_are_scalars(gradysim, folder):
     gradysim("run", "test.ini", "-r", "0", "--scalars", "--fates-at", "uavs[0]", "--quiet")
     rows = read_scalars(folder / "results/General-#0.integrated.sca")
-    told = {row["name"]: row["value"] for row in rows if row["module"] == "Network.uavs[0]"}
-    assert told == {"broadcast:delivered:count": 10}
+    told = {
+        (row["module"], row["name"]): row["value"]
+        for row in rows
+        if row["module"] in {"Network.uavs[0]", "Network.uavs[0].wlan[0]"}
+    }
+    assert told == {
+        ("Network.uavs[0]", "broadcast:delivered:count"): 10,
+        ("Network.uavs[0].wlan[0]", "broadcastMessage:sent:count"): 10,
+    }
 
 
 def values_of(folder, name):

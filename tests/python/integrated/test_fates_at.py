@@ -23,12 +23,28 @@ class Tested(Talker):
         super().handle_timer(timer)
 """
 
+BY_TWO_RADIOS = """
+class Tested(Quiet):
+    def initialize(self):
+        self.provider.schedule_timer("talk", 1)
+    def handle_timer(self, timer):
+        node_id = self.provider.get_id()
+        if node_id == 0:
+            for interface in (0, 1, 1):
+                self.provider.send_communication_command(SendMessageCommand("hello", 1, interface=interface))
+        if node_id == 2:
+            self.provider.send_communication_command(BroadcastMessageCommand("hello"))
+"""
+"""Node 1 is on the channel of node 0's first radio, not on that of its second one."""
+
+TWO_RADIOS = ("*.uavs[0].numWlanInterfaces = 2", "*.uavs[0].wlan[1].radio.channelNumber = 5")
+
 THREE = "*.uavs.count = 3"
 
 
 def test_a_run_tells_nothing_of_single_nodes_unasked(make_scenario):
     (node, *_) = run(make_scenario()).nodes
-    assert (node.frame_fates, node.interferers) == (None, None)
+    assert (node.frame_fates, node.interferers, node.message_fates) == (None, None, None)
 
 
 def test_it_tells_of_those_it_is_asked_for(make_scenario):
@@ -58,6 +74,29 @@ def test_sums_over_all_nodes_are_those_of_the_network(make_scenario):
                 of_nodes[kind, fate] += copies
     assert +of_network == of_nodes
     assert {"unicast", "ack", "broadcast"} <= {kind for kind, _ in of_nodes}
+
+
+def test_messages_of_each_interface_are_told_apart(make_scenario):
+    nodes = run(make_scenario(BY_TWO_RADIOS, THREE, *TWO_RADIOS), fates_at=range(3)).nodes
+    assert [node.message_fates for node in nodes] == [
+        {"wlan[0]": {"unicast": {"acknowledged": 1}}, "wlan[1]": {"unicast": {"retry_limit": 2}}},
+        {"wlan[0]": {}},
+        {"wlan[0]": {"broadcast": {"sent": 1}}},
+    ]
+
+
+@pytest.mark.parametrize(("python", "settings"), [(ANSWERED, ()), (BY_TWO_RADIOS, TWO_RADIOS)])
+def test_sums_of_messages_over_all_interfaces_are_those_of_the_network(make_scenario, python, settings):
+    result = run(make_scenario(python, THREE, *settings), fates_at=range(3))
+    of_network, of_interfaces = Counter(), Counter()
+    for kind, counts in result.fates["messages"].items():
+        of_network.update({(kind, fate): count for fate, count in counts.items()})
+    for node in result.nodes:
+        for kinds in node.message_fates.values():
+            for kind, counts in kinds.items():
+                of_interfaces.update({(kind, fate): count for fate, count in counts.items()})
+    assert +of_network == of_interfaces
+    assert len(of_interfaces) >= 2
 
 
 def test_to_be_asked_does_not_change_the_run(make_scenario):

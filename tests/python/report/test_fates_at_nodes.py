@@ -3,13 +3,22 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from gradysim.report.fates_at_nodes import MAX_INTERFERERS, fates_at_nodes, interferer_table, kinds_overheard
+from gradysim.report.fates_at_nodes import (
+    MAX_INTERFERERS,
+    fates_at_nodes,
+    interferer_table,
+    kinds_overheard,
+    messages_from_nodes,
+)
 from gradysim.results.run_result import NodeResult
 
 
-def node(name, frame_fates, interferers=()):
+def node(name, frame_fates, interferers=(), message_fates=()):
     return NodeResult(
-        0, name, "Mobile", (0.0, 0.0, 0.0), {}, frame_fates=frame_fates, interferers=dict(interferers)
+        *(0, name, "Mobile", (0.0, 0.0, 0.0), {}),
+        frame_fates=frame_fates,
+        interferers=dict(interferers),
+        message_fates=dict(message_fates),
     )
 
 
@@ -73,3 +82,29 @@ def test_many_interferers_are_cut_short():
     many = {f"n[{index}]": 1 for index in range(MAX_INTERFERERS + 2)}
     *_, row = lines(interferer_table([node("a", {"broadcast": {"interference": 12}}, many)]), width=300)
     assert row[-6:] == ["n[9]", "1,", "…", "and", "2", "more"]
+
+
+def test_a_row_for_each_kind_of_message_from_each_node():
+    sender = {"wlan[0]": {"unicast": {"acknowledged": 1234, "retry_limit": 1}, "broadcast": {"sent": 5}}}
+    silent = {"wlan[0]": {}}
+    nodes = [node("a", {}, message_fates=sender), node("b", {}, message_fates=silent)]
+    assert lines(messages_from_nodes(nodes, ["sent", "acknowledged", "retry_limit", "queued"])) == [
+        ["retry"],
+        ["from", "sent", "acknowledged", "limit"],
+        ["─" * len("a broadcast   sent   acknowledged   retry")],
+        ["a", "unicast", "0", "1,234", "1"],
+        ["a", "broadcast", "5", "0", "0"],
+        ["sum", "5", "1,234", "1"],
+    ]
+
+
+def test_the_interface_is_named_where_there_are_several():
+    two = {"wlan[0]": {}, "wlan[1]": {"broadcast": {"sent": 3}}}
+    table = messages_from_nodes([node("relay", {}, message_fates=two)], ["sent"])
+    assert ["relay.wlan[1]", "broadcast", "3"] in lines(table)
+
+
+def test_nodes_that_sent_nothing_are_told():
+    assert lines(messages_from_nodes([node("a", {}, message_fates={"wlan[0]": {}})], ["sent"])) == [
+        ["no", "protocol", "sent", "a", "message", "there"]
+    ]

@@ -27,7 +27,8 @@ def printed(width=100, **changes):
             "frames": {
                 "broadcast": {"delivered": 1500, "below_sensitivity": 2, "interference": 0},
                 "ack": {"delivered": 3},
-            }
+            },
+            "messages": {"broadcast": {"sent": 0}},
         },
         "nodes": (node,),
     }
@@ -177,19 +178,25 @@ def test_many_nodes_are_cut_short(count, shown):
 def told_nodes(count):
     """Nodes of a run that was asked for what became of frames there."""
     fates = {"broadcast": {"delivered": 2, "interference": 1}}
-    return tuple(replace(node, frame_fates=fates, interferers={"uavs[0]": 1}) for node in nodes(count))
+    told = {
+        "frame_fates": fates,
+        "interferers": {"uavs[0]": 1},
+        "message_fates": {"wlan[0]": {"unicast": {"sent": 4}}},
+    }
+    return tuple(replace(node, **told) for node in nodes(count))
 
 
 def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
     lines = [line.split() for line in printed(nodes=(*told_nodes(1), *nodes(1))).splitlines()]
     assert ["uavs[0]", "broadcast", "2", "1"] in lines
     assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
+    assert ["uavs[0]", "unicast", "4"] in lines
     assert "Fates of frames at nodes" not in printed()
 
 
 @pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])
 def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
-    at_node = replace(*nodes(1), frame_fates={kind: {"delivered": 1}})
+    at_node = replace(*nodes(1), frame_fates={kind: {"delivered": 1}}, message_fates={})
     text = f"of {kind}, frames for other nodes that were overheard count, too"
     assert (text in printed(nodes=(at_node,))) is told
 
@@ -197,7 +204,7 @@ def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
 @pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
 def test_fates_at_many_nodes_are_cut_short(count, shown):
     _, _, text = printed(nodes=told_nodes(count)).partition("Fates of frames at nodes")
-    assert text.count(" broadcast ") == shown
+    assert (text.count(" broadcast "), text.count(" unicast ")) == (shown, shown)
     assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
 
 

@@ -157,7 +157,9 @@ def test_the_values_of_a_run_that_is_done_may_be_numbers_and_texts(done):
 def test_a_result_without_the_fates_that_are_wanted_is_not_enough(done):
     scenario, result, folder = done
     nodes = [
-        NodeResult(0, "uavs[0]", "Tested", (0.0, 0.0, 0.0), {}, frame_fates={}, interferers={}),
+        NodeResult(
+            *(0, "uavs[0]", "Tested", (0.0, 0.0, 0.0), {}), frame_fates={}, interferers={}, message_fates={}
+        ),
         NodeResult(1, "uavs[1]", "Tested", (0.0, 0.0, 0.0), {}),
     ]
     write_run_file(dataclasses.replace(result, nodes=tuple(nodes)), folder)

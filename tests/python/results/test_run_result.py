@@ -68,6 +68,7 @@ def test_every_field_of_a_node_is_told_but_its_vectors():
         frames_by_bitrate={1: 2},
         frame_fates={},
         interferers={},
+        message_fates={},
         vectors=(),
     )
     given = {field.name for field in dataclasses.fields(node) if getattr(node, field.name) is not None}
@@ -101,9 +102,15 @@ def test_frames_by_bitrate_are_there_if_there_were_any():
 
 def test_fates_and_interferers_are_there_if_the_run_was_asked_for_them():
     heard = {"broadcast": {"delivered": 3}}
-    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}, frame_fates=heard, interferers={})
+    said = {"wlan[0]": {"broadcast": {"sent": 5}}, "wlan[1]": {}}
+    node = NodeResult(
+        *(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}),
+        frame_fates=heard,
+        interferers={},
+        message_fates=said,
+    )
     told = node.to_json_object()
-    assert (told["frame_fates"], told["interferers"]) == (heard, {})
+    assert (told["frame_fates"], told["interferers"], told["message_fates"]) == (heard, {}, said)
 
 
 def test_a_tracked_variable_without_a_json_form_is_given_as_repr():

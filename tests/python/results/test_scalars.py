@@ -80,7 +80,9 @@ def test_what_was_asked_for_of_a_node():
         frames_by_bitrate={5_500_000: 2, 54_000_000: 3},
         frame_fates={"broadcast": {"receiver_locked": 4}},
         interferers={"uavs[1]": 6},
+        message_fates={"wlan[1]": {"unicast": {"retry_limit": 7}}},
     )
+    assert told["Network.uavs[0].wlan[1]", "unicastMessage:retryLimit:count"] == 7
     assert {name: value for (module, name), value in told.items() if module == "Network.uavs[0]"} == {
         "unicast:5.5Mbps:count": 2,
         "unicast:54Mbps:count": 3,
