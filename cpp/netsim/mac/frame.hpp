@@ -45,7 +45,8 @@ struct Frame {
     NodeId receiver = broadcast_id;
     std::uint32_t sequence = 0;  // of the transmitter's data frames; a retry keeps it
     bool retry = false;
-    SimTime duration_field{};  // how long the exchange goes on after this frame: sets the NAV of others
+    // How long the exchange goes on after this frame: sets the NAV of others.
+    SimTime duration_field{};  // NOLINT(readability-redundant-member-init): g++ asks for it
     int psdu_bytes = 0;
     Payload payload;   // of data frames only
     SimTime accepted;  // of those, too: when their message was handed to the interface
