@@ -4,14 +4,14 @@ from gradysim.integrated.run import run
 from python.integrated.watching import Stepping
 
 TALKING_FOR_HOURS = """
-class Tested(Talker):
+class Tested(Quiet):
     def initialize(self):
         self.heard = self.done = 0
         self.provider.schedule_timer("talk", 8192.0 + self.provider.get_id())
 
     def handle_timer(self, timer):
         if timer == "talk":
-            super().handle_timer(timer)
+            self.provider.send_communication_command(BroadcastMessageCommand("hello"))
             self.provider.schedule_timer("talk", self.provider.current_time() + 37.123)
         else:
             self.done += 1
