@@ -19,8 +19,6 @@ py::object interned(const char* text) {
 PythonProtocol::PythonProtocol(py::object protocol, py::object on_failure)
     : protocol_(std::move(protocol)),
       on_failure_(std::move(on_failure)),
-      telemetry_class_(py::module_::import("gradysim.protocol.messages.telemetry").attr("Telemetry")),
-      current_position_(interned("current_position")),
       initialize_(interned("initialize")),
       handle_timer_(interned("handle_timer")),
       handle_packet_(interned("handle_packet")),
@@ -40,22 +38,7 @@ void PythonProtocol::handle_packet(const netsim::Payload& message) {
 }
 
 void PythonProtocol::handle_telemetry(const netsim::Position& position) {
-    // Telemetry(current_position=(x, y, z)), up to a hundred times a second for each node: without the call of its __init__.
-    auto* type = reinterpret_cast<PyTypeObject*>(telemetry_class_.ptr());
-    const auto telemetry =
-        py::reinterpret_steal<py::object>(type->tp_new(type, no_arguments_.ptr(), nullptr));
-    const auto coordinates = py::reinterpret_steal<py::object>(PyTuple_New(3));
-    if (!telemetry || !coordinates) {
-        throw py::error_already_set();
-    }
-    const double values[] = {position.x, position.y, position.z};
-    for (Py_ssize_t axis = 0; axis < 3; ++axis) {
-        PyTuple_SET_ITEM(coordinates.ptr(), axis, py::float_(values[axis]).release().ptr());
-    }
-    if (PyObject_SetAttr(telemetry.ptr(), current_position_.ptr(), coordinates.ptr()) != 0) {
-        throw py::error_already_set();
-    }
-    call(handle_telemetry_, telemetry);
+    call(handle_telemetry_, telemetry_.at(position));
 }
 
 void PythonProtocol::finish() {

@@ -7,6 +7,7 @@
 #include <pybind11/pybind11.h>
 
 #include "netsim/node/protocol.hpp"
+#include "proxy_protocol/telemetry_object.hpp"
 
 namespace proxy_protocol {
 
@@ -30,9 +31,7 @@ private:
 
     pybind11::object protocol_;
     pybind11::object on_failure_;
-    pybind11::object telemetry_class_;
-    pybind11::object current_position_;  // the interned name of Telemetry's field
-    pybind11::tuple no_arguments_;
+    TelemetryObject telemetry_;
     pybind11::object initialize_;  // the interned names of the methods
     pybind11::object handle_timer_;
     pybind11::object handle_packet_;

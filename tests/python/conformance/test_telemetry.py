@@ -59,13 +59,49 @@ class Keeping(Flying):
         super().finish()
 
 
+class KeepingFields(Flying):
+    """Keeps what is in all telemetries."""
+
+    def initialize(self) -> None:
+        super().initialize()
+        self.kept: list[dict[str, Position]] = []
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        self.kept.append(vars(telemetry))
+
+    def finish(self) -> None:
+        self.places = [fields["current_position"] for fields in self.kept]
+        super().finish()
+
+
+class Replacing(Flying):
+    """Gives every telemetry fields of another one."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        super().handle_telemetry(telemetry)
+        telemetry.__dict__ = {"current_position": (0.0, 0.0, 0.0)}
+
+
+class Looking(Flying):
+    """Looks places up by their hash."""
+
+    def initialize(self) -> None:
+        super().initialize()
+        self.seen: set[Position] = set()
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        super().handle_telemetry(telemetry)
+        assert telemetry.current_position not in self.seen
+        self.seen.add(self.places[-1])
+
+
 def places(mode: str, protocol: type[Flying]) -> Any:
     case = Case([(0.0, 0.0, 0.0)], telemetry_interval_s=0.125, speed_mps=8.0, duration_s=1.0)
     return case.run(mode, protocol).nodes[0].tracked_variables["places"]
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("protocol", [Blurring, Marking, Keeping])
+@pytest.mark.parametrize("protocol", [Blurring, Marking, Keeping, KeepingFields, Replacing, Looking])
 def test_each_telemetry_is_its_own(mode: str, protocol: type[Flying]) -> None:
     flown = places(mode, Flying)
     assert len(set(flown)) >= 7
