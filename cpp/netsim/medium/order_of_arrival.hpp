@@ -55,7 +55,8 @@ void put_in_order(std::vector<Heard>& heard, SimTime sent, std::vector<Heard>& s
             before -=
                 (delays_ps[group] < delay_ps) | ((delays_ps[group] == delay_ps) & (radios[group] < radio));
         }
-        spare[static_cast<std::size_t>(before[0] + before[1] + before[2] + before[3])] = heard[i];
+        const std::int32_t place = before[0] + before[1] + before[2] + before[3];
+        spare[static_cast<std::size_t>(place)] = heard[i];
     }
     heard.swap(spare);
 }

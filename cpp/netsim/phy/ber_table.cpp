@@ -181,7 +181,7 @@ double BerTableErrorModel::success_probability(const Mode& mode, double snir, in
 double BerTableErrorModel::log_header_success(const Mode& mode, double snir) const {
     const auto curves = rates_.find(mode.header_bitrate_bps);
     return curves == rates_.end() ? nist_.log_header_success(mode, snir)
-                                  : log_success(curves->second, snir, mode.header_bits / 8);
+                                  : log_success(curves->second, snir, mode.header_bits / 8.0);
 }
 
 double BerTableErrorModel::log_data_success(const Mode& mode, double snir, int psdu_bytes) const {
