@@ -70,8 +70,8 @@ public:
     // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
     // run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
-    // Calls the protocols' finish, in the order of ids, if they were initialized, and closes the captures. The run ends with it: what comes after it is a
-    // SimulationError, also a second finish.
+    // Calls the protocols' finish, in the order of ids, if they were initialized, and closes the captures. The run ends with
+    // it: what comes after it is a SimulationError, also a second finish.
     void finish();
     // Drops the protocols and what was scheduled, which may own more than their memory (a Python object that
     // refers back to its node).

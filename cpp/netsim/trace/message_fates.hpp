@@ -47,7 +47,7 @@ private:
     static_assert(static_cast<std::size_t>(MessageFate::queued) == message_fate_count - 1);
 
     // In 32 bits: an interface of 802.11 that grows by a cache line makes large networks 2 % slower, and a channel that is
-    // never free takes days for so many messages of one.
+    // never free takes days for so many messages of one. Beyond 4,294,967,295 of them the counts begin again at 0.
     using Count = std::uint32_t;
     std::array<Count, message_kind_count> accepted_{};
     // Those in a fate other than queued.
