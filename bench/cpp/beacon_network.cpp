@@ -21,11 +21,12 @@ constexpr netsim::Purpose scenario_draws{1002};
 // The engine's beacons from a node that flies on to another place with one in ten of them.
 class FlyingBeacon final : public netsim::Protocol {
 public:
-    FlyingBeacon(Node& node, const BeaconConfig& config, double flight_area_m)
+    FlyingBeacon(Node& node, const BeaconConfig& config, double flight_area_m,
+                 std::uint64_t seed)
         : beacon_(node, config),
           node_(node),
           flight_area_m_(flight_area_m),
-          draws_(2, static_cast<std::uint32_t>(node.id()), scenario_draws) {}
+          draws_(1000 + seed, static_cast<std::uint32_t>(node.id()), scenario_draws) {}
 
     void initialize() override { beacon_.initialize(); }
     void handle_timer(const std::string& timer) override {
@@ -48,9 +49,9 @@ private:
 }  // namespace
 
 std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double speed_mps, double bitrate_bps,
-                                                     double spread_s) {
-    auto network = std::make_unique<netsim::Network>(netsim::MediumConfig(), 1);
-    netsim::RandomStream draws(1, 0, scenario_draws);
+                                                     double spread_s, std::uint64_t seed) {
+    auto network = std::make_unique<netsim::Network>(netsim::MediumConfig(), seed);
+    netsim::RandomStream draws(seed, 0, scenario_draws);
     const double side_m = 100 * std::sqrt(static_cast<double>(nodes));
     BeaconConfig beacons;
     beacons.first_send_s = 0;
@@ -65,7 +66,7 @@ std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double 
         config.mobility.telemetry_interval_s = 0;
         Node& node = network->add_node(config);
         if (speed_mps > 0) {
-            node.set_protocol(std::make_unique<FlyingBeacon>(node, beacons, side_m));
+            node.set_protocol(std::make_unique<FlyingBeacon>(node, beacons, side_m, seed));
         } else {
             node.set_protocol(std::make_unique<BeaconProtocol>(node, beacons));
         }

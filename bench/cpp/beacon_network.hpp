@@ -7,6 +7,7 @@
 
 #include "netsim/node/network.hpp"
 
-// Initialized, at time 0. At a speed above 0 the nodes fly from place to place; -1 bps is the bitrate by default.
+// Initialized, at time 0. At a speed above 0 the nodes fly from place to place; -1 bps is the bitrate by default. Each
+// seed has places and phases of its own.
 std::unique_ptr<netsim::Network> make_beacon_network(std::int64_t nodes, double speed_mps, double bitrate_bps,
-                                                     double spread_s = 1);
+                                                     double spread_s = 1, std::uint64_t seed = 1);
