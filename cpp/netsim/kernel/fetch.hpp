@@ -14,7 +14,7 @@ namespace netsim {
 constexpr std::size_t cache_line_bytes = 64;
 
 // So many pointers, one behind the other, lead at most from an event to what it will touch (Node::fetch_for_timer).
-constexpr int fetch_steps = 5;
+constexpr int fetch_steps = 4;
 
 inline void fetch_bytes(const void* object, std::size_t bytes) {
     // GCC takes a function that does nothing else for one without any effect, and leaves out calls of it.

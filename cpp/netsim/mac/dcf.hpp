@@ -52,7 +52,7 @@ public:
     void send(NodeId destination, Payload payload) override;
     void fetch(int step) const override {
         if (step == 0) {
-            fetch_before(*this, owned_parameters_);
+            fetch_before(*this, nav_turn_);
         }
         radio_.fetch(step);
     }
@@ -122,13 +122,13 @@ private:
     Response response_ = Response::none;
 
     // Then what a broadcast frame touches, when it is sent.
+    const DcfParameters& parameters_;
+    EventHandle nav_event_;  // pending while the channel is watched
+    Retry retry_;            // of the frame in progress
     Contention contention_;
     Outbox outbox_;  // its frame in progress was granted once, and is not finished yet
-    const DcfParameters& parameters_;
-    Retry retry_;            // of the frame in progress
-    Turn nav_turn_ = 0;      // of the event at the end of the NAV, since that was set
-    EventHandle nav_event_;  // pending while the channel is watched
 
+    Turn nav_turn_ = 0;  // of the event at the end of the NAV, since that was set
     std::shared_ptr<const DcfParameters> owned_parameters_;  // parameters_ again: keeps them alive
     std::unique_ptr<RateControl> rate_control_;
     std::vector<std::uint64_t>

@@ -19,24 +19,34 @@ public:
         if (size() >= capacity_) {
             return false;
         }
-        frames_.push_back(std::move(frame));
+        if (!first_) {
+            first_ = std::move(frame);
+        } else {
+            others_.push_back(std::move(frame));
+        }
         return true;
     }
+    // Of at least one.
     std::shared_ptr<const Frame> pop() {
-        std::shared_ptr<const Frame> frame = std::move(frames_[taken_++]);
-        if (2 * taken_ >= frames_.size()) {  // so that a frame is moved once, on average
-            frames_.erase(frames_.begin(), frames_.begin() + static_cast<std::ptrdiff_t>(taken_));
-            taken_ = 0;
+        std::shared_ptr<const Frame> frame = std::move(first_);
+        if (taken_ < others_.size()) {
+            first_ = std::move(others_[taken_++]);
+            if (2 * taken_ >= others_.size()) {  // so that a frame is moved once, on average
+                others_.erase(others_.begin(), others_.begin() + static_cast<std::ptrdiff_t>(taken_));
+                taken_ = 0;
+            }
         }
         return frame;
     }
-    bool empty() const { return size() == 0; }
-    std::size_t size() const { return frames_.size() - taken_; }
+    bool empty() const { return !first_; }
+    std::size_t size() const { return (first_ ? 1 : 0) + others_.size() - taken_; }
 
 private:
     std::size_t capacity_;
+    // Null only if there are no others. Mostly it is the only one, and has no place of its own in memory.
+    std::shared_ptr<const Frame> first_;
     // Not a deque, which takes half a kilobyte even while it is empty.
-    std::vector<std::shared_ptr<const Frame>> frames_;
+    std::vector<std::shared_ptr<const Frame>> others_;
     std::size_t taken_ = 0;  // of them, at the front
 };
 

@@ -76,6 +76,7 @@ public:
     // The same at that receiver, once the arrival has ended: nearer to the truth, and more to work out.
     double most_interference_w(RadioId receiver, const Arrival& arrival) const;
 
+    Simulator& simulator() const { return simulator_; }
     // To which the radios add, too.
     FrameFates& fates() { return fates_; }
     Fingerprint& fingerprint() { return fingerprint_; }

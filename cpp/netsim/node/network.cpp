@@ -56,9 +56,8 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
                                                    frame_fates_, fingerprint_, node.interface_listener());
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
-    Radio& radio =
-        radios_.emplace_back(simulator_, medium_, id, radio_kind(config.radio), config.radio.tx_power_w,
-                             node.trajectory(), seed_, node.attitude(), known_formats(config));
+    Radio& radio = radios_.emplace_back(medium_, id, radio_kind(config.radio), config.radio.tx_power_w,
+                                        node.trajectory(), seed_, node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_,

@@ -73,6 +73,9 @@ void Node::finish() {
 }
 
 NetworkInterface& Node::interface_at(std::int32_t index) {
+    if (index == 0 && first_interface_ != nullptr) {
+        return *first_interface_;
+    }
     if (index < 0 || static_cast<std::size_t>(index) >= interfaces_.size()) {
         throw SimulationError("node " + std::to_string(id_) + " has no interface wlan[" +
                               std::to_string(index) + "]: it has " + std::to_string(interfaces_.size()) +
@@ -129,21 +132,21 @@ void Node::message_received(const Frame& frame) {
 
 void Node::fetch_for_timer(int step) const {
     if (step == 0) {
-        fetch_before(*this, name_);
+        fetch_before(*this, interfaces_);
     } else if (step == 1) {
         timers_.fetch();
         fetch_bytes(protocol_.get(), 2 * cache_line_bytes);
-        fetch(*mobility_);
-        fetch_bytes(interfaces_.data(), cache_line_bytes);
+        fetch_bytes(&trajectory(), cache_line_bytes);
+        fetch_bytes(first_interface_, cache_line_bytes);
     } else if (step == 2) {
         if (protocol_) {
             protocol_->fetch();
         }
-        if (!interfaces_.empty()) {
-            fetch_bytes(interfaces_.front().get(), cache_line_bytes);
+        if (first_interface_ != nullptr) {
+            first_interface_->fetch(0);
         }
-    } else if (!interfaces_.empty()) {
-        interfaces_.front()->fetch(step - 3);
+    } else if (first_interface_ != nullptr) {
+        first_interface_->fetch(step - 2);
     }
 }
 

@@ -42,6 +42,7 @@ public:
     NetworkInterfaceListener& interface_listener() { return *this; }
     void add_interface(std::unique_ptr<NetworkInterface> interface) {
         interfaces_.push_back(std::move(interface));
+        first_interface_ = interfaces_.front().get();
     }
     void set_node_count(const std::int32_t* count) { node_count_ = count; }
     void set_protocol(std::unique_ptr<Protocol> protocol) { protocol_ = std::move(protocol); }
@@ -108,10 +109,11 @@ private:
     bool observed_ = false;  // here, where it is at hand: most nodes are not
     const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Protocol> protocol_;
-    std::unique_ptr<Mobility> mobility_;
-    std::vector<std::unique_ptr<NetworkInterface>> interfaces_;
     Timers timers_;
+    NetworkInterface* first_interface_ = nullptr;  // of those below: mostly the one that is meant
+    std::unique_ptr<Mobility> mobility_;
     InstantCount timers_for_now_;
+    std::vector<std::unique_ptr<NetworkInterface>> interfaces_;
     std::string name_;
     Attitude attitude_;
     RandomStream random_;

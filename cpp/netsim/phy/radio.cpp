@@ -7,12 +7,10 @@
 
 namespace netsim {
 
-Radio::Radio(Simulator& simulator, Medium& medium, InterfaceId interface,
-             std::shared_ptr<const RadioKind> kind, double tx_power_w, const Trajectory& trajectory,
-             std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
+Radio::Radio(Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
+             const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
     : kind_(*kind),
       medium_(medium),
-      simulator_(simulator),
       interface_(interface),
       reception_draws_(seed, interface.stream(), Purpose::reception),
       tx_power_w_(tx_power_w),
@@ -46,11 +44,11 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.mode = &mode;
     transmission.frame = std::move(frame);
     if (is_observed_) {
-        transmission.start = simulator_.now();
+        transmission.start = simulator().now();
         observer_->transmitted(transmission);
     }
     medium_.transmit(std::move(transmission));
-    simulator_.schedule_after(duration, [this] { transmission_over(); });
+    simulator().schedule_after(duration, [this] { transmission_over(); });
     update_busy();
 }
 
@@ -63,7 +61,7 @@ void Radio::turn_to_transmit() {
 void Radio::give_up_reception() {
     drop_candidates(FrameFate::receiver_transmitting);
     if (locked_ != nullptr) {
-        simulator_.cancel(header_end_);
+        simulator().cancel(header_end_);
         book(*std::exchange(locked_, nullptr), FrameFate::receiver_transmitting);
     }
 }
@@ -71,7 +69,7 @@ void Radio::give_up_reception() {
 void Radio::transmission_over() {
     listener_->transmission_ended();
     if (watches_energy_ && may_ignore_energy()) {  // before its channel could be found free
-        medium_.watch_energy(id_, simulator_.now());
+        medium_.watch_energy(id_, simulator().now());
     }
     transmitting_ = false;
     update_busy();
@@ -85,7 +83,7 @@ void Radio::arrival_started(const Arrival& arrival) {
         } else if (locked_ == nullptr) {
             begin_reception(arrival);
         } else if (kind_.frame_capture.captures(locked_arrival_, arrival)) {
-            simulator_.cancel(header_end_);
+            simulator().cancel(header_end_);
             book(*std::exchange(locked_, nullptr), FrameFate::captured);
             listener_->frame_corrupted();
             begin_reception(arrival);
@@ -101,10 +99,10 @@ void Radio::begin_reception(const Arrival& arrival) {
         lock_on(arrival);
         return;
     }
-    candidates_.push_back({arrival, simulator_.schedule_after(kind_.preamble_detection.duration(),
-                                                              [this, transmission = arrival.transmission] {
-                                                                  end_detection(transmission);
-                                                              })});
+    candidates_.push_back({arrival, simulator().schedule_after(kind_.preamble_detection.duration(),
+                                                               [this, transmission = arrival.transmission] {
+                                                                   end_detection(transmission);
+                                                               })});
 }
 
 void Radio::end_detection(const Transmission* transmission) {
@@ -115,7 +113,7 @@ void Radio::end_detection(const Transmission* transmission) {
     const bool is_strongest = std::ranges::none_of(
         candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
     const auto snir = [&] {
-        const auto& steps = interference_in(arrival, {arrival.start, simulator_.now()}).steps();
+        const auto& steps = interference_in(arrival, {arrival.start, simulator().now()}).steps();
         return arrival.power_w / (kind_.reception.noise_w + steps.back().power_w);
     };
     if (!is_strongest || !kind_.preamble_detection.detects(arrival.power_w, snir())) {
@@ -138,7 +136,7 @@ void Radio::drop_candidates(FrameFate fate) {
         return;
     }
     for (const Candidate& candidate : candidates_) {
-        simulator_.cancel(candidate.detection);
+        simulator().cancel(candidate.detection);
         book(*candidate.arrival.transmission, fate);
     }
     candidates_.clear();
@@ -150,8 +148,8 @@ void Radio::lock_on(const Arrival& arrival) {
         locked_arrival_ = arrival;
     }
     if (kind_.by_chunks) {
-        const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator_.now());
-        header_end_ = simulator_.schedule_at(end, [this] { end_header(); });
+        const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator().now());
+        header_end_ = simulator().schedule_at(end, [this] { end_header(); });
     }
 }
 
@@ -181,7 +179,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
     }
     if (is_candidate(arrival.transmission)) {
         const auto unnoticed = candidate_of(arrival.transmission);
-        simulator_.cancel(unnoticed->detection);
+        simulator().cancel(unnoticed->detection);
         candidates_.erase(unnoticed);
         book(*arrival.transmission, FrameFate::preamble_undetected);
     }
@@ -246,7 +244,7 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId
 }
 
 FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
-    if (simulator_.cancel(header_end_) && !header_survives()) {
+    if (simulator().cancel(header_end_) && !header_survives()) {
         return FrameFate::header_error;  // the frame ends with its header
     }
     const double draw = reception_draws_.uniform();
@@ -291,7 +289,7 @@ void Radio::update_busy() {
     if (busy != busy_) {
         busy_ = busy;
         if (!busy) {
-            free_since_ = simulator_.now();
+            free_since_ = simulator().now();
         }
         if (tells_of_channel_) {
             listener_->channel_busy_changed(busy);

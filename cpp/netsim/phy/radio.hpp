@@ -54,8 +54,8 @@ protected:
 
 class alignas(64) Radio final : public MediumListener {
 public:
-    Radio(Simulator& simulator, Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind,
-          double tx_power_w, const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
+    Radio(Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
+          const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
           PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
@@ -125,6 +125,7 @@ private:
         EventHandle detection;
     };
 
+    Simulator& simulator() const { return medium_.simulator(); }
     bool detects_preambles() const { return kind_.preamble_detection.is_on(); }
     // One that detects preambles leaves out of its sums what the medium cannot know: it is told of energy all the time.
     bool may_ignore_energy() const { return !detects_preambles(); }
@@ -168,12 +169,10 @@ private:
     RadioListener* listener_ = nullptr;
 
     Medium& medium_;
-    Simulator& simulator_;
     SimTime free_since_ = SimTime::long_ago();  // its channel, if it is
     InterfaceId interface_;
     RadioId id_ = 0;
     RandomStream reception_draws_;
-
     double tx_power_w_;
 
     RadioObserver* observer_ = nullptr;

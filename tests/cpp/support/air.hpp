@@ -67,7 +67,7 @@ struct BareRadio {
     BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
               Position place, std::uint64_t seed)
         : trajectory(place),
-          radio(simulator, medium, interface, kind_of(config, medium), config.tx_power_w, trajectory, seed),
+          radio(medium, interface, kind_of(config, medium), config.tx_power_w, trajectory, seed),
           log(simulator) {
         radio.set_listener(log);
     }
@@ -116,8 +116,7 @@ struct Station final : NetworkInterfaceListener {
             const MacConfig& mac_config, Position place, std::uint64_t seed)
         : simulator(simulator_),
           trajectory(place),
-          radio(simulator_, medium, interface, kind_of(radio_config, medium), radio_config.tx_power_w,
-                trajectory, seed),
+          radio(medium, interface, kind_of(radio_config, medium), radio_config.tx_power_w, trajectory, seed),
           dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed, *this) {}
 
     NodeId id() const { return radio.node(); }

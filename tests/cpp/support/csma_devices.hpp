@@ -44,8 +44,8 @@ struct Device final : NetworkInterfaceListener {
            std::uint64_t seed)
         : air(air_),
           trajectory(place),
-          radio(air.simulator, air.medium, air.next_node(), kind_of(radio_config, air.medium),
-                radio_config.tx_power_w, trajectory, seed),
+          radio(air.medium, air.next_node(), kind_of(radio_config, air.medium), radio_config.tx_power_w,
+                trajectory, seed),
           csma(air.simulator, radio, config, seed, *this) {}
 
     NodeId id() const { return radio.node(); }
