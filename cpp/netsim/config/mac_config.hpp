@@ -34,8 +34,9 @@ struct MacConfig {
     int mtu_bytes = 2304;      // largest IP packet; 29 … 2304: 28 B of IPv4 and UDP headers and a payload
     bool backoff_optimization = true;  // immediate access: idle time before the frame counts towards its wait
     bool initial_channel_busy = true;  // for that, the channel was busy before the run; false: it never was
-    bool skip_backoff_if_idle =
-        false;                       // DIFS only, from then, for a frame that finds station and channel idle
+    // DIFS only, from then, for a frame that finds station and channel idle. A station is not before the backoff after its
+    // last frame is over, which it has whether or not another frame waits (IEEE 802.11-2020, 10.3.4.2).
+    bool skip_backoff_if_idle = false;
     bool own_frames_set_nav = true;  // as INET has it; the standard: only frames of others do
     bool inet_eifs = false;  // EIFS by INET's rules, not by those of the standard (mac/contention.hpp)
 

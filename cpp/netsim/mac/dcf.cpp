@@ -60,6 +60,10 @@ void Dcf::contend_for_next() {
 }
 
 void Dcf::channel_granted() {
+    if (outbox_.empty()) {  // only the backoff after a frame is over
+        stop_watching_channel();
+        return;
+    }
     NETSIM_ASSERT(exchange_ == Exchange::none && response_ == Response::none);
     outbox_.begin_next();
     if (in_progress().receiver != broadcast_id) {
@@ -239,7 +243,9 @@ void Dcf::finish(MessageFate fate) {
     outbox_.finish(fate);
     attempts_ = 0;
     exchange_ = Exchange::none;
-    contend_for_next();
+    if (!outbox_.empty() || parameters_.config.skip_backoff_if_idle) {
+        contention_.start(retry_.contention_window());
+    }
     stop_watching_channel();
 }
 
@@ -306,7 +312,7 @@ void Dcf::watch_channel(SimTime since) {
 }
 
 void Dcf::stop_watching_channel() {
-    if (outbox_.empty()) {
+    if (outbox_.empty() && !contention_.in_progress()) {
         watches_channel_ = false;
         radio_.stop_watching_channel();
         simulator_.cancel(nav_event_);

@@ -106,7 +106,7 @@ private:
     void update_contention();
     // Counts what made it busy from `since` on.
     void watch_channel(SimTime since);
-    // Unless there is something to send.
+    // Unless there is something to send or a backoff to count down.
     void stop_watching_channel();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 

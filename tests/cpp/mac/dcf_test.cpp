@@ -193,6 +193,25 @@ TEST_F(DcfTest, BroadcastsFollowEachOtherAfterDifs) {
     EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(0), data_duration + difs}));
 }
 
+TEST_F(DcfTest, IfIdleSkipsBackoffsAFrameStillWaitsForTheOneAfterTheFrameBefore) {
+    MacConfig config;
+    config.skip_backoff_if_idle = true;
+    config.cw_min = config.cw_max = 1023;
+    add_pair(config);
+    const SimTime first_end = difs + data_duration;
+    a->send(broadcast_id, 100);
+    air.at(first_end + difs + us(7), [&] { a->send(broadcast_id, 100); });
+    air.at(us(900'000), [&] { a->send(broadcast_id, 100); });  // when that is over, and the one after it
+    air.run();
+    const std::vector<SimTime> sent = starts(FrameKind::broadcast);
+    ASSERT_EQ(sent.size(), 3U);
+    EXPECT_EQ(sent[0], difs);
+    const SimTime backoff = sent[1] - first_end - difs;
+    EXPECT_GT(backoff, us(7));
+    EXPECT_EQ(backoff.ps() % slot.ps(), 0);
+    EXPECT_EQ(sent[2], us(900'000) + difs);
+}
+
 TEST_F(DcfTest, MessagesGoOutInTheOrderTheyCameIn) {
     add_pair(MacConfig());
     std::vector<std::string> texts;
