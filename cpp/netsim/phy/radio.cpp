@@ -279,12 +279,16 @@ void Radio::update_busy() {
     bool busy = transmitting_ || reports_ || locked_ != nullptr;
     if (!busy && !present_.empty()) {
         double energy_w = kind_.reception.noise_w;
+        busy = energy_w >= kind_.energy_detection_w;
         for (const PresentArrival& present : present_.all()) {
+            if (busy) {  // the sum of all is no less
+                break;
+            }
             if (!is_candidate(present.transmission)) {
                 energy_w += present.power_w;
+                busy = energy_w >= kind_.energy_detection_w;
             }
         }
-        busy = energy_w >= kind_.energy_detection_w;
     }
     if (busy != busy_) {
         busy_ = busy;

@@ -1,0 +1,52 @@
+"""What a delivered frame costs as a user meets it: building and running the network in a process of its own.
+
+The beacons of configs/reference/beacons.ini, 60 s of them, with 100 nodes in its square of 1 km and with
+10,000 at the same density. Goal: with 10,000 at most 1.3 times as much CPU time for each delivered frame as
+with 100, of which 20 networks are averaged. `bench/cpp/beacon_bench.cpp` has the same ratio of the engine
+alone, once it runs.
+"""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from math import sqrt
+from pathlib import Path
+from statistics import mean
+
+CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"
+NODES_PER_KM2 = 100
+GOAL_TIMES = 1.3
+
+
+def arguments(nodes: int) -> Iterator[str]:
+    """Say where the nodes are, and that all of them have the protocol."""
+    side_m = 1000 * sqrt(nodes / NODES_PER_KM2)
+    for line in (
+        f"*.numNodes = {nodes}",
+        "*.nodes[*].protocol.typename = BeaconProtocol",
+        f"*.nodes[*].mobility.initialX = uniform(0m, {side_m}m)",
+        f"*.nodes[*].mobility.initialY = uniform(0m, {side_m}m)",
+    ):
+        yield from ("--set", line)
+
+
+def ns_per_frame(nodes: int, seed: int) -> float:
+    """Run it once."""
+    command = [sys.executable, "-m", "gradysim", "run", str(CONFIG), "--seed", str(seed), "--json"]
+    output = subprocess.run([*command, *arguments(nodes)], capture_output=True, text=True, check=True).stdout
+    result = json.loads(output)
+    return float(result["cpu_s"] / result["fates"]["frames"]["broadcast"]["delivered"] * 1e9)
+
+
+def main() -> bool:
+    """Print the figures; return whether the goal was missed."""
+    few_ns = mean(ns_per_frame(100, seed) for seed in range(1, 21))
+    many_ns = mean(ns_per_frame(10_000, seed) for seed in range(1, 4))
+    print(f"100 nodes: {few_ns:.0f} ns for each delivered frame; 10,000 nodes: {many_ns:.0f} ns")
+    print(f"    the second / the first: {many_ns / few_ns:.2f} (goal: at most {GOAL_TIMES:g})")
+    return many_ns / few_ns > GOAL_TIMES
+
+
+if __name__ == "__main__":
+    sys.exit(main())
