@@ -91,7 +91,7 @@ double Fading::chance_of(double gain) const {
             return k_ > 0 ? 1 - chance_within(std::sqrt(2 * (k_ + 1) * gain), std::sqrt(2 * k_))
                           : std::exp(-gain);
         case Kind::nakagami:
-            return gamma_ ? gamma_->above(shape_ * gain) : std::exp(-gain);
+            return gamma_ ? gamma_->distribution().above(shape_ * gain) : std::exp(-gain);
         case Kind::none:
             break;
     }
@@ -114,7 +114,7 @@ double Fading::untruncated(const GaussianPair& normal) const {
             return (in_phase * in_phase + normal.second * normal.second) / (2 * (k_ + 1));
         }
         case Kind::nakagami:
-            return gamma_ ? gamma_->quantile_of_normal(normal.first) / shape_
+            return gamma_ ? gamma_->of_normal(normal.first) / shape_
                           : -std::log(std::erfc(normal.first / std::numbers::sqrt2) / 2);
         case Kind::none:
             break;

@@ -20,7 +20,7 @@
 #include <optional>
 
 #include "netsim/config/medium_config.hpp"
-#include "netsim/medium/gamma_distribution.hpp"
+#include "netsim/medium/gamma_quantile.hpp"
 #include "netsim/medium/link_gaussians.hpp"
 #include "netsim/medium/rare_gains.hpp"
 
@@ -50,10 +50,10 @@ private:
 
     Kind kind_ = Kind::none;
     LinkGaussians gaussians_;
-    double sigma_ = 0;                        // log-normal: of the natural logarithm
-    double k_ = 0;                            // Rician: a ratio; 0 is Rayleigh
-    std::optional<GammaDistribution> gamma_;  // Nakagami, unless it is Rayleigh's distribution
-    double shape_ = 1;                        // Nakagami
+    double sigma_ = 0;                    // log-normal: of the natural logarithm
+    double k_ = 0;                        // Rician: a ratio; 0 is Rayleigh
+    std::optional<GammaQuantile> gamma_;  // Nakagami, unless it is Rayleigh's distribution
+    double shape_ = 1;                    // Nakagami
     double most_ = 1;
     RareGains rare_;
 };
