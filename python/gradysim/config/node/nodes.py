@@ -304,9 +304,8 @@ def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -
     try:
         return ChosenProtocol(loader.load(reference, folder), entry.source, loader.files(reference, folder))
     except BadValue as error:
-        expected = error.expected or 'a protocol as "file.py:Class" or "package.module:Class"'
-        text = f"{error.problem}; expected {expected}{error.suggestion}"
-        raise ConfigError.at(entry.source, text) from error
+        expected = f"; expected {error.expected}" if error.expected else ""
+        raise ConfigError.at(entry.source, f"{error.problem}{expected}{error.suggestion}") from error
 
 
 def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> ChosenProtocol:

@@ -18,6 +18,9 @@ from gradysim.config.protocol.module import BeingLoadedError, ModuleLoader
 from gradysim.config.protocol.origin import Origin, remember_origin
 from gradysim.protocol.interface import IProtocol
 
+_REFERENCE = 'a protocol as "file.py:Class" or "package.module:Class"'
+"""Said of a reference that leads to no file or module. In others its form is right."""
+
 
 class ProtocolLoader:
     """Loads each file and module once for a configuration."""
@@ -36,7 +39,8 @@ class ProtocolLoader:
         """
         place, colon, class_name = reference.rpartition(":")
         if not (colon and place and class_name.isidentifier()):
-            raise BadValue(f"`{reference}` names no class", _class_meant(reference, folder))
+            hint = _class_meant(reference, folder)
+            raise BadValue(f"`{reference}` names no class", hint, expected=_REFERENCE)
         if not _is_file(place):
             return _protocol_in(_from_name(place, folder, class_name), class_name, place)
         protocol = _protocol_in(self._from_file(place, folder), class_name, place)
@@ -67,7 +71,8 @@ class ProtocolLoader:
         except OSError as error:
             raise BadValue(f"{file}: {error.strerror}") from error
         if not is_file:
-            raise BadValue(f"there is no file {file}", file_meant(file, (".py",), place))
+            hint = file_meant(file, (".py",), place)
+            raise BadValue(f"there is no file {file}", hint, expected=_REFERENCE)
         try:
             return self._modules.load(file)
         except KeyboardInterrupt:
@@ -91,7 +96,7 @@ def _from_name(name: str, folder: Path, class_name: str) -> ModuleType:
             raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
         file = f"{name.replace('.', '/')}.py"
         hint = f"; did you mean `{file}:{class_name}`?" if (folder / file).is_file() else ""
-        raise BadValue(f"this Python finds no module `{error.name}`", hint) from error
+        raise BadValue(f"this Python finds no module `{error.name}`", hint, expected=_REFERENCE) from error
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -104,10 +109,10 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
         protocols = _protocols(module)
         raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or _list(protocols))
     if not _is_protocol(cls):
-        raise BadValue(
-            f"`{name}` in {place} is no protocol, it does not derive from IProtocol",
-            _list(_protocols(module)),
-        )
+        why = "is no protocol, it does not derive from IProtocol"
+        if cls is IProtocol:
+            why = "is no protocol but the interface that protocols derive from"
+        raise BadValue(f"`{name}` in {place} {why}", _list(_protocols(module)))
     protocol: type[IProtocol] = cls
     if inspect.isabstract(protocol):
         missing = sorted(protocol.__abstractmethods__)

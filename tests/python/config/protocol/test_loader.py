@@ -66,7 +66,7 @@ def test_loads_from_a_module(folder: Any, monkeypatch: pytest.MonkeyPatch) -> No
         ),
         (
             "protocols.py:IProtocol",
-            "`IProtocol` in protocols.py is no protocol, it does not derive from IProtocol;"
+            "`IProtocol` in protocols.py is no protocol but the interface that protocols derive from;"
             " there are Sensor, Mobile, Half",
         ),
         (
@@ -128,6 +128,28 @@ def test_a_file_that_does_not_load_shows_its_own_error_and_line(
     folder.write("broken.py", text)
     shown = error_of("broken.py:Mobile")
     assert re.fullmatch(rf"broken\.py does not load: {re.escape(error)}.* \(broken\.py:{line}\)", shown)
+
+
+@pytest.mark.parametrize(
+    ("reference", "is_form"),
+    [
+        ("broken.py:Mobile", False),
+        ("protocols.py:Half", False),
+        ("protocols.py:Other", False),
+        ("protocols.py:IProtocol", False),
+        ("protocols.py:Zzz", False),
+        ("protocol.py:Mobile", True),
+        ("protocols.py", True),
+        ("no_such_package:Mobile", True),
+    ],
+)
+def test_the_form_of_a_reference_is_told_where_it_leads_to_no_file(
+    folder: Any, reference: str, is_form: bool
+) -> None:
+    folder.write("broken.py", "def f(:")
+    error = folder.error(f'*.boat.protocol.class = "{reference}"\n')
+    assert ('expected a protocol as "file.py:Class" or "package.module:Class"' in error) is is_form
+    assert ("expected" in error) is is_form
 
 
 @pytest.mark.parametrize(
