@@ -321,12 +321,23 @@ def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> C
 def _misspelt_class_error(lookup: Lookup, group: Group, node: str) -> ConfigError | None:
     """The error about the line that was meant to say it; None if there is none."""
     for found in lookup.found:
+        meant = _without_index(found, group, lookup.network)
         name, rest = found.name_pattern(), found.rest_pattern()
-        if name is not None and name.matches(node) and is_misspelt_class(rest):
-            expected = f"`*.{group.written}.{PROTOCOL_CLASS.path}`"
+        if meant is None and name is not None and (name.matches(node) or name.matches(group.name)):
+            meant = PROTOCOL_CLASS if is_misspelt_class(rest) else None
+        if meant is not None:
+            expected = f"`*.{group.written}.{meant.path}`"
             problem = f"`{found.entry.key}` matches no parameter, and nothing says which protocol {node} runs"
             return ConfigError(f"{problem}; expected {expected}", found.entry.source)
     return None
+
+
+def _without_index(found: Found, group: Group, network: str) -> Key | None:
+    """The key by which an entry says what the nodes of a group run, but for `[*]` after the group's name."""
+    if found.is_default:
+        return None
+    matches = found.pattern.matches
+    return next((key for key in PROTOCOL_KEYS if matches(f"{network}.{group.name}.{key.path}")), None)
 
 
 def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:

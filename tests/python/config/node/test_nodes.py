@@ -304,6 +304,28 @@ def test_a_line_that_was_meant_to_say_the_protocol_is_named(folder: Any, rest: s
     )
 
 
+@pytest.mark.parametrize(
+    ("key", "meant"),
+    [
+        ("*.boats.protocol.class", "class"),
+        ("**.boats.protocol.class", "class"),
+        ("*.b*s.protocol.class", "class"),
+        ("*.boats.protocol.typename", "typename"),
+        ("*.boats.protocol.clas", "class"),
+    ],
+)
+def test_a_line_that_lacks_the_index_is_named(folder: Any, key: str, meant: str) -> None:
+    assert folder.error(f'*.numBoats = 1\n{key} = "protocols.py:Mobile"\n') == (
+        f"test.ini:7: `{key}` matches no parameter, and nothing says which protocol boats[0]"
+        f" runs; expected `*.boats[*].protocol.{meant}`"
+    )
+
+
+def test_a_line_without_index_that_says_nothing_is_not_blamed(folder: Any) -> None:
+    error = folder.error("*.numBoats = 1\n*.boats.protocol.class = default\n")
+    assert error.startswith("test.ini:6: nothing says which protocol boats[0] runs; ")
+
+
 def test_a_single_node_whose_class_is_misspelt_is_no_node(folder: Any) -> None:
     error = folder.error('*.boat.protocol.clas = "protocols.py:Mobile"\n')
     assert error.startswith("test.ini:6: `*.boat.protocol.clas` matches no node; ")
