@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 from gradysim.config.errors.nearest import misspelt
 from gradysim.config.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
 from gradysim.config.keys.key import Key
-from gradysim.config.keys.node import GROUP_SIZE, PROTOCOL_KEYS, PROTOCOL_PARAMETER
+from gradysim.config.keys.node import GROUP_SIZE, GROUP_SIZE_OF_NODES, PROTOCOL_KEYS, PROTOCOL_PARAMETER
 from gradysim.config.keys.options import OPTION_KEYS
 from gradysim.config.protocol.native import NativeProtocol
 from gradysim.config.protocol.parameters import parameters_of
@@ -24,6 +24,12 @@ _INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
 
 _GROUP = re.compile(r"\*\.(\w+)(?:\[[^\]]*\])?\.", re.ASCII)
 """The beginning of a key of a group of nodes, or of a part of the network."""
+
+_GROUP_SIZE = re.compile(r"(?:\*\*?\.)?num[A-Z]\w*", re.ASCII)
+"""What gives the number of nodes of a group, or some other number."""
+
+_PREFIXES = {GROUP_SIZE_OF_NODES: "*.", GROUP_SIZE: "*.nodes."}
+"""What those of the keys of a group begin with that are not of its nodes."""
 
 OWN_STRUCTS: Structs = {"communication_medium": {"": CommunicationMediumSpec()}}
 
@@ -52,7 +58,8 @@ def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ())
     `natives` are the engine's protocols.
     """
     known = {**structs, **OWN_STRUCTS}
-    node_keys = (GROUP_SIZE, *PROTOCOL_KEYS, PROTOCOL_PARAMETER, *NODE_KEYS[len(PROTOCOL_KEYS) :])
+    node_keys = (GROUP_SIZE_OF_NODES, GROUP_SIZE, *PROTOCOL_KEYS, PROTOCOL_PARAMETER)
+    node_keys += NODE_KEYS[len(PROTOCOL_KEYS) :]
     native_rows = tuple(row for protocol in natives for row in _native_rows(protocol))
     sections = [
         KeySection("Options of a run", _rows("", OPTION_KEYS, known)),
@@ -69,10 +76,10 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 
     So a key is found by its values and its meaning, too. Case does not matter. Keys are listed for `nodes`
     and any index, `wlan[*]`: what is asked for one index or a range is found there, and what is asked for
-    another group, `*.uavs[0].mobility.speed`. If no key matches, those that begin so are listed.
+    another group, `*.uavs[0].mobility.speed`, `*.numUavs`. If no key matches, those that begin so are listed.
     """
     everything = list(sections)
-    wanted = (pattern, _group_as_nodes(pattern))
+    wanted = (pattern, _group_as_nodes(pattern, key_meant(everything, pattern)))
     found = (_matching(everything, name + end) for end in ("", "*") for name in wanted)
     return next(filter(None, found), [])
 
@@ -98,16 +105,20 @@ def _matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
     return [section for section in found if section.rows]
 
 
-def _group_as_nodes(pattern: str) -> str:
+def _group_as_nodes(pattern: str, meant: str) -> str:
+    """The pattern for the group `nodes`; `meant` is what `key_meant` says of it."""
+    if _GROUP_SIZE.fullmatch(pattern) and (not meant or GROUP_SIZE_OF_NODES.path in meant):
+        return f"{_PREFIXES[GROUP_SIZE_OF_NODES]}{GROUP_SIZE_OF_NODES.path}"
     group = _GROUP.match(pattern)
     if group is None or group[1] in NETWORK_MODULES:
         return pattern
-    return f"*.nodes[*].{pattern[group.end() :]}"
+    rest = pattern[group.end() :]
+    return f"{_PREFIXES[GROUP_SIZE]}{rest}" if rest == GROUP_SIZE.path else f"*.nodes[*].{rest}"
 
 
 def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, ...]:
     return tuple(
-        KeyRow(f"{_prefix(prefix, key)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key))
+        KeyRow(f"{_PREFIXES.get(key, prefix)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key))
         for key in keys
     )
 
@@ -129,10 +140,6 @@ def _meaning(key: Key) -> str:
     """What a key means, after the models that read it."""
     models = key.read_by.shown if key.read_by else ""
     return f"{models}: {key.meaning}" if models else key.meaning
-
-
-def _prefix(prefix: str, key: Key) -> str:
-    return prefix.replace("[*]", "") if key is GROUP_SIZE else prefix
 
 
 def _default(key: Key, structs: Structs) -> str:

@@ -92,6 +92,21 @@ def test_what_is_asked_of_a_group_is_found_for_any(group: str) -> None:
     assert keys(f"*.{group}.mobility.speed") == ["*.nodes[*].mobility.speed"]
 
 
+@pytest.mark.parametrize("pattern", ["numNodes", "*.numNodes", "numUavs", "*.numSensors", "**.numSensors"])
+def test_the_number_of_nodes_of_any_group_is_found(pattern: str) -> None:
+    assert keys(pattern)[0] == "*.numNodes"
+
+
+@pytest.mark.parametrize("pattern", ["*.nodes.count", "*.uavs.count", "nodes.count"])
+def test_the_number_of_nodes_is_found_below_the_group(pattern: str) -> None:
+    assert keys(pattern) == ["*.nodes.count"]
+
+
+def test_other_numbers_are_none_of_nodes() -> None:
+    assert keys("numWlanInterfaces") == ["*.nodes[*].numWlanInterfaces"]
+    assert keys("numWlanIterfaces") == []
+
+
 @pytest.mark.parametrize("group", ["nodes[*]", "uavs[*]", "groundStation"])
 def test_a_pattern_that_keys_begin_with_finds_them(group: str) -> None:
     assert keys(f"*.{group}.mobility") == keys("nodes[*].mobility") != []

@@ -44,7 +44,17 @@ GROUP_SIZE = Key(
     "count",
     "group.count",
     integer(0, 1_000_000),
-    "Number of nodes of the group; `*.numUavs` says the same. neither: one node, no index",
+    "Says the same as `*.numNodes`, `*.uavs.count` the same as `*.numUavs`",
     default="none",
 )
 """Below the group, `*.uavs.count`; `*.numUavs` means the same."""
+
+GROUP_SIZE_OF_NODES = Key(
+    "numNodes",
+    GROUP_SIZE.target,
+    GROUP_SIZE.kind,
+    "Number of nodes of the group `nodes`, `*.numUavs` that of `uavs`, and so on;"
+    " neither this nor `count`: one node, no index",
+    default="none",
+)
+"""Below the network. Stands for those of all groups in lists of keys; `find_groups` knows a file's."""
