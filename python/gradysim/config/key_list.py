@@ -118,7 +118,9 @@ def _group_as_nodes(pattern: str, meant: str) -> str:
 
 def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, ...]:
     return tuple(
-        KeyRow(f"{_PREFIXES.get(key, prefix)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key))
+        KeyRow(
+            f"{_PREFIXES.get(key, prefix)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key)
+        )
         for key in keys
     )
 

@@ -1,6 +1,8 @@
 """What the distribution says of itself."""
 
 import re
+import shutil
+import tarfile
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -26,6 +28,32 @@ def test_the_changelog_opens_with_what_is_unreleased(root: Path) -> None:
 def test_the_licence_is_mit(root: Path, project: dict[str, Any]) -> None:
     assert project["project"]["license"] == "MIT"
     assert (root / "LICENSE").read_text().startswith("MIT License")
+
+
+def test_the_authors_are_those_of_the_licence(root: Path, project: dict[str, Any]) -> None:
+    (author,) = project["project"]["authors"]
+    assert re.findall(r"^Copyright \(c\) \d+ (.+)$", (root / "LICENSE").read_text(), re.MULTILINE) == [
+        author["name"]
+    ]
+
+
+def test_the_source_distribution_leaves_out_what_git_ignores(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    build = pytest.importorskip("scikit_build_core.build")
+    for name in ("pyproject.toml", "README.md", "LICENSE", ".gitignore"):
+        shutil.copy(root / name, tmp_path)
+    (tmp_path / "cpp").mkdir()
+    package = tmp_path / "python/gradysim"
+    (package / "__pycache__").mkdir(parents=True)
+    files = ("cpp/CMakeLists.txt", "python/gradysim/__init__.py")
+    for file in (*files, "python/gradysim/__pycache__/__init__.pyc"):
+        (tmp_path / file).touch()
+    monkeypatch.chdir(tmp_path)
+    with tarfile.open(tmp_path / "dist" / build.build_sdist("dist")) as archive:
+        packed = {name.partition("/")[2] for name in archive.getnames()}
+    assert set(files) <= packed
+    assert [name for name in packed if "__pycache__" in name] == []
 
 
 def test_the_package_itself_needs_little(project: dict[str, Any]) -> None:
