@@ -22,7 +22,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -139,9 +139,12 @@ $(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/pyth
 	$(BIN)/pip install --quiet --group $(@F)
 	@touch $@
 
+# `"editable": true` if gradysim is installed so; another `pip install` of it in .venv would put a copy in its place.
+is_editable = $(shell grep -hos '"editable": true' $(VENV)/lib/python*/site-packages/gradysim-*.dist-info/direct_url.json)
+
 # Editable: Python sources are used where they lie, the compiled module is rebuilt here when a source of it changes. New
 # packages are only found after another installation.
-$(STAMPS)/editable: pyproject.toml $(cpp_engine) $(python_packages) | $(STAMPS)/build
+$(STAMPS)/editable: pyproject.toml $(cpp_engine) $(python_packages) $(if $(is_editable),,again) | $(STAMPS)/build
 	$(call need,$(BIN)/python -c 'import os$(comma)sys$(comma)sysconfig; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))',python3-dev)
 	$(BIN)/pip install --quiet --no-build-isolation --editable .
 	@touch $@
