@@ -124,5 +124,5 @@ def _figure() -> "Figure":
     try:
         from matplotlib.figure import Figure
     except ImportError as error:
-        raise ImportError("a picture needs matplotlib: pip install 'gradysim[plot]'") from error
+        raise ImportError("a picture needs matplotlib: pip install matplotlib") from error
     return Figure(figsize=(6, 4), dpi=120, layout="constrained")

@@ -22,5 +22,5 @@ def load_dialect() -> Any:
         return importlib.import_module("pymavlink.dialects.v20.ardupilotmega")
     except ModuleNotFoundError as error:
         raise ModuleNotFoundError(
-            'autopilots need the package pymavlink: pip install "gradysim[sitl]"', name=error.name
+            "autopilots need the package pymavlink: pip install pymavlink", name=error.name
         ) from error

@@ -4,6 +4,7 @@ import re
 import shutil
 import tarfile
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +60,17 @@ def test_the_source_distribution_leaves_out_what_git_ignores(
 def test_the_package_itself_needs_little(project: dict[str, Any]) -> None:
     names = {re.split(r"[<>=!~ \[]", requirement)[0] for requirement in project["project"]["dependencies"]}
     assert names <= {"cyclopts", "rich", "numpy", "pymap3d"}
+
+
+def test_nobody_is_told_to_install_the_published_gradysim(
+    root: Path, project_files: Callable[..., list[Path]]
+) -> None:
+    texts = {
+        file: (root / file).read_text() for file in project_files(".md", ".py") if file.parts[0] != "tests"
+    }
+    assert [
+        str(file) for file, text in texts.items() if re.search(r"pip install [\"']?(gradysim|\.)\[", text)
+    ] == []
 
 
 def test_tools_are_pinned_exactly(project: dict[str, Any]) -> None:

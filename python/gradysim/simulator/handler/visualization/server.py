@@ -109,8 +109,7 @@ class VisualizationServer:
             import websockets.asyncio.server  # noqa: F401 (an extra: asked for here, in the caller's thread)
         except ModuleNotFoundError as error:
             raise ModuleNotFoundError(
-                "VisualizationHandler needs the package websockets, 15 or newer: "
-                'pip install "gradysim[visualization]"',
+                'VisualizationHandler needs the package websockets: pip install "websockets>=15"',
                 name=error.name,
             ) from error
         self._thread = threading.Thread(target=self._run, name="gradysim visualization", daemon=True)

@@ -279,7 +279,7 @@ def test_a_host_of_another_machine_is_refused(shown):
 
 def test_without_websockets_the_error_says_what_to_install(shown, monkeypatch):
     monkeypatch.setitem(sys.modules, "websockets.asyncio.server", None)
-    with pytest.raises(ModuleNotFoundError, match=r"pip install \"gradysim\[visualization\]\""):
+    with pytest.raises(ModuleNotFoundError, match=r'pip install "websockets>=15"$'):
         shown().start()
 
 
