@@ -14,10 +14,12 @@ class IEncapsulator(ABC, Generic[T]):
 
     What the callbacks return is the environment's affair: in prototype mode nothing, for a host outside the
     list of consequences.
+
+    Attributes:
+        protocol: The protocol inside; there from `encapsulate` on.
     """
 
     protocol: T
-    """The protocol inside; there from `encapsulate` on."""
 
     @abstractmethod
     def encapsulate(self, protocol: type[T]) -> None:

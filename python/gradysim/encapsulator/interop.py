@@ -21,18 +21,21 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class ConsequenceType(int, Enum):
-    """What the protocol wants; the payload depends on it."""
+    """What the protocol wants; the payload depends on it.
+
+    Attributes:
+        COMMUNICATION: Payload: CommunicationCommand.
+        MOBILITY: Payload: MobilityCommand.
+        TIMER: Payload: (name, absolute time in seconds).
+        TRACK_VARIABLE: Payload: (name, value); the value of a removed variable is None.
+        CANCEL_TIMER: Payload: name of the timers to forget.
+    """
 
     COMMUNICATION = 0
-    """Payload: CommunicationCommand."""
     MOBILITY = 1
-    """Payload: MobilityCommand."""
     TIMER = 2
-    """Payload: (name, absolute time in seconds)."""
     TRACK_VARIABLE = 3
-    """Payload: (name, value); the value of a removed variable is None."""
     CANCEL_TIMER = 4
-    """Payload: name of the timers to forget."""
 
 
 Payload = CommunicationCommand | MobilityCommand | tuple[str, float] | tuple[str, Any] | str

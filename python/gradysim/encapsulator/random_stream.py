@@ -28,14 +28,16 @@ class Purpose(IntEnum):
     """What a stream is drawn for. The numbers are part of every result: never change one, only add.
 
     Those below 100 are the engine's too, where `enum class Purpose` has them all.
+
+    Attributes:
+        PROTOCOL: `IProvider.random`.
+        PARAMETER: Values that an .ini file draws; of the path of the parameter in the place of a node.
+        COMMUNICATION: Lost messages of prototype mode; of the receiver.
     """
 
     PROTOCOL = 3
-    """`IProvider.random`."""
     PARAMETER = 7
-    """Values that an .ini file draws; of the path of the parameter in the place of a node."""
     COMMUNICATION = 101
-    """Lost messages of prototype mode; of the receiver."""
 
 
 def philox4x32(counter: Words, key: tuple[int, int]) -> Words:

@@ -15,14 +15,17 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class IProvider(ABC):
-    """What a node offers to its protocol."""
+    """What a node offers to its protocol.
+
+    Attributes:
+        tracked_variables: Values that the protocol wants to be seen; environments show and record them under
+            these names.
+        run_name: `Study-#3.integrated`, where the run is one of several of a configuration; empty elsewhere.
+            Files that a protocol writes are to have it in their names, or the next run overwrites them.
+    """
 
     tracked_variables: dict[str, Any]
-    """Values that the protocol wants to be seen; environments show and record them under these names."""
-
     run_name: str = ""
-    """`Study-#3.integrated`, where the run is one of several of a configuration; empty elsewhere. Files that
-    a protocol writes are to have it in their names, or the next run overwrites them."""
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:
@@ -87,10 +90,12 @@ class IProtocol(ABC):
 
     Subclasses take no constructor arguments. `provider` is there from `initialize` on, not yet in the
     constructor. The order of the nodes' `initialize` and `finish` is not part of the contract.
+
+    Attributes:
+        provider: The node that this protocol runs on.
     """
 
     provider: IProvider
-    """The node that this protocol runs on."""
 
     @classmethod
     def instantiate(cls, provider: IProvider) -> Self:

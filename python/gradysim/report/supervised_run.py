@@ -29,14 +29,17 @@ class Run(Protocol):
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended, and what it computed until then."""
+    """How a run ended, and what it computed until then.
+
+    Attributes:
+        result: None if the run could not even be built.
+        failure: What a protocol raised, in a callback or when it was made.
+        interrupted: Whether Ctrl-C ended it.
+    """
 
     result: RunResult | None
-    """None if the run could not even be built."""
     failure: BaseException | None = None
-    """What a protocol raised, in a callback or when it was made."""
     interrupted: bool = False
-    """Whether Ctrl-C ended it."""
 
 
 def carry_out(

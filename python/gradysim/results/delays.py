@@ -14,16 +14,19 @@ class Delays:
 
     A delay begins with the command to send and ends with `handle_packet`: waiting for the channel, retries
     and the time on the air are part of it.
+
+    Attributes:
+        count: One at least.
+        bins: (begin, end, how many are in it) of each bin that is not empty, by time; `end` is just beyond
+            it.
     """
 
     count: int
-    """One at least."""
     sum_s: float
     sum_of_squares_s2: float
     min_s: float
     max_s: float
     bins: tuple[tuple[float, float, int], ...]
-    """(begin, end, how many are in it) of each bin that is not empty, by time; `end` is just beyond it."""
 
     @property
     def mean_s(self) -> float:

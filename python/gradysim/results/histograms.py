@@ -13,10 +13,13 @@ _NARROWEST_S = 1e-12
 
 @dataclass(frozen=True)
 class Histogram:
-    """How often which value was met."""
+    """How often which value was met.
+
+    Attributes:
+        module: The whole path, which begins with the name of the network.
+    """
 
     module: str
-    """The whole path, which begins with the name of the network."""
     name: str
     values: Delays
     attributes: Mapping[str, str] = field(default_factory=dict)

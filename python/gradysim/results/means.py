@@ -17,24 +17,27 @@ _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations
 
 @dataclass(frozen=True)
 class Mean:
-    """One quantity of the runs with the same values of iteration variables."""
+    """One quantity of the runs with the same values of iteration variables.
+
+    Attributes:
+        iterations: {name: value}, as the results have it.
+        quantity: `uavs[*] heard`: a tracked variable, the mean of a group's nodes; `unicast messages retry
+            limit`: a share; `unicast messages delay in s`: the mean of a run's messages.
+        runs: Those in which there was a number.
+        mean: None if there was none in any run.
+        half_width: Of the 95 % confidence interval; None for a single run.
+        left_out: The values of a tracked variable, at all nodes in all runs, that are no finite numbers and
+            left out: `5 inf, 3 missing of 15`.
+    """
 
     config: str
     mode: str
     iterations: Mapping[str, object]
-    """{name: value}, as the results have it."""
     quantity: str
-    """`uavs[*] heard`: a tracked variable, the mean of a group's nodes; `unicast messages retry limit`: a
-    share; `unicast messages delay in s`: the mean of a run's messages."""
     runs: int
-    """Those in which there was a number."""
     mean: float | None
-    """None if there was none in any run."""
     half_width: float | None
-    """Of the 95 % confidence interval; None for a single run."""
     left_out: str = ""
-    """The values of a tracked variable, at all nodes in all runs, that are no finite numbers and left out:
-    `5 inf, 3 missing of 15`."""
 
 
 def read_results(directory: Path) -> list[dict[str, Any]]:

@@ -24,34 +24,41 @@ _LIKE_A_NUMBER = re.compile(r"[-+.eE\d]+", re.ASCII)
 
 @dataclass(frozen=True)
 class NodeResult:
-    """What one node was at the end of its run."""
+    """What one node was at the end of its run.
+
+    Attributes:
+        id: 0 to n-1.
+        name: As in the scenario: `uavs[0]`, `groundStation`.
+        protocol: Name of the protocol's class.
+        position: Where it ended: x, y, z in metres.
+        tracked_variables: The last value of each variable that the protocol tracked.
+        frames_by_bitrate: {bits per second: unicast frames sent at it, with retries}; empty for nodes without
+            a rate control.
+        frame_fates: {kind: {fate: copies}} of the frames that were strong enough to be received here, whoever
+            they were for, without zeros; None unless the run was asked for it (`fates_at`). Kinds:
+            "broadcast", "unicast", "ack", "rts", "cts"; copies that are too weak or in air are kept for the
+            whole network only.
+        interferers: {name of a node: copies that were lost here to interference by frames of that node, or of
+            it and others}, in the order of ids; None as above. Of those on the air when the interference was
+            at its strongest, the strongest are named, as many as outweigh all the others together; a copy
+            counts once for each of them.
+        message_fates: {interface: {kind: {fate: messages}}} of what its protocol sent through "wlan[0]",
+            "wlan[1]" and so on, all that there are, without zeros; None as above. Kinds: "broadcast",
+            "unicast".
+        vectors: What its numbers were over time; None unless the run was asked for it (`vectors_of`). Not in
+            JSON.
+    """
 
     id: int
-    """0 to n-1."""
     name: str
-    """As in the scenario: `uavs[0]`, `groundStation`."""
     protocol: str
-    """Name of the protocol's class."""
     position: tuple[float, float, float]
-    """Where it ended: x, y, z in metres."""
     tracked_variables: Mapping[str, Any]
-    """The last value of each variable that the protocol tracked."""
     frames_by_bitrate: Mapping[int, int] = field(default_factory=dict)
-    """{bits per second: unicast frames sent at it, with retries}; empty for nodes without a rate control."""
     frame_fates: Mapping[str, Mapping[str, int]] | None = None
-    """{kind: {fate: copies}} of the frames that were strong enough to be received here, whoever they were
-    for, without zeros; None unless the run was asked for it (`fates_at`). Kinds: "broadcast", "unicast",
-    "ack", "rts", "cts"; copies that are too weak or in air are kept for the whole network only."""
     interferers: Mapping[str, int] | None = None
-    """{name of a node: copies that were lost here to interference by frames of that node, or of it and
-    others}, in the order of ids; None as above. Of those on the air when the interference was at its
-    strongest, the strongest are named, as many as outweigh all the others together; a copy counts once
-    for each of them."""
     message_fates: Mapping[str, Mapping[str, Mapping[str, int]]] | None = None
-    """{interface: {kind: {fate: messages}}} of what its protocol sent through "wlan[0]", "wlan[1]" and so on,
-    all that there are, without zeros; None as above. Kinds: "broadcast", "unicast"."""
     vectors: tuple[Vector, ...] | None = None
-    """What its numbers were over time; None unless the run was asked for it (`vectors_of`). Not in JSON."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the fields but `vectors` as plain values; see `plain_value` for those of other kinds.
@@ -101,40 +108,46 @@ def _plain_iteration(value: str) -> int | float | str:
 
 @dataclass(frozen=True)
 class RunResult:
-    """What one run computed and what it cost."""
+    """What one run computed and what it cost.
+
+    Attributes:
+        config: Name of the configuration in the .ini file.
+        run: Run number within the configuration, from 0.
+        sim_time_s: Simulated time reached, in seconds.
+        wall_s: Time that building and running took by the clock, in seconds.
+        cpu_s: Processor time of building and running, in seconds.
+        events: Events that the simulator executed.
+        interrupted: Whether the run ended before its time limit: by the user, or by an exception in a
+            protocol.
+        fingerprint: Hash of all that happened; None in prototype mode.
+        fates: {what: {kind: {fate: count}}}; `what` is "messages", and "frames" or, in prototype mode,
+            "copies".
+        nodes: In the order of their ids.
+        message_delays: {"broadcast" or "unicast": how long they took} of the kinds of which a protocol got
+            any.
+        repetition: Number among the runs with the same values of iteration variables, from 0.
+        iterations: {name of an iteration variable, `${x=1, 2}`: its value in this run, as a text}.
+        settings_hash: Hash of what the .ini file and the command line say of this run, but for its seed.
+        file_hashes: {name of a file that settings name, seen from the folder of the .ini file: its hash}.
+    """
 
     config: str
-    """Name of the configuration in the .ini file."""
     run: int
-    """Run number within the configuration, from 0."""
     seed: int
     mode: Mode
     sim_time_s: float
-    """Simulated time reached, in seconds."""
     wall_s: float
-    """Time that building and running took by the clock, in seconds."""
     cpu_s: float
-    """Processor time of building and running, in seconds."""
     events: int
-    """Events that the simulator executed."""
     interrupted: bool
-    """Whether the run ended before its time limit: by the user, or by an exception in a protocol."""
     fingerprint: str | None
-    """Hash of all that happened; None in prototype mode."""
     fates: Fates
-    """{what: {kind: {fate: count}}}; `what` is "messages", and "frames" or, in prototype mode, "copies"."""
     nodes: tuple[NodeResult, ...]
-    """In the order of their ids."""
     message_delays: Mapping[str, Delays] = field(default_factory=dict)
-    """{"broadcast" or "unicast": how long they took} of the kinds of which a protocol got any."""
     repetition: int = 0
-    """Number among the runs with the same values of iteration variables, from 0."""
     iterations: Mapping[str, str] = field(default_factory=dict)
-    """{name of an iteration variable, `${x=1, 2}`: its value in this run, as a text}."""
     settings_hash: str = ""
-    """Hash of what the .ini file and the command line say of this run, but for its seed."""
     file_hashes: Mapping[str, str] = field(default_factory=dict)
-    """{name of a file that settings name, seen from the folder of the .ini file: its hash}."""
 
     def to_json_object(self) -> dict[str, object]:
         """Return the result as plain dicts, lists, text and numbers."""

@@ -14,10 +14,13 @@ _MEDIUM = {"frames": "radioMedium", "copies": "communicationMedium"}
 
 @dataclass(frozen=True)
 class Scalar:
-    """One number."""
+    """One number.
+
+    Attributes:
+        module: The whole path, which begins with the name of the network.
+    """
 
     module: str
-    """The whole path, which begins with the name of the network."""
     name: str
     value: float
     attributes: Mapping[str, str] = field(default_factory=dict)

@@ -16,15 +16,18 @@ class Vector:
 
     The arrays are of one length, and go to numpy without a copy (`numpy.asarray(vector.values)`). Of a run
     that goes on they are what was recorded when its result was taken.
+
+    Attributes:
+        part: The part of the node that it is about: "protocol" or "mobility".
+        name: What the protocol calls the variable; `positionX`, `positionY` and `positionZ` of the
+            trajectory.
+        times_ps: Picoseconds of simulated time, none before the one ahead of it.
+        values: NaN where the variable became something else than a number, or was removed.
+        unit: Of the values; "" for what has none, or none that is known.
     """
 
     part: str
-    """The part of the node that it is about: "protocol" or "mobility"."""
     name: str
-    """What the protocol calls the variable; `positionX`, `positionY` and `positionZ` of the trajectory."""
     times_ps: Times
-    """Picoseconds of simulated time, none before the one ahead of it."""
     values: Values
-    """NaN where the variable became something else than a number, or was removed."""
     unit: str = ""
-    """Of the values; "" for what has none, or none that is known."""

@@ -5,12 +5,15 @@ from enum import Enum
 
 
 class CommunicationCommandType(int, Enum):
-    """How a message finds its receivers."""
+    """How a message finds its receivers.
+
+    Attributes:
+        SEND: To one node, named by `CommunicationCommand.destination`.
+        BROADCAST: To every node that can hear it.
+    """
 
     SEND = 0
-    """To one node, named by `CommunicationCommand.destination`."""
     BROADCAST = 1
-    """To every node that can hear it."""
 
 
 @dataclass

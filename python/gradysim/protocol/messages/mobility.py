@@ -5,14 +5,19 @@ from enum import Enum
 
 
 class MobilityCommandType(int, Enum):
-    """What a mobility command asks for; the meaning of its parameters depends on it."""
+    """What a mobility command asks for; the meaning of its parameters depends on it.
+
+    Attributes:
+        GOTO_COORDS: Go to (x, y, z) = (param_1, param_2, param_3), metres.
+        GOTO_GEO_COORDS: Go to (latitude, longitude, altitude) = (param_1, param_2, param_3), degrees,
+            degrees, metres.
+        SET_SPEED: Set the speed to param_1; or, if three are given, the velocity to (param_1, param_2,
+            param_3); m/s.
+    """
 
     GOTO_COORDS = 1
-    """Go to (x, y, z) = (param_1, param_2, param_3), metres."""
     GOTO_GEO_COORDS = 2
-    """Go to (latitude, longitude, altitude) = (param_1, param_2, param_3), degrees, degrees, metres."""
     SET_SPEED = 3
-    """Set the speed to param_1; or, if three are given, the velocity to (param_1, param_2, param_3); m/s."""
 
 
 @dataclass

@@ -16,12 +16,15 @@ _CALLBACKS = ("initialize", "handle_timer", "handle_packet", "handle_telemetry",
 
 
 class DispatchReturn(Enum):
-    """What a handler wants to become of the event that it was given."""
+    """What a handler wants to become of the event that it was given.
+
+    Attributes:
+        INTERRUPT: The event ends here: neither the handlers behind nor the protocol get it.
+        CONTINUE: The next in the chain gets it too. Returning nothing means the same.
+    """
 
     INTERRUPT = 1
-    """The event ends here: neither the handlers behind nor the protocol get it."""
     CONTINUE = 2
-    """The next in the chain gets it too. Returning nothing means the same."""
 
 
 _INTERRUPT = DispatchReturn.INTERRUPT  # looking up a member of an enumeration takes longer than a call

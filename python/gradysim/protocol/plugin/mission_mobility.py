@@ -20,14 +20,17 @@ _logger = logging.getLogger(__name__)
 
 
 class LoopMission(Enum):
-    """What follows the last waypoint of a mission."""
+    """What follows the last waypoint of a mission.
+
+    Attributes:
+        NO: The mission ends there.
+        RESTART: The first waypoint is next.
+        REVERSE: The waypoints are flown backwards, and forwards again from the first one.
+    """
 
     NO = 1
-    """The mission ends there."""
     RESTART = 2
-    """The first waypoint is next."""
     REVERSE = 3
-    """The waypoints are flown backwards, and forwards again from the first one."""
 
 
 @dataclass

@@ -13,11 +13,13 @@ class INodeHandler(ABC):
 
     A simulation calls `inject`, then `register_node` for each node, `initialize` once, and after its last
     event `finalize` once.
+
+    Attributes:
+        held_up_s: Wall seconds for which the handler held the simulation up on purpose, as a pause does,
+            since the last `initialize`; a simulation in real time does not try to catch up on them.
     """
 
     held_up_s: float = 0.0
-    """Wall seconds for which the handler held the simulation up on purpose, as a pause does, since the last
-    `initialize`; a simulation in real time does not try to catch up on them."""
 
     @staticmethod
     @abstractmethod

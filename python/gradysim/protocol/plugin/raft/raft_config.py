@@ -11,12 +11,15 @@ _LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
 
 
 class RaftMode(Enum):
-    """Of which nodes a leader and a committed value need the majority."""
+    """Of which nodes a leader and a committed value need the majority.
+
+    Attributes:
+        CLASSIC: Of all known nodes: Raft as published.
+        FAULT_TOLERANT: Of those that are seen active: goes on with few nodes, and promises less.
+    """
 
     CLASSIC = "classic"
-    """Of all known nodes: Raft as published."""
     FAULT_TOLERANT = "fault_tolerant"
-    """Of those that are seen active: goes on with few nodes, and promises less."""
 
 
 class RaftConfig:

@@ -6,12 +6,15 @@ from enum import Enum
 
 
 class NodeStatus(Enum):
-    """What a node is taken for."""
+    """What a node is taken for.
+
+    Attributes:
+        UNKNOWN: Nothing is known about a node of that id.
+    """
 
     ACTIVE = "active"
     FAILED = "failed"
     UNKNOWN = "unknown"
-    """Nothing is known about a node of that id."""
 
 
 @dataclass
