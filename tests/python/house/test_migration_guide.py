@@ -31,8 +31,7 @@ def translations() -> list[tuple[str, str]]:
 @pytest.fixture
 def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder with the page's files, as a reader would save them; it is the working directory."""
-    radios, survey = code_blocks(PAGE, "ini")
-    (tmp_path / "radios.ini").write_text(radios)
+    (survey,) = code_blocks(PAGE, "ini")
     (tmp_path / "survey.ini").write_text(survey)
     for language, name in [("python", "survey.py"), ("text", "omnetpp.ini")]:
         (tmp_path / name).write_text("\n\n".join(code_blocks(PAGE, language)))
@@ -59,18 +58,6 @@ def with_lines(folder: Path, *lines: str) -> Path:
 
 def test_the_script_runs(survey: ModuleType) -> None:
     assert survey.survey() > 30
-
-
-def test_nodes_that_a_script_makes_run_in_both_modes(survey: ModuleType) -> None:
-    class Farther(survey.Sensor):  # type: ignore[name-defined, misc]
-        """One that a function makes."""
-
-    nodes = [(survey.Collector, (0, 0, 0)), (survey.Sensor, (0, 0, 0)), (Farther, (100, 0, 0))]
-    for result in survey.in_both_modes(nodes):
-        collector, sensor, farther = result.nodes
-        assert collector.tracked_variables["collected"] > 15
-        assert (sensor.protocol, farther.protocol) == ("Sensor", "Farther")
-        assert farther.position == (100, 0, 0)
 
 
 def test_who_seeds_pythons_random_gets_the_same_run_again(survey: ModuleType) -> None:
