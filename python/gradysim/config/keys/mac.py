@@ -91,8 +91,8 @@ MAC_KEYS: tuple[Key, ...] = (
         "channelAccess.contention.skipBackoffIfIdle",
         "skip_backoff_if_idle",
         boolean(),
-        "Whether a frame that finds station and channel idle waits DIFS from then, without a backoff; the station"
-        " is idle after the backoff that follows each frame",
+        "Whether a frame that finds station and channel idle waits DIFS from then, without a backoff; the"
+        " station is idle after the backoff that follows each frame",
     ),
     _dcf(
         "channelAccess.contention.inetEifs",
