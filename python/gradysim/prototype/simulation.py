@@ -20,6 +20,7 @@ from gradysim.simulator.handler.given import given_handlers
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
+from gradysim.simulator.handler.mobility.resting import RestingMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
@@ -53,7 +54,8 @@ def build_simulation(
             execution_logging=False,
         )
     )
-    mobility = mobility_handler(scenario)
+    # Handlers may count events and act between them; the wall clock goes from one to the next.
+    mobility = mobility_handler(scenario, may_rest=not given and not real_time)
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
     for handler in given.values():
         builder.add_handler(handler)
@@ -91,13 +93,16 @@ def check_protocols(scenario: Scenario) -> None:
             raise ConfigError(text, spec.protocol_sources.get(""))
 
 
-def mobility_handler(scenario: Scenario) -> MasslessMobilityHandler:
-    """Return what moves the nodes. Raises ConfigError when a value is outside its range."""
+def mobility_handler(scenario: Scenario, *, may_rest: bool = False) -> MasslessMobilityHandler:
+    """Return what moves the nodes, and if it `may_rest` has no events while there is nothing to do for it.
+
+    Raises ConfigError when a value is outside its range.
+    """
     configuration = MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
     flights = flights_of(scenario)
     if flights is None:
         configuration.update_rate = update_rate_s(scenario.nodes)
-        mobility = MasslessMobilityHandler(configuration)
+        mobility = (RestingMobilityHandler if may_rest else MasslessMobilityHandler)(configuration)
     else:  # autopilots fly on every 10 ms, in both modes
         mobility = FlownMobilityHandler(configuration, flights)
     for spec in scenario.nodes:

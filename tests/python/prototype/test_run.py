@@ -4,6 +4,7 @@ import sys
 import pytest
 
 from gradysim.prototype.run import PrototypeRun, run
+from gradysim.simulator.handler.interface import INodeHandler
 
 
 def test_fates_count_what_was_sent(make_scenario):
@@ -34,6 +35,33 @@ def test_position_at_the_end(make_scenario):
         "sim-time-limit = 2s",
     )
     assert run(scenario).nodes[0].position == pytest.approx((0, 0, 6))
+
+
+RESTING = (
+    '*.uavs[*].mobility.typename = "StationaryMobility"',
+    "*.uavs[*].mobility.telemetryInterval = 0s",
+    "sim-time-limit = 10s",
+)
+
+
+class Watching(INodeHandler):
+    @staticmethod
+    def get_label():
+        return "watching"
+
+    def inject(self, event_loop): ...
+
+    def register_node(self, node): ...
+
+
+def test_where_nobody_moves_or_is_told_its_place_time_that_passes_is_no_event(make_scenario):
+    result = run(make_scenario("class Tested(Quiet): pass", *RESTING))
+    assert (result.events, result.sim_time_s) == (1, 10)
+
+
+@pytest.mark.parametrize("watched", [{"handlers": [Watching()]}, {"real_time": True}])
+def test_who_may_look_between_updates_finds_each_of_them(make_scenario, wall_clock, watched):
+    assert run(make_scenario("class Tested(Quiet): pass", *RESTING), **watched).events == 1000
 
 
 def test_the_same_seed_gives_the_same_run(make_scenario):

@@ -15,13 +15,14 @@ class TelemetryGroup:
 
     Attributes:
         deliveries: One event per node, scheduled again and again.
+        due: Number of the update with which telemetry comes next.
     """
 
     def __init__(self, interval_updates: float) -> None:
         """Serve nodes that get telemetry every `interval_updates` updates, a number >= 1."""
         self._interval = interval_updates
         self._count = 1
-        self._due = math.ceil(interval_updates)
+        self.due = math.ceil(interval_updates)
         self.deliveries: list[ScheduledEvent] = []
 
     def add(self, node: Node[Any]) -> None:
@@ -29,15 +30,17 @@ class TelemetryGroup:
         self.deliveries.append((_delivery(node), f"{label_node(node)} handle_telemetry"))
 
     def is_due(self, update: int) -> bool:
-        """Whether telemetry comes with this update, the first one being 1; to be asked once for each update.
+        """Whether telemetry comes with this update, the first one being 1; to be asked of each in turn.
+
+        Those before the one that is `due` may be left out.
 
         An interval that is no whole number of updates is kept on average: telemetry comes with the first
         update at or after its time.
         """
-        if update < self._due:
+        if update < self.due:
             return False
         self._count += 1
-        self._due = math.ceil(self._count * self._interval)
+        self.due = math.ceil(self._count * self._interval)
         return True
 
 

@@ -1,5 +1,7 @@
 """When the positions of a simulation are updated."""
 
+from bisect import bisect_left
+
 
 class UpdateTimes:
     """The times of periodic updates, counted from a start, so that rounding does not add up."""
@@ -15,6 +17,10 @@ class UpdateTimes:
         if self._frequency is None:
             return self._start_s + update * self._update_rate_s
         return self._start_s + update / self._frequency
+
+    def last_before(self, timestamp: float, updates: range) -> int:
+        """Return the last of these updates that comes before a time; the first of them if none does."""
+        return updates[max(bisect_left(updates, timestamp, key=self.time_of) - 1, 0)]
 
 
 def _whole_frequency(update_rate_s: float) -> float | None:

@@ -21,6 +21,16 @@ def test_telemetry_comes_with_the_first_update_at_or_after_its_time(interval, up
     assert due(interval, 6) == updates
 
 
+@pytest.mark.parametrize("interval", [1.0, 2.0, 2.5, 7.0])
+def test_updates_before_the_one_that_is_due_may_be_left_out(interval):
+    group = TelemetryGroup(interval)
+    given_out = []
+    while group.due <= 30:
+        given_out.append(group.due)
+        assert group.is_due(group.due)
+    assert given_out == due(interval, 30)
+
+
 @given(st.integers(1, 64), st.integers(1, 16))
 def test_an_interval_is_kept_on_average(numerator, denominator):
     interval = max(Fraction(numerator, denominator), Fraction(1))

@@ -21,5 +21,13 @@ def test_they_count_from_the_start():
     assert UpdateTimes(0.5, start_s=10.0).time_of(3) == 11.5
 
 
+@pytest.mark.parametrize(
+    ("timestamp", "update"),
+    [(0.02, 3), (0.05, 4), (0.35, 34), (0.3501, 35), (0.4, 39), (0.41, 40), (9e9, 40)],
+)
+def test_the_last_one_before_a_time(timestamp, update):
+    assert UpdateTimes(0.01).last_before(timestamp, range(3, 41)) == update
+
+
 def test_a_tiny_interval_is_no_whole_frequency():
     assert UpdateTimes(1e-12).time_of(2) == 2e-12
