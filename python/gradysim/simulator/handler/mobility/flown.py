@@ -56,9 +56,10 @@ class FlownMobilityHandler(MasslessMobilityHandler):
         super().finalize()
         self._flights.close()
 
-    def _move(self) -> None:
+    def _move(self) -> bool:
         super()._move()
         self._follow()
+        return True
 
     def _update(self) -> None:
         super()._update()

@@ -194,8 +194,13 @@ class MasslessMobilityHandler(INodeHandler):
                 event_loop.schedule_events(now, group.deliveries)
         self._schedule_update(event_loop)
 
-    def _move(self) -> None:
-        """Take each node one step of speed * update_rate straight to its target, and not beyond."""
+    def _move(self) -> bool:
+        """Take each node one step of speed * update_rate straight to its target, and not beyond.
+
+        Returns:
+            Whether one was on its way.
+        """
+        on_their_way = False
         update_rate = self._configuration.update_rate
         nodes = self.nodes
         speeds = self.speeds
@@ -204,6 +209,7 @@ class MasslessMobilityHandler(INodeHandler):
             position = node.position
             if position == target:
                 continue
+            on_their_way = True
             x, y, z = position
             dx = target[0] - x
             dy = target[1] - y
@@ -214,6 +220,7 @@ class MasslessMobilityHandler(INodeHandler):
                 node.position = target
             else:
                 node.position = (x + dx / distance * step, y + dy / distance * step, z + dz / distance * step)
+        return on_their_way
 
 
 def _in_updates(interval_s: float, update_rate_s: float) -> float:

@@ -16,22 +16,24 @@ class RestingMobilityHandler(MasslessMobilityHandler):
     events: who counts them, or lets others act between them, takes a `MasslessMobilityHandler`.
     """
 
+    _on_their_way = True
+
+    def _move(self) -> bool:
+        self._on_their_way = super()._move()
+        return self._on_their_way
+
     def _schedule_update(self, event_loop: EventLoop) -> None:
-        if self._updates != 0:  # The first update is scheduled when nobody is there yet.
+        # The first update is scheduled when nobody is there yet. Most often somebody is told each one.
+        if self._updates != 0 and not self._on_their_way and 1.0 not in self._telemetry:
             self._updates = self._next_to_make(event_loop) - 1
         super()._schedule_update(event_loop)
 
     def _next_to_make(self, event_loop: EventLoop) -> int:
         following = self._updates + 1
-        latest = min((group.due for group in self._telemetry.values()), default=following + _MOST_LEFT_OUT)
-        if latest <= following or self._is_anybody_flying():
-            return following
-        latest = min(latest, following + _MOST_LEFT_OUT)
+        latest = following + _MOST_LEFT_OUT
+        for group in self._telemetry.values():
+            latest = min(latest, group.due)
         next_time = event_loop.next_time()
         if next_time is None:
             return latest
         return self._times.last_before(next_time, range(following, latest + 1))
-
-    def _is_anybody_flying(self) -> bool:
-        nodes = self.nodes
-        return any(nodes[node_id].position != target for node_id, target in self.targets.items())

@@ -94,7 +94,7 @@ def test_there_is_one_update_for_each_telemetry_and_one_after_it():
 
 def test_there_are_updates_while_one_flies():
     flight = [{5.0: GotoCoordsMobilityCommand(10, 0, 0)}, {}]
-    assert both(flight) == 1 + 1 + 1 + 101
+    assert both(flight) == 1 + 1 + 1 + 102
 
 
 def test_the_first_step_is_made_when_it_would_be_made():
