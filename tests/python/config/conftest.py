@@ -7,6 +7,7 @@ import pytest
 
 from gradysim.config import Scenario, load_scenarios
 from gradysim.config.errors.config_error import ConfigError
+from gradysim.config.value.pattern import Pattern
 
 PROTOCOLS = """
 from gradysim.protocol.interface import IProtocol
@@ -86,3 +87,24 @@ def write_ini(tmp_path: Path) -> Callable[..., Path]:
         return file
 
     return write
+
+
+@pytest.fixture
+def count_matches(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], int]:
+    """`count_matches(do)`: how many texts are compared with patterns while that is done."""
+    compared = 0
+    matches = Pattern.matches
+
+    def counted(pattern: Pattern, path: str) -> bool:
+        nonlocal compared
+        compared += 1
+        return matches(pattern, path)
+
+    def count(do: Callable[[], object]) -> int:
+        nonlocal compared
+        compared = 0
+        do()
+        return compared
+
+    monkeypatch.setattr(Pattern, "matches", counted)
+    return count

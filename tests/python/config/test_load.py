@@ -1,10 +1,12 @@
 import pickle
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from gradysim.config import ConfigError, load_scenarios
 from gradysim.config.scenario import CommunicationMediumSpec, Scenario
+from python.config.conftest import BASE
 
 
 def test_a_run_holds_what_the_file_says(folder: Any) -> None:
@@ -291,3 +293,28 @@ def test_ids_count_from_the_most_general_section_on(folder: Any) -> None:
 def test_settings_can_be_pickled(folder: Any) -> None:
     node = folder.load("**.power = 1mW\n").nodes[0]
     assert pickle.loads(pickle.dumps(node.wlan)) == node.wlan
+
+
+@pytest.mark.parametrize(
+    ("head", "of_each"),
+    [
+        (
+            "*.environment.numObstacles = {}\n",
+            "*.environment.obstacle[{0}].minX = {0}m\n*.environment.obstacle[{0}].maxX = {0}.5m\n"
+            "**.obstacle[{0}].minY = 0m\n**.environment.obstacle[{0}].maxY = 1m\n"
+            "*.environment.obstacle[{0}].minZ = 0m\n*.environment.obstacle[{0}].maxZ = 1m\n",
+        ),
+        ("*.numUavs = {}\n", "**.uavs[{}].wlan[*].radio.transmitter.power = 1mW\n"),
+        ("**.speed = 3mps\n", '*.g{0}[*].protocol.class = "protocols.py:Sensor"\n*.g{0}.count = 1\n'),
+    ],
+)
+def test_twice_the_lines_take_twice_the_time(
+    folder: Any, count_matches: Callable[..., int], head: str, of_each: str
+) -> None:
+    def load(size: int) -> None:
+        lines = head.format(size) + "".join(of_each.format(index) for index in range(size))
+        folder.write("test.ini", f"[General]\n{lines}" + BASE.partition("\n")[2])
+        load_scenarios(folder.ini)
+
+    few, many = (count_matches(lambda size=size: load(size)) for size in (60, 120))
+    assert many <= 2.2 * few

@@ -22,6 +22,7 @@ from gradysim.config.keys.options import NETWORK, OPTIONS, SECTION_OPTIONS
 from gradysim.config.matching.groups import Group
 from gradysim.config.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.config.matching.lookup import Found, Lookup, is_ignored
+from gradysim.config.matching.text_index import TextIndex
 from gradysim.config.protocol.parameters import parameters_of
 from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.pattern import Pattern
@@ -69,20 +70,21 @@ def check_names(lookup: Lookup, groups: list[Group]) -> list[Source]:
     Returns the lines about nodes that this run has not, and others may have.
     """
     elsewhere: list[Source] = []
-    names = {*NETWORK_MODULES, *(group.size_key for group in groups), *(group.name for group in groups)}
-    for group in groups:
-        names.update(group.node_names() or [f"{group.name}[0]"])
-    known: dict[str, bool] = {}
+    names = TextIndex(
+        [
+            *NETWORK_MODULES,
+            *(group.size_key for group in groups),
+            *(group.name for group in groups),
+            *(name for group in groups for name in group.node_names() or [f"{group.name}[0]"]),
+        ]
+    )
     for found in _in_order_of_text(lookup):
         name = found.name_pattern()
         if name is None:
             continue
-        if name.text not in known:
-            known[name.text] = (
-                any(map(name.matches, names)) if name.literal is None else name.literal in names
-            )
+        is_known = names.has_match(name)
         is_of_network = found.parts and found.parts[0].matches(lookup.network)
-        if is_of_network and (known[name.text] or _is_beyond_overridden_size(found, groups)):
+        if is_of_network and (is_known or _is_beyond_overridden_size(found, groups)):
             continue
         if is_of_network and _is_beyond_drawn_size(found, groups):
             continue
@@ -117,29 +119,45 @@ class _ParameterCheck:
         ]
         self._groups = groups
         self._kinds = kinds
-        self._rests = {kind: _rests_of(kind) for kind in dict.fromkeys(kinds.values())}
+        rests = {kind: _rests_of(kind) for kind in dict.fromkeys(kinds.values())}
+        of_modules: dict[str, list[str]] = {}
+        for path in self._network_paths:
+            module, rest = path.split(".", 1)
+            of_modules.setdefault(module, []).append(rest)
+        self._rests = {kind: TextIndex(texts) for kind, texts in rests.items()}
+        self._of_modules = {module: TextIndex(texts) for module, texts in of_modules.items()}
+        self._of_any_node = TextIndex(key.path for key in NODE_KEYS)
+        self._size_keys = TextIndex(group.size_key for group in groups)
+        self._group_names = TextIndex(group.name for group in groups)
+        self._nodes = TextIndex(kinds)
+        self._first_of_empty_groups = TextIndex(f"{group.name}[0]" for group in groups if group.size == 0)
+        self._single_parts = TextIndex(
+            [*NETWORK_MODULES, *(group.name for group in groups if group.size is not None)]
+        )
+        self._below_any_name = TextIndex(
+            f".{rest}"
+            for texts in (
+                *of_modules.values(),
+                *rests.values(),
+                [GROUP_SIZE.path] if groups else [],
+                [key.path for key in NODE_KEYS] if any(group.size == 0 for group in groups) else [],
+            )
+            for rest in texts
+        )
         self._kinds_of: dict[str, set[ProtocolAndInterfaces]] = {}
-        self._known: dict[tuple[ProtocolAndInterfaces, str], bool] = {}
 
     def matches(self, found: Found) -> bool:
         name, rest = found.name_pattern(), found.rest_pattern()
         if name is None:
-            return any(found.pattern.matches(path) for path in self._paths_like(found))
+            return self._matches_from_somewhere(found)
         if rest is None:
-            return any(name.matches(group.size_key) for group in self._groups)
-        below = [path.split(".", 1) for path in self._network_paths if found.may_end_in(path)]
-        if any(name.matches(module) and rest.matches(end) for module, end in below):
+            return self._size_keys.has_match(name)
+        if self._is_below(name, rest):
             return True
-        if rest.matches(GROUP_SIZE.path) and any(name.matches(group.name) for group in self._groups):
-            return True
-        kinds = self._kinds_named(name)
-        if not kinds:  # the group is empty, or smaller than this key was written for
-            is_single_part = any(name.matches(other) for other in NETWORK_MODULES | self._indexed())
-            return not is_single_part and (
-                rest.literal_prefix().startswith("protocol.")
-                or any(rest.matches(key.path) for key in NODE_KEYS)
-            )
-        return any(self._is_known(kind, rest) for kind in kinds)
+        if self._kinds_named(name) or self._single_parts.has_match(name):
+            return False
+        # The group is empty, or smaller than this key was written for.
+        return rest.literal_prefix().startswith("protocol.") or self._of_any_node.has_match(rest)
 
     def error_text(self, found: Found) -> str:
         name = found.name_pattern()
@@ -147,20 +165,33 @@ class _ParameterCheck:
         classes = sorted({kind.protocol for kind in kinds}, key=lambda cls: cls.__name__)
         return unknown_parameter_text(found, self._groups, classes)
 
-    def _indexed(self) -> set[str]:
-        return {group.name for group in self._groups if group.size is not None}
+    def _is_below(self, name: Pattern, rest: Pattern) -> bool:
+        """Whether something of such a name has a parameter with that rest."""
+        return (
+            any(name.matches(module) and rests.has_match(rest) for module, rests in self._of_modules.items())
+            or (rest.matches(GROUP_SIZE.path) and self._group_names.has_match(name))
+            or any(self._rests[kind].has_match(rest) for kind in self._kinds_named(name))
+        )
+
+    def _matches_from_somewhere(self, found: Found) -> bool:
+        """The same for a key of which `**` makes uncertain where the name stands."""
+        if found.pattern.below_anything is None:
+            return any(found.pattern.matches(path) for path in self._paths_like(found))
+        name, rest = found.pattern.below_anything
+        if self._below_any_name.has_match(found.pattern):
+            return True
+        if rest is None:
+            return self._size_keys.has_match(name)
+        if self._is_below(name, rest):
+            return True
+        return self._first_of_empty_groups.has_match(name) and self._of_any_node.has_match(rest)
 
     def _kinds_named(self, name: Pattern) -> set[ProtocolAndInterfaces]:
         if name.literal is not None:
             return {self._kinds[name.literal]} if name.literal in self._kinds else set()
         if name.text not in self._kinds_of:
-            self._kinds_of[name.text] = {kind for node, kind in self._kinds.items() if name.matches(node)}
+            self._kinds_of[name.text] = {self._kinds[node] for node in self._nodes.matches(name)}
         return self._kinds_of[name.text]
-
-    def _is_known(self, kind: ProtocolAndInterfaces, rest: Pattern) -> bool:
-        if (kind, rest.text) not in self._known:
-            self._known[kind, rest.text] = any(map(rest.matches, self._rests[kind]))
-        return self._known[kind, rest.text]
 
     def _paths_like(self, found: Found) -> Iterator[str]:
         """All paths, without those that end in another way than the key does."""
@@ -170,7 +201,9 @@ class _ParameterCheck:
             yield f"{self._network}.{group.name}.{GROUP_SIZE.path}"
             if group.size == 0:
                 yield from (f"{self._network}.{group.name}[0].{key.path}" for key in NODE_KEYS)
-        rests = {kind: [rest for rest in all if found.may_end_in(rest)] for kind, all in self._rests.items()}
+        rests = {
+            kind: [rest for rest in texts if found.may_end_in(rest)] for kind, texts in self._rests.items()
+        }
         for node, kind in self._kinds.items():
             yield from (f"{self._network}.{node}.{rest}" for rest in rests[kind])
 

@@ -2,13 +2,15 @@
 
 A path is looked up in two parts: the name below the network (`uavs[3]`) and the rest (`mobility.speed`).
 Patterns are compiled once; which of them can match a rest is found once per rest, and what is left to do per
-node is one step for entries that name the node, and one match for each of the others.
+node is one step for entries that name the node, and one match for each of the others that may be about its
+group.
 """
 
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from typing import NamedTuple
 
 from gradysim.config.errors.config_error import BadValue, ConfigError
 from gradysim.config.file.reader import Entry
@@ -20,6 +22,7 @@ from gradysim.config.keys.omnetpp_options import (
     IGNORED_OPTIONS,
 )
 from gradysim.config.keys.options import NETWORK, OPTIONS
+from gradysim.config.matching.pattern_index import PatternIndex
 from gradysim.config.value.parameter_context import differs_between_parameters
 from gradysim.config.value.pattern import Pattern, compile_pattern
 
@@ -72,22 +75,30 @@ class Found:
         return self.parts[2] if self.parts and len(self.parts) == 3 else None
 
 
+class _Candidate(NamedTuple):
+    """An entry that can match a rest, and what has to match the name; None if only the whole path decides."""
+
+    found: Found
+    name: Pattern | None
+
+
+_ANY_NAME = compile_pattern("*")
+
+
 class Candidates:
     """The entries that can match one rest below some name."""
 
-    def __init__(self, network: str, rest: str, found: Iterable[Found]) -> None:
+    def __init__(self, network: str, rest: str, candidates: Iterable[_Candidate]) -> None:
         self._prefix = f"{network}."
         self._suffix = f".{rest}" if rest else ""
         self._by_name: dict[str, Found] = {}
-        self._patterns: list[tuple[Found, Pattern | None]] = []
-        for candidate in found:
-            name = candidate.name_pattern()
-            if name is None:
-                self._patterns.append((candidate, None))
-            elif name.literal is None:
-                self._patterns.append((candidate, name))
+        self._patterns: list[_Candidate] = []
+        for candidate in candidates:
+            if candidate.name is None or candidate.name.literal is None:
+                self._patterns.append(candidate)
             else:
-                self._by_name.setdefault(name.literal, candidate)
+                self._by_name.setdefault(candidate.name.literal, candidate.found)
+        self._of_group: dict[str, list[_Candidate]] = {}
 
     def __bool__(self) -> bool:
         return bool(self._by_name or self._patterns)
@@ -95,15 +106,26 @@ class Candidates:
     def first(self, name: str) -> Found | None:
         """The entry in force for that name."""
         best = self._by_name.get(name)
-        for candidate, pattern in self._patterns:
-            if best is not None and candidate.order > best.order:
+        for found, pattern in self._patterns_for(name.partition("[")[0]):
+            if best is not None and found.order > best.order:
                 break
             if pattern is not None:
                 if pattern.matches(name):
-                    return candidate
-            elif candidate.pattern.matches(f"{self._prefix}{name}{self._suffix}"):
-                return candidate
+                    return found
+            elif found.pattern.matches(f"{self._prefix}{name}{self._suffix}"):
+                return found
         return best
+
+    def _patterns_for(self, group: str) -> list[_Candidate]:
+        """Those that may match nodes of that group."""
+        of_group = self._of_group.get(group)
+        if of_group is None:
+            of_group = self._of_group[group] = [
+                candidate
+                for candidate in self._patterns
+                if candidate.name is None or candidate.name.group in (None, group)
+            ]
+        return of_group
 
 
 class Lookup:
@@ -127,23 +149,41 @@ class Lookup:
             for order, (rank, entry) in enumerate(ranked)
             if not is_option(entry) and not is_ignored(entry)
         ]
-        self._uncertain = [found for found in self.found if found.parts is None]
-        self._by_rest: dict[str | None, tuple[Pattern | None, list[Found]]] = {}
+        self._below_names: PatternIndex[_Candidate] = PatternIndex()  # by the pattern of the rest
+        self._without_rest: list[_Candidate] = []
+        self._below_anything: PatternIndex[_Candidate] = PatternIndex()  # `**.` and what is below
+        self._uncertain: list[_Candidate] = []
         for found in self.found:
-            if found.parts is not None and found.parts[0].matches(self.network):
-                rest = found.rest_pattern()
-                self._by_rest.setdefault(rest.text if rest else None, (rest, []))[1].append(found)
+            self._add(found)
         self._candidates: dict[str, Candidates] = {}
+
+    def _add(self, found: Found) -> None:
+        if found.parts is not None:
+            if not found.parts[0].matches(self.network):
+                return
+            name, rest = found.parts[1], found.rest_pattern()
+        elif (below := found.pattern.below_anything) is not None:
+            name, rest = below
+            self._below_anything.add(found.pattern, _Candidate(found, _ANY_NAME))
+        else:
+            self._uncertain.append(_Candidate(found, None))
+            return
+        if rest is None:
+            self._without_rest.append(_Candidate(found, name))
+        else:
+            self._below_names.add(rest, _Candidate(found, name))
 
     def candidates(self, rest: str) -> Candidates:
         """The entries that can match `NETWORK.<a name>.<rest>`, or `NETWORK.<a name>` for an empty rest."""
         candidates = self._candidates.get(rest)
         if candidates is None:
-            found = [uncertain for uncertain in self._uncertain if uncertain.may_end_in(rest)]
-            for pattern, entries in self._by_rest.values():
-                if pattern.matches(rest) if rest and pattern else not (rest or pattern):
-                    found += entries
-            found.sort(key=lambda candidate: candidate.order)
+            found = [candidate for candidate in self._uncertain if candidate.found.may_end_in(rest)]
+            if rest:
+                found += self._below_names.matching(rest)
+                found += self._below_anything.matching(f".{rest}")
+            else:
+                found += self._without_rest
+            found.sort(key=lambda candidate: candidate.found.order)
             candidates = self._candidates[rest] = Candidates(self.network, rest, found)
         return candidates
 

@@ -62,6 +62,8 @@ class Pattern:
 
     def matches(self, path: str) -> bool:
         """Whether the whole of `path` matches."""
+        if self.literal is not None:  # to compile a regular expression takes longer than reading the line
+            return path == self.literal
         return self._regex.fullmatch(path) is not None
 
     def literal_prefix(self) -> str:
@@ -72,6 +74,27 @@ class Pattern:
                 return "".join(characters) + ("[" if token.text.startswith("[") else "")
             characters.append(token.literal)
         return "".join(characters)
+
+    @cached_property
+    def group(self) -> str | None:
+        """What all that matches has before its bracket, `uavs` for `uavs[*]`; None if that may differ."""
+        name, bracket, _ = self.literal_prefix().partition("[")
+        return name if bracket else None
+
+    @cached_property
+    def below_anything(self) -> "tuple[Pattern, Pattern | None] | None":
+        """`uavs[*]` and `mobility.speed` for `**.uavs[*].mobility.speed`, `speed` and None for `**.speed`.
+
+        None for a pattern that does not begin so, or of which the first name may have dots.
+        """
+        if [token.text for token in self.tokens[:2]] != ["**", "."]:
+            return None
+        tokens = self.tokens[2:]
+        dot = next((place for place, token in enumerate(tokens) if token.literal == "."), len(tokens))
+        name, rest = tokens[:dot], tokens[dot + 1 :]
+        if any(token.spans_dots for token in name):
+            return None
+        return Pattern(name), Pattern(rest) if dot < len(tokens) else None
 
     def split(self) -> "list[Pattern] | None":
         """The parts between the first two dots and after them, or None if `**` makes those dots uncertain.

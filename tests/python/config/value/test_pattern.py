@@ -178,3 +178,30 @@ def test_knows_what_is_literal(pattern: str, literal: str | None, prefix: str) -
 def test_knows_its_last_part(pattern: str, tail: str | None) -> None:
     found = compile_pattern(pattern).tail
     assert (None if found is None else found.text) == tail
+
+
+@pytest.mark.parametrize(
+    ("pattern", "parts"),
+    [
+        ("**.speed", ("speed", None)),
+        ("**.uavs[*].mobility.**", ("uavs[*]", "mobility.**")),
+        ("**.uavs[*].", ("uavs[*]", "")),
+        ("**speed", None),
+        ("***.speed", None),
+        ("**.**.speed", None),
+        ("**.{^a}.speed", None),
+        ("*.uavs[*].speed", None),
+        ("**", None),
+    ],
+)
+def test_what_is_below_anything(pattern: str, parts: tuple[str, str | None] | None) -> None:
+    found = compile_pattern(pattern).below_anything
+    assert (found and tuple(part and part.text for part in found)) == parts
+
+
+@pytest.mark.parametrize(
+    ("pattern", "group"),
+    [("uavs[3]", "uavs"), ("uavs[*]", "uavs"), ("uavs[1..]", "uavs"), ("uavs", None), ("u*[3]", None)],
+)
+def test_the_group_that_a_name_is_of(pattern: str, group: str | None) -> None:
+    assert compile_pattern(pattern).group == group
