@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from gradysim.config.file.reader import Entry, Section
 from gradysim.config.matching.lookup import is_ignored, is_option
+from gradysim.config.matching.pattern_index import PatternIndex
 from gradysim.config.value.pattern import Pattern, compile_pattern
 
 _NO_DOT = "\0\0\0"
@@ -65,17 +66,16 @@ def line_that_says_it_instead(entry: Entry, before: Iterable[Entry]) -> Entry | 
     """
     lines = [line for line in before if not is_ignored(line)]
     same_key = {line.key: line for line in reversed(lines)}
-    general = [
-        (pattern, line)
-        for line in lines
-        if not is_option(line) and _is_general(pattern := compile_pattern(line.key))
-    ]
+    general: PatternIndex[Entry] = PatternIndex()
+    for line in lines:
+        if not is_option(line) and _is_general(pattern := compile_pattern(line.key)):
+            general.add(pattern, line)
     return _deprived_by(entry, _instead_of(entry.key, _INSTEAD_WITH_POWERS), same_key, general)
 
 
 def _of_section(section: Section, instead: Mapping[str, Sequence[str]]) -> Iterator[str]:
     same_key: dict[str, Entry] = {}
-    general: list[tuple[Pattern, Entry]] = []
+    general: PatternIndex[Entry] = PatternIndex()
     for entry in section.entries:
         if is_ignored(entry):
             continue
@@ -85,7 +85,7 @@ def _of_section(section: Section, instead: Mapping[str, Sequence[str]]) -> Itera
             same_key.setdefault(entry.key, entry)
             pattern = compile_pattern(entry.key)
             if not is_option(entry) and _is_general(pattern):
-                general.append((pattern, entry))
+                general.add(pattern, entry)
         elif above.source.file == entry.source.file:
             yield (
                 f"{entry.source}: warning: `{entry.key}` has no effect: line {above.source.line},"
@@ -103,7 +103,7 @@ def _deprived_by(
     entry: Entry,
     others: Sequence[str],
     same_key: Mapping[str, Entry],
-    general: Sequence[tuple[Pattern, Entry]],
+    general: PatternIndex[Entry],
 ) -> Entry | None:
     """The line above that is in force instead, wherever this one fits, and that says something else."""
     for key in (entry.key, *others):
@@ -138,12 +138,12 @@ def _is_general(pattern: Pattern) -> bool:
     return parts is None or any(part.literal is None for part in parts[1:])
 
 
-def _first_that_covers(pattern: Pattern, above: Sequence[tuple[Pattern, Entry]]) -> Entry | None:
+def _first_that_covers(pattern: Pattern, above: PatternIndex[Entry]) -> Entry | None:
     """The first of the lines above that fits wherever `pattern` does."""
     path = "".join(
         token.literal or (_ANYTHING if token.spans_dots else _any_of(token.text)) for token in pattern.tokens
     )
-    return next((entry for other, entry in above if other.matches(path)), None)
+    return next(iter(above.matching(path)), None)
 
 
 def _any_of(wildcard: str) -> str:

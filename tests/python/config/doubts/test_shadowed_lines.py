@@ -145,3 +145,13 @@ def test_a_default_deprives_the_same_key_of_its_effect(write_ini: Write) -> None
 def test_a_range_in_another_section_overrides_a_power(write_ini: Write) -> None:
     power, reach = (line.format("2") for line in POWER_AND_RANGE)
     assert told(write_ini(f"[General]\n{power}[Config X]\n{reach}"), "X") == []
+
+
+@pytest.mark.parametrize(
+    "line", ["**.uavs[{}].wlan[*].radio.power = 1mW\n", "*.g{}[*].mobility.speed = 3mps\n"]
+)
+def test_general_lines_about_other_nodes_are_not_compared(
+    write_ini: Write, count_matches: Callable[..., int], line: str
+) -> None:
+    lines = "".join(line.format(index) for index in range(50))
+    assert count_matches(lambda: told(write_ini(lines + line.format(7)))) <= 1
