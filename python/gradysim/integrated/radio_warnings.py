@@ -1,8 +1,9 @@
 """Radios that are set up so that they cannot talk to each other: told before a run."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
-from itertools import combinations
-from typing import TYPE_CHECKING
+from itertools import chain, takewhile
+from typing import TYPE_CHECKING, NamedTuple
 
 from gradysim.config.errors.source import Source
 from gradysim.config.keys.interface import IEEE802154
@@ -15,6 +16,21 @@ from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig
+
+
+class _Band(NamedTuple):
+    """What a radio sends and listens in."""
+
+    carrier_hz: float
+    bandwidth_hz: float
+
+    @classmethod
+    def of(cls, radio: "RadioConfig") -> "_Band":
+        return cls(radio.carrier_hz, radio.bandwidth_hz)
+
+    def fits_in(self, listener: "_Band") -> bool:
+        """The engine's `Band::fits_in`, which is not among its bindings."""
+        return self.carrier_hz == listener.carrier_hz and self.bandwidth_hz <= listener.bandwidth_hz
 
 
 def radio_warnings(scenario: Scenario, medium: "MediumConfig") -> Iterator[str]:
@@ -34,14 +50,20 @@ def _stations_without_a_common_mode(scenario: Scenario) -> Iterator[str]:
             setting = wlan.mac.get("op_mode")
             station = (spec, interface, setting.source if setting else None)
             stations.setdefault((interface.radio.carrier_hz, interface.mac.op_mode), station)
-    for ((carrier_hz, mode), one), ((other_hz, other_mode), other) in combinations(stations.items(), 2):
-        if carrier_hz == other_hz and not one[1].known_formats & other[1].known_formats:
-            yield (
-                f"{other[2] or one[2]}: warning: {one[0].name} and {other[0].name} are on one channel, but of"
-                f' operation modes "{mode}" and "{other_mode}", which have no kind of frame in common:'
-                " they are noise to each other; expected one mode for both, or"
-                ' "g(mixed)", which has the frames of "b" and "g(erp)"'
-            )
+    modes: dict[float, list[str]] = {}  # of each channel those that are still to be compared
+    for carrier_hz, mode in stations:
+        modes.setdefault(carrier_hz, []).append(mode)
+    for (carrier_hz, mode), one in stations.items():
+        modes[carrier_hz].remove(mode)
+        for other_mode in modes[carrier_hz]:
+            other = stations[carrier_hz, other_mode]
+            if not one[1].known_formats & other[1].known_formats:
+                yield (
+                    f"{other[2] or one[2]}: warning: {one[0].name} and {other[0].name} are on one channel,"
+                    f' but of operation modes "{mode}" and "{other_mode}", which have no kind of frame in'
+                    " common: they are noise to each other; expected one mode for both, or"
+                    ' "g(mixed)", which has the frames of "b" and "g(erp)"'
+                )
 
 
 def _radios_that_nobody_hears(scenario: Scenario) -> Iterator[str]:
@@ -52,24 +74,31 @@ def _radios_that_nobody_hears(scenario: Scenario) -> Iterator[str]:
         (specs[0], [interface.radio for interface in node_config(specs[0]).wlan], len(specs))
         for specs in by_kind(scenario.nodes).values()
     ]
-    for index, (spec, radios, count) in enumerate(kinds):
-        others = [
-            listener
-            for other, (_, listeners, _) in enumerate(kinds)
-            if other != index or count > 1
-            for listener in listeners
-        ]
+    listeners: Counter[_Band] = Counter()
+    for _, radios, count in kinds:
+        for band in set(map(_Band.of, radios)):
+            listeners[band] += count
+    widest_first: dict[float, list[_Band]] = {}
+    for band in sorted(listeners, key=lambda band: -band.bandwidth_hz):
+        widest_first.setdefault(band.carrier_hz, []).append(band)
+    for spec, radios, _ in kinds:
+        own = list(map(_Band.of, radios))
         unheard = [
             number
-            for number, radio in enumerate(radios)
-            if not any(_fits_in(radio, listener) for listener in others)
+            for number, sent in enumerate(own)
+            if not any(
+                listeners[band] > (band in own)  # some other node
+                for band in takewhile(sent.fits_in, widest_first[sent.carrier_hz])
+            )
         ]
         whole_node = len(unheard) == len(radios)
         for numbers in [unheard] if whole_node else [[number] for number in unheard]:
             who = spec.name if whole_node else f"wlan[{numbers[0]}] of {spec.name}"
             channels = " and ".join(f"{radios[number].carrier_hz / 1e6:g} MHz" for number in numbers)
-            nearest_first = [spec.wlan[number] for number in numbers]
-            nearest_first += [wlan for node in (spec, *scenario.nodes) for wlan in node.wlan]
+            nearest_first = chain(
+                (spec.wlan[number] for number in numbers),
+                (wlan for node in chain((spec,), scenario.nodes) for wlan in node.wlan),
+            )
             yield (
                 f"{next(_sources_of_channels(nearest_first))}: warning: nobody hears {who}: no other node"
                 f" listens at {channels} with at least as much bandwidth; expected one channel for those"
@@ -86,10 +115,6 @@ def _sources_of_channels(wlans: Iterable[InterfaceSpec]) -> Iterator[Source]:
         ):
             if field in settings:
                 yield settings[field].source
-
-
-def _fits_in(sender: "RadioConfig", listener: "RadioConfig") -> bool:
-    return sender.carrier_hz == listener.carrier_hz and sender.bandwidth_hz <= listener.bandwidth_hz
 
 
 def _acks_that_come_too_late(scenario: Scenario) -> Iterator[str]:

@@ -90,6 +90,21 @@ def test_an_interface_that_shares_its_channel_with_no_other_node_is_told(
     )
 
 
+def test_no_interface_of_its_own_hears_a_node(warnings: Callable[..., list[str]]) -> None:
+    texts = warnings("*.uavs[0].numWlanInterfaces=2", CHANNEL_5)
+    assert [text.partition(": no other")[0] for text in texts] == [
+        f"override {CHANNEL_5}: warning: nobody hears uavs[{index}]" for index in (0, 1)
+    ]
+
+
+def test_a_wider_listener_hears_what_one_of_the_same_width_does_not(
+    warnings: Callable[..., list[str]],
+) -> None:
+    narrow, wide = "*.uavs[0].wlan[*].radio.bandwidth=10MHz", "*.uavs[1].wlan[*].radio.bandwidth=40MHz"
+    (text,) = warnings("*.numUavs=3", narrow, wide)
+    assert "nobody hears uavs[1]: no other" in text
+
+
 @pytest.mark.parametrize(
     "settings",
     [
