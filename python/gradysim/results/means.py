@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gradysim.results.shares import ALWAYS_TOLD, mean_delays, shares
-from gradysim.results.student import mean_of, mean_with_half_width
-from gradysim.results.tracked_numbers import Tracked, numbers_and_others, numeric_variables, tracked_by_group
+from gradysim.results.run_figures import RunFigures
+from gradysim.results.shares import ALWAYS_TOLD
+from gradysim.results.student import mean_with_half_width
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
 """What tells a result of a run from other files."""
@@ -40,13 +40,13 @@ class Mean:
     left_out: str = ""
 
 
-def read_results(directory: Path) -> list[dict[str, Any]]:
-    """Return the results in the files of a folder, in the order of configurations and runs.
+def read_results(directory: Path) -> list[RunFigures]:
+    """Return what counts of the results in the files of a folder, in the order of configurations and runs.
 
     Files of other kinds, and runs that were interrupted, are left out. Raises OSError.
     """
-    results = (result for result in _results_in(directory) if not result["interrupted"])
-    return sorted(results, key=lambda result: (result["config"], result["mode"], result["run"]))
+    found = [RunFigures.of(result) for result in _results_in(directory) if not result["interrupted"]]
+    return sorted(found, key=lambda result: (result.config, result.mode, result.run))
 
 
 def has_files_for_omnetpp_alone(directory: Path) -> bool:
@@ -67,129 +67,104 @@ def _results_in(directory: Path) -> Iterator[dict[str, Any]]:
                 yield result
 
 
-def means(results: Iterable[Mapping[str, Any]]) -> list[Mean]:
+def means(results: Iterable[RunFigures]) -> list[Mean]:
     """Return the mean of each quantity over the runs that have equal values of iteration variables.
 
     Which quantities there are, all runs of a configuration and a mode decide together, so that what was lost
     in some of them only is 0 in the others.
     """
     found: list[Mean] = []
-    for study in _by(results, lambda result: (result["config"], result["mode"])):
-        runs = {id(result): _Quantities.of(result) for result in study}
-        variables = {each: None for run in runs.values() for each in numeric_variables(run.tracked)}
-        told = {
-            quantity: None
-            for run in runs.values()
+    for study in _by(results, lambda result: (result.config, result.mode)):
+        variables = dict.fromkeys(each for run in study for each in run.numeric_variables)
+        told = dict.fromkeys(
+            quantity
+            for run in study
             for quantity, figure in run.figures.items()
             if figure or quantity.endswith(ALWAYS_TOLD)
-        }
-        for alike in _by(study, _values_of):
-            of_runs = [runs[id(result)] for result in alike]
+        )
+        for alike in _by(study, lambda result: result.values):
             for group, name in variables:
-                found += _mean_of_variable(alike[0], of_runs, group, name)
+                found += _mean_of_variable(alike, group, name)
             for quantity in told:
-                if values := [run.figures[quantity] for run in of_runs if quantity in run.figures]:
+                if values := [run.figures[quantity] for run in alike if quantity in run.figures]:
                     found.append(_mean(alike[0], quantity, values))
     return found
 
 
-def of_different_settings(results: Iterable[Mapping[str, Any]]) -> tuple[str, str] | None:
+def of_different_settings(results: Iterable[RunFigures]) -> tuple[str, str] | None:
     """Name two of the runs with equal values of variables, if there are any whose settings differ."""
-    first: dict[str, Mapping[str, Any]] = {}
+    first: dict[str, RunFigures] = {}
     for result in results:
-        other = first.setdefault(_values_of(result), result)
-        if other.get("settings_hash") != result.get("settings_hash"):
+        other = first.setdefault(result.values, result)
+        if other.settings_hash != result.settings_hash:
             return _name(other), _name(result)
     return None
 
 
-def repeated(results: Iterable[Mapping[str, Any]]) -> list[tuple[str, str]]:
+def repeated(results: Iterable[RunFigures]) -> list[tuple[str, str]]:
     """Name the runs that are another one over again, of equal values of variables, each after that one.
 
     They have its seed, its settings and all that it computed.
     """
-    same = ("settings_hash", "fingerprint", "fates", "nodes")
+    first: dict[object, RunFigures] = {}
     found = []
-    for alike in _by(results, lambda result: (_values_of(result), result.get("seed"))):
-        for index, result in enumerate(alike):
-            for other in alike[:index]:
-                if all(result.get(field) == other.get(field) for field in same):
-                    found.append((_name(other), _name(result)))
-                    break
+    for alike in _by(results, lambda result: (result.values, result.seed)):
+        for result in alike:
+            same = (result.values, result.seed, result.settings_hash, result.computed)
+            other = first.setdefault(same, result)
+            if other is not result:
+                found.append((_name(other), _name(result)))
     return found
 
 
-def of_different_files(results: Iterable[Mapping[str, Any]]) -> tuple[str, str, str] | None:
+def of_different_files(results: Iterable[RunFigures]) -> tuple[str, str, str] | None:
     """Name two runs of one configuration, and a file of that name that differs between them, if there is one.
 
     They may be of different values: these are there to be compared.
     """
-    first: dict[tuple[str, str], tuple[str, Mapping[str, Any]]] = {}
+    first: dict[tuple[str, str], tuple[str, RunFigures]] = {}
     for result in results:
-        hashes = result.get("file_hashes")
-        for name, file_hash in hashes.items() if isinstance(hashes, dict) else ():
-            known, other = first.setdefault((result["config"], name), (file_hash, result))
+        for name, file_hash in result.file_hashes.items():
+            known, other = first.setdefault((result.config, name), (file_hash, result))
             if known != file_hash:
-                one, another = (f"{_name(each)}.{each['mode']}" for each in (other, result))
+                one, another = (f"{_name(each)}.{each.mode}" for each in (other, result))
                 return one, another, name
     return None
 
 
-def _name(result: Mapping[str, Any]) -> str:
-    return f"{result['config']}-#{result['run']}"
+def _name(result: RunFigures) -> str:
+    return f"{result.config}-#{result.run}"
 
 
-def _values_of(result: Mapping[str, Any]) -> str:
-    return json.dumps([result["config"], result["mode"], result["iterations"]], sort_keys=True)
-
-
-def _by(
-    results: Iterable[Mapping[str, Any]], key: Callable[[Mapping[str, Any]], object]
-) -> list[list[Mapping[str, Any]]]:
+def _by(results: Iterable[RunFigures], key: Callable[[RunFigures], object]) -> list[list[RunFigures]]:
     """Return the results in groups of equal keys."""
-    groups: dict[object, list[Mapping[str, Any]]] = {}
+    groups: dict[object, list[RunFigures]] = {}
     for result in results:
         groups.setdefault(key(result), []).append(result)
     return list(groups.values())
 
 
-@dataclass(frozen=True)
-class _Quantities:
-    """What means are made of, of one run."""
-
-    tracked: Mapping[str, Sequence[Tracked]]
-    figures: Mapping[str, float]
-    """Shares of messages and frames, and the mean delays of messages."""
-
-    @classmethod
-    def of(cls, result: Mapping[str, Any]) -> "_Quantities":
-        delays = mean_delays(result.get("message_delays") or {})
-        return cls(tracked_by_group(result["nodes"]), {**dict(shares(result["fates"])), **delays})
-
-
-def _mean_of_variable(
-    result: Mapping[str, Any], runs: Iterable[_Quantities], group: str, name: str
-) -> Iterator[Mean]:
+def _mean_of_variable(runs: Sequence[RunFigures], group: str, name: str) -> Iterator[Mean]:
     of_runs: list[float] = []
     left_out: Counter[str] = Counter()
     nodes = 0
-    for run in runs:
-        numbers, others = numbers_and_others(run.tracked.get(group, ()), name)
-        nodes += len(numbers) + len(others)
-        left_out.update(others)
-        if numbers:
-            of_runs.append(mean_of(numbers))
+    for of_group in (run.groups[group] for run in runs if group in run.groups):
+        nodes += of_group.node_count
+        variable = of_group.variable(name)
+        left_out.update(variable.others)
+        if variable.mean is not None:
+            of_runs.append(variable.mean)
     if nodes:
         text = ", ".join(f"{count} {what}" for what, count in left_out.items())
-        yield _mean(result, f"{group} {name}", of_runs, f"{text} of {nodes}" if text else "")
+        yield _mean(runs[0], f"{group} {name}", of_runs, f"{text} of {nodes}" if text else "")
 
 
-def _mean(result: Mapping[str, Any], quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
+def _mean(result: RunFigures, quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
     mean, half_width = mean_with_half_width(values) if values else (None, None)
     return Mean(
-        result["config"],
-        result["mode"],
-        result["iterations"],
+        result.config,
+        result.mode,
+        result.iterations,
         quantity,
         len(values),
         mean,

@@ -14,6 +14,7 @@ from gradysim.results.means import (
     read_results,
     repeated,
 )
+from gradysim.results.run_figures import RunFigures
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -32,12 +33,16 @@ def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> 
     }
 
 
-def quantities(results: list[dict[str, Any]]) -> dict[str, float | None]:
+def figures(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> RunFigures:
+    return RunFigures.of(result(run, heard, **changes))
+
+
+def quantities(results: list[RunFigures]) -> dict[str, float | None]:
     return {mean.quantity: mean.mean for mean in means(results)}
 
 
 def test_a_tracked_variable_counts_with_the_mean_of_its_group() -> None:
-    (mean,) = means([result(0, (1, 3)), result(1, (3, 5))])
+    (mean,) = means([figures(0, (1, 3)), figures(1, (3, 5))])
     assert mean == Mean(
         "Study", "integrated", {"jitter": "10ms"}, "uavs[*] heard", 2, 3.0, pytest.approx(12.706, abs=1e-3)
     )
@@ -45,17 +50,17 @@ def test_a_tracked_variable_counts_with_the_mean_of_its_group() -> None:
 
 def test_a_delay_counts_with_the_mean_of_each_run() -> None:
     delays = [{"unicast": {"mean_s": mean_s}} for mean_s in (0.1, 0.3)]
-    results = [result(run, (), message_delays=each) for run, each in enumerate(delays)]
+    results = [figures(run, (), message_delays=each) for run, each in enumerate(delays)]
     assert quantities(results) == {"unicast messages delay in s": pytest.approx(0.2)}
 
 
 def test_a_run_without_messages_has_no_delay() -> None:
-    (mean,) = means([result(0, (), message_delays={"unicast": {"mean_s": 0.1}}), result(1, ())])
+    (mean,) = means([figures(0, (), message_delays={"unicast": {"mean_s": 0.1}}), figures(1, ())])
     assert (mean.mean, mean.runs) == (0.1, 1)
 
 
 def test_a_delay_of_0_is_told() -> None:
-    (mean,) = means([result(0, (), message_delays={"unicast": {"mean_s": 0.0}})])
+    (mean,) = means([figures(0, (), message_delays={"unicast": {"mean_s": 0.0}})])
     assert (mean.quantity, mean.mean) == ("unicast messages delay in s", 0)
 
 
@@ -64,7 +69,7 @@ def test_groups_and_single_nodes_are_apart() -> None:
         {"name": "groundStation", "tracked_variables": {"heard": 7, "said": 2.5}},
         {"name": "uavs[0]", "tracked_variables": {"heard": 1}},
     ]
-    assert quantities([result(nodes=nodes)]) == {
+    assert quantities([figures(nodes=nodes)]) == {
         "groundStation heard": 7,
         "groundStation said": 2.5,
         "uavs[*] heard": 1,
@@ -73,23 +78,23 @@ def test_groups_and_single_nodes_are_apart() -> None:
 
 def test_numbers_may_be_as_large_as_a_float_holds() -> None:
     largest = sys.float_info.max
-    (mean,) = means([result(0, (largest, largest)), result(1, (largest, largest))])
+    (mean,) = means([figures(0, (largest, largest)), figures(1, (largest, largest))])
     assert (mean.mean, mean.half_width) == (largest, 0)
 
 
 def test_what_is_left_out_is_told_with_the_number_of_values() -> None:
-    (mean,) = means([result(0, (None, 3)), result(1, ("inf", 5)), result(2, (None, "inf"))])
+    (mean,) = means([figures(0, (None, 3)), figures(1, ("inf", 5)), figures(2, (None, "inf"))])
     assert (mean.mean, mean.runs, mean.left_out) == (4, 2, "2 nan or None, 2 inf of 6")
 
 
 def test_nodes_and_runs_without_a_variable_are_told() -> None:
     nodes = [{"name": "uavs[0]", "tracked_variables": {}}, {"name": "uavs[1]", "tracked_variables": {}}]
-    (mean,) = means([result(0, (1, 2)), result(1, nodes=nodes)])
+    (mean,) = means([figures(0, (1, 2)), figures(1, nodes=nodes)])
     assert (mean.mean, mean.runs, mean.left_out) == (1.5, 1, "2 missing of 4")
 
 
 def test_where_no_node_has_a_number_there_is_no_mean() -> None:
-    found = means([result(0, (1,)), result(1, (None,), iterations={"jitter": "20ms"})])
+    found = means([figures(0, (1,)), figures(1, (None,), iterations={"jitter": "20ms"})])
     assert [(mean.mean, mean.half_width, mean.runs, mean.left_out) for mean in found] == [
         (1, None, 1, ""),
         (None, None, 0, "1 nan or None of 1"),
@@ -97,11 +102,11 @@ def test_where_no_node_has_a_number_there_is_no_mean() -> None:
 
 
 def test_a_variable_that_is_a_number_nowhere_is_no_quantity() -> None:
-    assert means([result(0, (None, "text"))]) == []
+    assert means([figures(0, (None, "text"))]) == []
 
 
 def test_a_group_that_only_some_values_of_variables_have_counts_where_it_is() -> None:
-    found = means([result(0, (1,)), result(1, (), iterations={"jitter": "20ms"})])
+    found = means([figures(0, (1,)), figures(1, (), iterations={"jitter": "20ms"})])
     assert [(mean.iterations, mean.left_out) for mean in found] == [({"jitter": "10ms"}, "")]
 
 
@@ -112,8 +117,8 @@ def unicast(acknowledged: int, queue_overflow: int) -> dict[str, Any]:
 def test_what_was_lost_in_other_runs_of_the_study_is_0() -> None:
     found = means(
         [
-            result(0, (), fates=unicast(5, 0)),
-            result(1, (), fates=unicast(1, 3), iterations={"jitter": "20ms"}),
+            figures(0, (), fates=unicast(5, 0)),
+            figures(1, (), fates=unicast(1, 3), iterations={"jitter": "20ms"}),
         ]
     )
     assert [(mean.quantity, mean.mean) for mean in found] == [
@@ -125,18 +130,18 @@ def test_what_was_lost_in_other_runs_of_the_study_is_0() -> None:
 
 
 def test_what_was_lost_in_no_run_takes_no_room() -> None:
-    assert quantities([result(0, (), fates=unicast(5, 0))]) == {"unicast messages acknowledged": 1}
+    assert quantities([figures(0, (), fates=unicast(5, 0))]) == {"unicast messages acknowledged": 1}
 
 
 def test_that_no_message_arrived_is_told() -> None:
-    assert quantities([result(0, (), fates=unicast(0, 2))]) == {
+    assert quantities([figures(0, (), fates=unicast(0, 2))]) == {
         "unicast messages acknowledged": 0,
         "unicast messages queue overflow": 1,
     }
 
 
 def test_runs_without_such_messages_do_not_count() -> None:
-    (mean,) = means([result(0, (), fates=unicast(5, 0)), result(1, (), fates=unicast(0, 0))])
+    (mean,) = means([figures(0, (), fates=unicast(5, 0)), figures(1, (), fates=unicast(0, 0))])
     assert (mean.mean, mean.runs) == (1, 1)
 
 
@@ -148,30 +153,30 @@ def test_other_values_modes_and_configurations_are_apart() -> None:
         {"mode": "prototype"},
         {"config": "Other"},
     ]
-    found = means([result(run, (run,), **change) for run, change in enumerate(changes)])
+    found = means([figures(run, (run,), **change) for run, change in enumerate(changes)])
     assert [(mean.mean, mean.runs, mean.half_width) for mean in found] == [
         (run, 1, None) for run in range(len(changes))
     ]
 
 
 def test_the_order_of_variables_does_not_matter() -> None:
-    (mean,) = means([result(0, iterations={"x": 1, "y": 2}), result(1, iterations={"y": 2, "x": 1})])
+    (mean,) = means([figures(0, iterations={"x": 1, "y": 2}), figures(1, iterations={"y": 2, "x": 1})])
     assert mean.runs == 2
 
 
 def test_runs_of_equal_values_and_different_settings_are_named() -> None:
-    results = [result(3), result(4, settings_hash="a"), result(5, settings_hash="b")]
+    results = [figures(3), figures(4, settings_hash="a"), figures(5, settings_hash="b")]
     assert of_different_settings(results) == ("Study-#3", "Study-#4")
     assert of_different_settings(results[1:]) == ("Study-#4", "Study-#5")
 
 
 def test_settings_may_differ_with_the_values() -> None:
-    results = [result(0, settings_hash="a"), result(1, settings_hash="b", iterations={"jitter": "20ms"})]
+    results = [figures(0, settings_hash="a"), figures(1, settings_hash="b", iterations={"jitter": "20ms"})]
     assert of_different_settings(results) is None
 
 
 def test_runs_that_are_another_one_over_again_are_named() -> None:
-    results = [result(run, seed=5, fingerprint="f") for run in range(3)]
+    results = [figures(run, seed=5, fingerprint="f") for run in range(3)]
     assert repeated(results) == [("Study-#0", "Study-#1"), ("Study-#0", "Study-#2")]
 
 
@@ -189,14 +194,14 @@ def test_runs_that_are_another_one_over_again_are_named() -> None:
 )
 def test_a_run_that_differs_is_another_one(change: dict[str, Any]) -> None:
     equal: dict[str, Any] = {"seed": 5, "settings_hash": "a", "fingerprint": "f"}
-    assert repeated([result(0, **equal), result(1, **{**equal, **change})]) == []
+    assert repeated([figures(0, **equal), figures(1, **{**equal, **change})]) == []
 
 
 def test_runs_made_with_different_files_of_one_name_are_told() -> None:
     results = [
-        result(0, file_hashes={"a.py": "1", "b.py": "1"}),
-        result(1, file_hashes={"a.py": "1"}, iterations={"jitter": "20ms"}),
-        result(2, file_hashes={"a.py": "1", "b.py": "2"}, mode="prototype"),
+        figures(0, file_hashes={"a.py": "1", "b.py": "1"}),
+        figures(1, file_hashes={"a.py": "1"}, iterations={"jitter": "20ms"}),
+        figures(2, file_hashes={"a.py": "1", "b.py": "2"}, mode="prototype"),
     ]
     assert of_different_files(results) == ("Study-#0.integrated", "Study-#2.prototype", "b.py")
     assert of_different_files(results[:2]) is None
@@ -204,9 +209,9 @@ def test_runs_made_with_different_files_of_one_name_are_told() -> None:
 
 def test_other_configurations_and_results_of_before_say_nothing_of_files() -> None:
     results = [
-        result(0, file_hashes={"a.py": "1"}),
-        result(0, file_hashes={"a.py": "2"}, config="Other"),
-        result(1),
+        figures(0, file_hashes={"a.py": "1"}),
+        figures(0, file_hashes={"a.py": "2"}, config="Other"),
+        figures(1),
     ]
     assert of_different_files(results) is None
 
@@ -214,7 +219,7 @@ def test_other_configurations_and_results_of_before_say_nothing_of_files() -> No
 def test_results_are_read_in_the_order_of_their_runs(tmp_path: Path) -> None:
     for run in (10, 9):
         (tmp_path / f"Study-#{run}.integrated.json").write_text(json.dumps(result(run)))
-    assert [read["run"] for read in read_results(tmp_path)] == [9, 10]
+    assert [read.run for read in read_results(tmp_path)] == [9, 10]
 
 
 def test_other_files_and_interrupted_runs_are_left_out(tmp_path: Path) -> None:
