@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
 from gradysim.commands.exit_code import OK, say_mistake
-from gradysim.commands.scenarios import load
+from gradysim.commands.scenarios import check
 
 if TYPE_CHECKING:
     from gradysim.config.value.kinds import Kind, Scalar
@@ -48,7 +48,7 @@ def calibrate_power(
     from gradysim.report import calibration
 
     try:
-        scenario = load(file, config, "0", settings)[0]
+        scenario = check(file, config, "0", settings).scenarios[0]
         if not 0 < ratio < 1:
             hint = f"; did you mean {ratio / 100:g}?" if 1 < ratio < 100 else ""
             raise ConfigError(

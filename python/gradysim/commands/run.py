@@ -2,6 +2,7 @@
 
 import contextlib
 import sys
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
@@ -31,7 +32,7 @@ from gradysim.commands.run_options import (
     SeedOption,
     VectorsOption,
 )
-from gradysim.commands.scenarios import load
+from gradysim.commands.scenarios import check, placed
 from gradysim.commands.several_runs import one_after_the_other, several_at_once
 from gradysim.commands.simulators import check_names, simulator
 from gradysim.commands.warnings import tell, warnings_of_lines, warnings_of_networks, warnings_of_seeds
@@ -76,8 +77,9 @@ def run(
             if asked.writes_files:
                 make_result_dir(asked.directory)
             with waiting(f"reading {file}", shown=bar):
-                scenarios = load(file, config, runs, settings, seed)
-            check, build = simulator(mode, asked)
+                checked = check(file, config, runs, settings, seed)
+            scenarios: Sequence[Scenario] = checked.scenarios
+            check_network, build = simulator(mode, asked)
             check_names(scenarios, asked)
             check_file_names(scenarios, mode, asked)
             tell(warnings_of_seeds(scenarios))
@@ -87,10 +89,12 @@ def run(
                     return OK
             if asked.writes_files:
                 check_may_be_written_to(asked.directory)
+            with waiting(f"reading {file}", shown=bar):
+                scenarios = placed(checked, scenarios)
             tell(warnings_of_lines(scenarios))
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
-                    check(scenario, is_built_next=len(scenarios) == 1)
+                    check_network(scenario, is_built_next=len(scenarios) == 1)
             if mode == "integrated":
                 tell(warnings_of_networks(scenarios))
 

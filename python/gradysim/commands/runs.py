@@ -2,7 +2,7 @@
 
 from gradysim.commands.arguments import ConfigOption, FileArgument, SetOption
 from gradysim.commands.exit_code import OK, say_mistake
-from gradysim.commands.scenarios import load
+from gradysim.commands.scenarios import check
 from gradysim.commands.warnings import tell
 
 
@@ -13,7 +13,7 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     from gradysim.config.runs.iterations import text_of_iterations
 
     try:
-        scenarios = load(file, config, None, settings)
+        scenarios = check(file, config, None, settings).scenarios
         tell(unread_variables(scenarios[0].unread_variables, scenarios[0].lines))
         for scenario in scenarios:
             values = {**scenario.iterations, "repetition": scenario.repetition}

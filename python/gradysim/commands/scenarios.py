@@ -1,30 +1,37 @@
 """The scenarios that a command line names."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.commands.current_folder import back_afterwards
 
 if TYPE_CHECKING:
+    from gradysim.config.load import CheckedScenarios
     from gradysim.config.scenario import Scenario
 
 
-def load(
+def check(
     file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
-) -> "list[Scenario]":
-    """Return one scenario per run. Raises ConfigError.
+) -> "CheckedScenarios":
+    """Return one scenario per run, checked. Raises ConfigError.
 
     Says on the error output which of `settings` have no effect, because others before them have their keys.
     """
     from gradysim.config.errors.argument_names import ArgumentNames
-    from gradysim.config.load import load_scenarios
+    from gradysim.config.load import CheckedScenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
     with back_afterwards():  # files of protocols are carried out
-        return load_scenarios(file, config, runs, settings, seed, names=names)
+        return CheckedScenarios(file, config, runs, settings, seed, names)
+
+
+def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "list[Scenario]":
+    """Return some of them with all their nodes where they are."""
+    with back_afterwards():
+        return [checked.placed(scenario) for scenario in scenarios]
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:

@@ -1,8 +1,10 @@
 """Reads a configuration of a file as scenarios, one for each run."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from gradysim.config.errors.argument_names import OF_SCRIPT, ArgumentNames
 from gradysim.config.errors.config_error import ConfigError
@@ -12,6 +14,7 @@ from gradysim.config.file.sections import Ranked, search_order, what_to_run_inst
 from gradysim.config.keys.options import NETWORK, OPTIONS
 from gradysim.config.matching.key_check import check_option
 from gradysim.config.matching.lookup import is_option, network_name, options_in_force
+from gradysim.config.network import Network
 from gradysim.config.networks import Networks
 from gradysim.config.runs.iterations import name_iterations
 from gradysim.config.runs.labels import free_text, with_labels
@@ -50,73 +53,114 @@ def load_scenarios(
         TypeError: `config` is no text, `overrides` are no list of texts, `runs` no numbers, or `seed` is no
             whole number.
     """
-    if not isinstance(config, str):
-        raise TypeError(f"{names.config} {config!r}: expected the name of a configuration")
-    if seed is not None:
-        seed = whole_seed(seed)
-    file = Path(file)
-    ini = read_ini(file)
-    sections = tuple(search_order(ini, config))
-    source = sections[0].source
-    ranked = [Ranked(0, entry) for entry in read_overrides(file, overrides, names.overrides)]
-    for rank, section in enumerate(sections, start=1):
-        ranked += [Ranked(rank, entry) for entry in section.entries]
-    for _, entry in ranked:
-        if is_option(entry):
-            check_option(entry)
+    checked = CheckedScenarios(file, config, runs, overrides, seed, names)
+    return [checked.placed(scenario) for scenario in checked.scenarios]
 
-    network_of_file = network_name(next((entry for _, entry in ranked if entry.key == NETWORK), None))
-    ranked, variables = name_iterations(ranked)
-    lines = tuple(entry for _, entry in ranked)
-    as_written = options_in_force(lines)
-    numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
-    if seed is not None:
-        check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
 
-    networks = Networks(ranked, file.parent, what_to_run_instead(ini, config, sections, names.config), source)
-    in_force = entries_of_the_hash(ranked)
-    hashes: dict[tuple[str, ...], str] = {}  # by the values of the iterations: no more of a run is in it
-    made = []
-    for number, repetition, iterations in numbered:
-        values = run_variables(file, network_of_file, config, number, repetition, iterations)
-        of_file = seed_of_file(as_written, number, values)
-        seed_of_run = of_file if seed is None else seed + number
-        key = tuple(iterations.values())
-        if key not in hashes:
-            hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
-            hashes[key] = settings_hash(substituted(in_force, hashed))
-        values = with_labels(values, seed_of_run, as_written)
-        options = {name: substitute(entry, values) for name, entry in as_written.items()}
-        network = networks.of_run(values, seed_of_run)
-        made.append(
-            partial(
-                Scenario,
-                file=file,
-                config=config,
-                run_number=number,
-                seed=seed_of_run,
-                description=_description(options),
-                sim_time_limit_s=_sim_time_limit_s(options, config, source),
-                nodes=network.nodes,
-                medium=network.medium,
-                communication_medium=network.communication_medium,
-                reference_coordinates=network.reference_coordinates,
-                obstacles=network.obstacles,
-                sections=sections,
-                repetition=repetition,
-                iterations=iterations,
-                settings_hash=hashes[key],
-                file_hashes=network.file_hashes,
-                run_count=run_count,
-                network=network_of_file,
-                lines=lines,
+class CheckedScenarios:
+    """The runs of a configuration, all of it checked, of which only what is asked for is worked out.
+
+    Attributes:
+        scenarios: One per run, by run number. Of those that differ in their seeds alone, nodes may stand
+            where they do in the first of them; `placed` puts them where they belong.
+    """
+
+    def __init__(
+        self,
+        file: str | Path,
+        config: str,
+        runs: str | Iterable[int] | None,
+        overrides: Iterable[str],
+        seed: int | None,
+        names: ArgumentNames,
+    ) -> None:
+        """Read and check it; arguments and exceptions are those of `load_scenarios`."""
+        if not isinstance(config, str):
+            raise TypeError(f"{names.config} {config!r}: expected the name of a configuration")
+        if seed is not None:
+            seed = whole_seed(seed)
+        file = Path(file)
+        ini = read_ini(file)
+        sections = tuple(search_order(ini, config))
+        source = sections[0].source
+        ranked = [Ranked(0, entry) for entry in read_overrides(file, overrides, names.overrides)]
+        for rank, section in enumerate(sections, start=1):
+            ranked += [Ranked(rank, entry) for entry in section.entries]
+        for _, entry in ranked:
+            if is_option(entry):
+                check_option(entry)
+
+        network_of_file = network_name(next((entry for _, entry in ranked if entry.key == NETWORK), None))
+        ranked, variables = name_iterations(ranked)
+        lines = tuple(entry for _, entry in ranked)
+        as_written = options_in_force(lines)
+        numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
+        if seed is not None:
+            check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
+
+        instead = what_to_run_instead(ini, config, sections, names.config)
+        networks = self._networks = Networks(ranked, file.parent, instead, source)
+        self._elsewhere: dict[int, dict[str, str]] = {}  # variables of runs with a network of another seed
+        in_force = entries_of_the_hash(ranked)
+        hashes: dict[tuple[str, ...], str] = {}  # by the values of the iterations: no more of a run is in it
+        made = []
+        for number, repetition, iterations in numbered:
+            values = run_variables(file, network_of_file, config, number, repetition, iterations)
+            of_file = seed_of_file(as_written, number, values)
+            seed_of_run = of_file if seed is None else seed + number
+            key = tuple(iterations.values())
+            if key not in hashes:
+                hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
+                hashes[key] = settings_hash(substituted(in_force, hashed))
+            values = with_labels(values, seed_of_run, as_written)
+            options = {name: substitute(entry, values) for name, entry in as_written.items()}
+            network, is_its_own = networks.checked(values, seed_of_run)
+            if not is_its_own:
+                self._elsewhere[number] = values
+            made.append(
+                partial(
+                    Scenario,
+                    file=file,
+                    config=config,
+                    run_number=number,
+                    seed=seed_of_run,
+                    description=_description(options),
+                    sim_time_limit_s=_sim_time_limit_s(options, config, source),
+                    **_fields(network),
+                    sections=sections,
+                    repetition=repetition,
+                    iterations=iterations,
+                    settings_hash=hashes[key],
+                    run_count=run_count,
+                    network=network_of_file,
+                    lines=lines,
+                )
             )
-        )
-    if len(numbered) < run_count:  # the others may have nodes that these have not, and read other lines
-        return [make() for make in made]
-    networks.check_lines_of_other_runs()
-    unread = networks.unread(lines, variables)
-    return [make(unread_variables=unread) for make in made]
+        if len(numbered) < run_count:  # the others may have nodes that these have not, and read other lines
+            self.scenarios = [make() for make in made]
+            return
+        networks.check_lines_of_other_runs()
+        unread = networks.unread(lines, variables)
+        self.scenarios = [make(unread_variables=unread) for make in made]
+
+    def placed(self, scenario: Scenario) -> Scenario:
+        """Return one of the scenarios with its nodes where they are."""
+        variables = self._elsewhere.get(scenario.run_number)
+        if variables is None:
+            return scenario
+        return replace(scenario, **_fields(self._networks.of_run(variables, scenario.seed)))
+
+
+def _fields(network: Network) -> dict[str, Any]:
+    """Those that a scenario has of its network."""
+    return {
+        "nodes": network.nodes,
+        "medium": network.medium,
+        "communication_medium": network.communication_medium,
+        "reference_coordinates": network.reference_coordinates,
+        "obstacles": network.obstacles,
+        "file_hashes": network.file_hashes,
+    }
 
 
 def _sim_time_limit_s(options: Mapping[str, Entry], config: str, source: Source) -> float:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from gradysim.config.errors.source import Source
 from gradysim.config.file.reader import Entry
@@ -16,6 +17,15 @@ from gradysim.config.runs.unread_variables import UnreadVariables, line_instead,
 from gradysim.config.runs.variables import depends_on_run, substitute, substituted
 from gradysim.config.value.drawing_functions import drawing_function_in
 from gradysim.config.value.setting import SettingReader
+
+
+class _Read(NamedTuple):
+    """A network, what it was made of, and what has read it."""
+
+    texts: list[str]
+    seed: int
+    network: Network
+    settings: SettingReader
 
 
 class Networks:
@@ -37,7 +47,7 @@ class Networks:
         parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
         self._varying = [entry for entry in parameters if depends_on_run(entry)]
         self._always_draws = any(drawing_function_in(entry.text) for entry in parameters)
-        self._last: tuple[tuple[str | int, ...], Network, SettingReader] | None = None
+        self._last: _Read | None = None
         self._of_other_runs: list[Sequence[Source]] = []
         self._read: set[Source] = set()
 
@@ -46,17 +56,35 @@ class Networks:
 
         Raises ConfigError for anything that is wrong.
         """
-        texts = [substitute(entry, variables).text for entry in self._varying]
-        draws = self._always_draws or any(map(drawing_function_in, texts))
-        made_of = (*texts, *([seed] if draws else ()))
-        if self._last is None or made_of != self._last[0]:
-            settings = SettingReader(seed)
-            entries = substituted(self._ranked, variables)
-            network = read_network(entries, settings, self._loader, self._hashes, self._instead, self._source)
-            self._of_other_runs.append(network.lines_of_other_runs)
-            self._read |= settings.lines_read()
-            self._last = made_of, network, settings
-        return self._last[1]
+        network, is_its_own = self.checked(variables, seed)
+        return network if is_its_own else self._read_network(self._texts(variables), variables, seed)
+
+    def checked(self, variables: Mapping[str, str], seed: int) -> tuple[Network, bool]:
+        """Return the network of a run, or one of another seed if nothing is wrong with both or with neither.
+
+        And whether it is the first. Raises ConfigError for anything that is wrong.
+        """
+        texts, last = self._texts(variables), self._last
+        if last is None or texts != last.texts:
+            return self._read_network(texts, variables, seed), True
+        if seed == last.seed or not (self._always_draws or any(map(drawing_function_in, texts))):
+            return last.network, True
+        if last.settings.is_right_for_all_seeds():
+            return last.network, False
+        return self._read_network(texts, variables, seed), True
+
+    def _texts(self, variables: Mapping[str, str]) -> list[str]:
+        """What networks differ by, but for what they draw."""
+        return [substitute(entry, variables).text for entry in self._varying]
+
+    def _read_network(self, texts: list[str], variables: Mapping[str, str], seed: int) -> Network:
+        settings = SettingReader(seed)
+        entries = substituted(self._ranked, variables)
+        network = read_network(entries, settings, self._loader, self._hashes, self._instead, self._source)
+        self._of_other_runs.append(network.lines_of_other_runs)
+        self._read |= settings.lines_read()
+        self._last = _Read(texts, seed, network, settings)
+        return network
 
     def check_lines_of_other_runs(self) -> None:
         """Raise NoSuchNodeError for the first line that each of the runs leaves to others."""
@@ -72,7 +100,7 @@ class Networks:
     ) -> tuple[UnreadVariables, ...]:
         """Return which of the variables, of these lines of the configuration, no run up to now has read."""
         assert self._last is not None
-        _, network, settings = self._last
+        network, settings = self._last.network, self._last.settings
         nodes, parameters = [spec.name for spec in network.nodes], settings.parameters_read()
         return tuple(
             UnreadVariables(line, names, line_instead(line, network.lookup, nodes, parameters))

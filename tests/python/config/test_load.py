@@ -4,7 +4,10 @@ from typing import Any
 
 import pytest
 
-from gradysim.config import ConfigError, load_scenarios
+from gradysim.config import ConfigError, load_scenarios, networks
+from gradysim.config.errors.argument_names import OF_SCRIPT
+from gradysim.config.load import CheckedScenarios
+from gradysim.config.network import read_network
 from gradysim.config.scenario import CommunicationMediumSpec, Scenario
 from python.config.conftest import BASE
 
@@ -318,3 +321,43 @@ def test_twice_the_lines_take_twice_the_time(
 
     few, many = (count_matches(lambda size=size: load(size)) for size in (60, 120))
     assert many <= 2.2 * few
+
+
+PLACES = "repeat = 5\n*.uavs[*].mobility.initialX = uniform(0m, 1km)\n"
+
+
+def checked(folder: Any, added: str) -> CheckedScenarios:
+    folder.write("test.ini", BASE + added)
+    return CheckedScenarios(folder.ini, "General", None, (), None, OF_SCRIPT)
+
+
+@pytest.mark.parametrize(
+    ("added", "count"),
+    [
+        (PLACES, 1),
+        (PLACES + "*.uavs[*].mobility.speed = ${1mps, 2mps}\n", 2),
+        ("repeat = 5\n*.uavs[*].mobility.speed = uniform(1mps, 2mps)\n", 5),
+    ],
+)
+def test_runs_whose_nodes_only_stand_elsewhere_are_checked_once(
+    folder: Any, monkeypatch: pytest.MonkeyPatch, added: str, count: int
+) -> None:
+    read: list[object] = []
+    monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
+    assert len({id(scenario.nodes) for scenario in checked(folder, added).scenarios}) == len(read) == count
+
+
+def test_they_are_placed_where_they_stand_if_read_alone(folder: Any) -> None:
+    def positions(scenario: Scenario) -> list[tuple[float, float, float]]:
+        return [node.initial_position for node in scenario.nodes]
+
+    study = checked(folder, PLACES)
+    alone = [positions(load_scenarios(folder.ini, runs=str(number))[0]) for number in range(5)]
+    assert [positions(study.placed(scenario)) for scenario in study.scenarios] == alone
+    assert [positions(scenario) for scenario in load_scenarios(folder.ini)] == alone
+    assert len(set(map(str, alone))) == 5
+
+
+def test_what_only_the_seed_of_a_later_run_makes_wrong_is_refused(folder: Any) -> None:
+    with pytest.raises(ConfigError, match="with seed 4: it is out of range"):
+        checked(folder, "repeat = 50\n*.uavs[*].mobility.speed = uniform(-1mps, 20mps)\n")

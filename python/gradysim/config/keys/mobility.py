@@ -2,7 +2,7 @@
 
 from gradysim.config.keys.key import Key
 from gradysim.config.keys.shapes import Below, angle
-from gradysim.config.value.kinds import boolean, choice, coordinate, file_name, integer, quantity, text
+from gradysim.config.value.kinds import boolean, choice, coordinate, file_name, integer, place, quantity, text
 
 MASSLESS = "MasslessMobility"
 STATIONARY = "StationaryMobility"
@@ -36,13 +36,13 @@ MOBILITY_KEYS: tuple[Key, ...] = (
     _start(
         "initialX",
         "initial_x",
-        coordinate(),
+        place(),
         "Where it starts, x; of initialX, lineStartX/lineStepX and a grid the one that is written first is in"
         " force",
         default="0m",
     ),
-    _start("initialY", "initial_y", coordinate(), "The same for y", default="0m"),
-    _start("initialZ", "initial_z", coordinate(), "The same for z: height", default="0m"),
+    _start("initialY", "initial_y", place(), "The same for y", default="0m"),
+    _start("initialZ", "initial_z", place(), "The same for z: height", default="0m"),
     _start(
         "lineStartX",
         "line_start_x",

@@ -32,6 +32,8 @@ class Kind:
         is_file: Whether that text is the name of a file, seen from the .ini file.
         unit: For a list of keys: the unit, or what it is instead ("whole number").
         show: Writes what is stored as it would stand in a file, in `unit`.
+        has_all_between: Whether all between two values of this kind is of it, and right whatever else the
+            file says.
     """
 
     expected: str
@@ -41,6 +43,7 @@ class Kind:
     is_file: bool = False
     unit: str = ""
     show: Callable[[Scalar], str] = str
+    has_all_between: bool = False
 
 
 def quantity(
@@ -71,6 +74,11 @@ def quantity(
             f"{value:g}{unit}" if value == special else _in_unit(float(value), unit, shown or unit)
         ),
     )
+
+
+def place() -> Kind:
+    """A coordinate where a node may be, whatever else is there."""
+    return replace(coordinate(), has_all_between=True)
 
 
 def coordinate() -> Kind:

@@ -12,6 +12,7 @@ from gradysim.config.value.expression import parse_value
 from gradysim.config.value.kinds import Kind, Scalar
 from gradysim.config.value.operators import Value, text_of
 from gradysim.config.value.parameter_context import ParameterContext, differs_between_parameters
+from gradysim.config.value.safe_draws import is_safe
 
 _LIKE_AN_EXPRESSION = re.compile(r'"|\?|\w\s*\(')
 """What no text without quotes has: texts in quotes, conditions and calls."""
@@ -35,6 +36,7 @@ class SettingReader:
         self._files: dict[str, None] = {}  # in their order, each once
         self._read: dict[int, Entry] = {}
         self._parameters: set[str] = set()
+        self._draws: dict[tuple[str, Kind], bool] = {}  # whether they are safe
 
     def setting(self, entry: Entry, kind: Kind, path: str = "") -> Setting:
         """The value of an entry. Raises ConfigError with its place if it is not of that kind.
@@ -48,6 +50,8 @@ class SettingReader:
             self._parameters.add(path.partition(".")[2])
             if path and differs_between_parameters(entry.text):
                 own = read_scalar(entry, kind, path, ParameterContext(self._seed, path))
+                if (entry.text, kind) not in self._draws:
+                    self._draws[entry.text, kind] = is_safe(entry.text, kind)
                 return self._noted(Setting(own, entry.source), kind)
             # Entry and kind are kept beside the value, so that their ids are not given to others.
             setting = self._noted(Setting(read_scalar(entry, kind, path), entry.source), kind)
@@ -66,9 +70,15 @@ class SettingReader:
         """What they were read for, without the names of nodes and parts of the network: "mobility.speed"."""
         return frozenset(self._parameters - {""})
 
+    def is_right_for_all_seeds(self) -> bool:
+        """Whether runs that differ from this one in their seed alone have no other mistakes than it."""
+        return all(self._draws.values())
+
     def for_checks(self) -> "SettingReader":
-        """Return another reader for the same run, of which this one takes no notice."""
-        return SettingReader(self._seed)
+        """Return another reader for the same run, of which this one notices only what it draws."""
+        reader = SettingReader(self._seed)
+        reader._draws = self._draws
+        return reader
 
     def _noted(self, setting: Setting, kind: Kind) -> Setting:
         if kind.is_file and setting.value:
