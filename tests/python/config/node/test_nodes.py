@@ -296,6 +296,13 @@ def test_errors(folder: Any, added: str, message: str) -> None:
     assert folder.error(added) == f"test.ini:6: {message}"
 
 
+def test_a_single_node_has_no_index_to_be_told_of(folder: Any) -> None:
+    added = '*.boat.protocol.class = default\n*.boat.protocol.class = "protocols.py:Mobile"\n'
+    assert folder.error(added).endswith(
+        'nothing says which protocol boat runs; expected `*.boat.protocol.class = "file.py:Class"`'
+    )
+
+
 @pytest.mark.parametrize("rest", ["protocl.class", "protocol.clas", "protocol.Class", "protocol"])
 def test_a_line_that_was_meant_to_say_the_protocol_is_named(folder: Any, rest: str) -> None:
     assert folder.error(f'*.numBoats = 1\n*.boats[*].{rest} = "protocols.py:Mobile"\n') == (
