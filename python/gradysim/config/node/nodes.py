@@ -334,7 +334,7 @@ def _misspelt_class_error(lookup: Lookup, group: Group, node: str) -> ConfigErro
 
 def _without_index(found: Found, group: Group, network: str) -> Key | None:
     """The key by which an entry says what the nodes of a group run, but for `[*]` after the group's name."""
-    if found.is_default:
+    if found.is_default or group.written == group.name:
         return None
     matches = found.pattern.matches
     return next((key for key in PROTOCOL_KEYS if matches(f"{network}.{group.name}.{key.path}")), None)
