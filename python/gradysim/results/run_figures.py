@@ -14,12 +14,15 @@ from gradysim.results.tracked_numbers import Tracked, numbers_and_others, numeri
 
 @dataclass(frozen=True)
 class TrackedVariable:
-    """A tracked variable at the nodes of a group."""
+    """A tracked variable at the nodes of a group.
+
+    Attributes:
+        mean: Of the finite numbers; None if it is one at no node.
+        others: What it is at how many of the other nodes.
+    """
 
     mean: float | None
-    """Of the finite numbers; None if it is one at no node."""
     others: Mapping[str, int]
-    """What it is at how many of the other nodes."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +48,13 @@ class GroupFigures:
 
 @dataclass(frozen=True)
 class RunFigures:
-    """One run."""
+    """One run.
+
+    Attributes:
+        computed: A hash of all that it computed.
+        numeric_variables: (group, name) of those that are a number, if only an infinite one, at any node.
+        figures: Shares of messages and frames, and the mean delays of messages.
+    """
 
     config: str
     mode: str
@@ -55,12 +64,9 @@ class RunFigures:
     settings_hash: object
     file_hashes: Mapping[str, str]
     computed: str
-    """A hash of all that it computed."""
     groups: Mapping[str, GroupFigures]
     numeric_variables: tuple[tuple[str, str], ...]
-    """(group, name) of those that are a number, if only an infinite one, at any node."""
     figures: Mapping[str, float]
-    """Shares of messages and frames, and the mean delays of messages."""
 
     @classmethod
     def of(cls, result: Mapping[str, Any]) -> "RunFigures":
