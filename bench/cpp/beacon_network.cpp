@@ -21,8 +21,7 @@ constexpr netsim::Purpose scenario_draws{1002};
 // The engine's beacons from a node that flies on to another place with one in ten of them.
 class FlyingBeacon final : public netsim::Protocol {
 public:
-    FlyingBeacon(Node& node, const BeaconConfig& config, double flight_area_m,
-                 std::uint64_t seed)
+    FlyingBeacon(Node& node, const BeaconConfig& config, double flight_area_m, std::uint64_t seed)
         : beacon_(node, config),
           node_(node),
           flight_area_m_(flight_area_m),
