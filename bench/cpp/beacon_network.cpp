@@ -17,6 +17,7 @@ using netsim::Payload;
 using netsim::Position;
 
 constexpr netsim::Purpose scenario_draws{1002};
+constexpr netsim::Purpose flight_draws{1003};
 
 // The engine's beacons from a node that flies on to another place with one in ten of them.
 class FlyingBeacon final : public netsim::Protocol {
@@ -25,7 +26,7 @@ public:
         : beacon_(node, config),
           node_(node),
           flight_area_m_(flight_area_m),
-          draws_(1000 + seed, static_cast<std::uint32_t>(node.id()), scenario_draws) {}
+          draws_(seed, static_cast<std::uint32_t>(node.id()), flight_draws) {}
 
     void initialize() override { beacon_.initialize(); }
     void handle_timer(const std::string& timer) override {

@@ -1,11 +1,13 @@
 """Where the project lies, which files belong to it, and what its documents show."""
 
+import importlib
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -68,6 +70,22 @@ def type_errors(root: Path) -> Callable[[Path], str]:
         return "" if check.returncode == 0 else check.stdout + check.stderr
 
     return errors
+
+
+@pytest.fixture
+def imported(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Path], Any]]:
+    """`imported(file)`: a document's script as a module; afterwards it and those beside it are forgotten."""
+    folders: set[Path] = set()
+
+    def load(file: Path) -> Any:
+        monkeypatch.syspath_prepend(file.parent)
+        folders.add(file.parent)
+        return importlib.import_module(file.stem)
+
+    yield load
+    for name, module in list(sys.modules.items()):
+        if Path(getattr(module, "__file__", None) or "").parent in folders:
+            del sys.modules[name]
 
 
 @pytest.fixture

@@ -1,9 +1,7 @@
 """What docs/guides/ardupilot.md shows is what happens."""
 
-import importlib
 import shlex
-import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -29,11 +27,9 @@ def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.fixture
-def patrol(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+def patrol(folder: Path, imported: Callable[[Path], Any]) -> Any:
     """The guide's script, imported."""
-    monkeypatch.syspath_prepend(folder)
-    yield importlib.import_module("patrol")
-    sys.modules.pop("patrol", None)
+    return imported(folder / "patrol.py")
 
 
 def test_the_script_flies(

@@ -4,7 +4,7 @@ import importlib
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +14,6 @@ from gradysim.config import load_scenarios
 from gradysim.simulator.handler.assertion import FailedAssertionException
 
 pytest.importorskip("gradysim._netsim")
-
-MODULES = ("climber", "watch")
 
 
 @pytest.fixture
@@ -36,14 +34,9 @@ def folder(text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.fixture
-def watch(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+def watch(folder: Path, imported: Callable[[Path], Any]) -> Any:
     """The guide's script, imported."""
-    monkeypatch.syspath_prepend(folder)
-    for name in MODULES:
-        monkeypatch.delitem(sys.modules, name, raising=False)
-    yield importlib.import_module("watch")
-    for name in MODULES:
-        sys.modules.pop(name, None)
+    return imported(folder / "watch.py")
 
 
 def test_the_checks_hold_in_both_modes(watch: Any) -> None:

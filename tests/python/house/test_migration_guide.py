@@ -3,10 +3,9 @@
 import importlib
 import re
 import shlex
-import sys
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -40,11 +39,9 @@ def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.fixture
-def survey(folder: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+def survey(folder: Path, imported: Callable[[Path], Any]) -> Any:
     """The page's Python file, imported."""
-    monkeypatch.syspath_prepend(folder)
-    monkeypatch.delitem(sys.modules, "survey", raising=False)
-    return importlib.import_module("survey")
+    return imported(folder / "survey.py")
 
 
 def with_lines(folder: Path, *lines: str) -> Path:
@@ -56,16 +53,16 @@ def with_lines(folder: Path, *lines: str) -> Path:
     return file
 
 
-def test_the_script_runs(survey: ModuleType) -> None:
+def test_the_script_runs(survey: Any) -> None:
     assert survey.survey() > 30
 
 
-def test_who_seeds_pythons_random_gets_the_same_run_again(survey: ModuleType) -> None:
+def test_who_seeds_pythons_random_gets_the_same_run_again(survey: Any) -> None:
     assert survey.build_and_draw(1) == survey.build_and_draw(1)
     assert survey.build_and_draw(1) != survey.build_and_draw(2)
 
 
-def test_a_failure_can_be_caught_and_tells_its_place(survey: ModuleType) -> None:
+def test_a_failure_can_be_caught_and_tells_its_place(survey: Any) -> None:
     class Broken(IProtocol):
         def initialize(self) -> None:
             self.provider.schedule_timer("", 2)

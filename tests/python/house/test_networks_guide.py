@@ -1,11 +1,9 @@
 """What docs/guides/networks-in-python.md shows is what happens."""
 
-import importlib
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
+from typing import Any
 
 import pytest
 
@@ -27,14 +25,12 @@ def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 @pytest.fixture
-def network(folder: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+def network(folder: Path, imported: Callable[[Path], Any]) -> Any:
     """The page's script, imported."""
-    monkeypatch.syspath_prepend(folder)
-    monkeypatch.delitem(sys.modules, "network", raising=False)
-    return importlib.import_module("network")
+    return imported(folder / "network.py")
 
 
-def test_its_call_gives_what_the_page_says(network: ModuleType, root: Path) -> None:
+def test_its_call_gives_what_the_page_says(network: Any, root: Path) -> None:
     (call,) = re.findall(
         r"^`(in_both_modes\(.*\))` returns two results", (root / PAGE).read_text(), re.MULTILINE
     )
@@ -44,7 +40,7 @@ def test_its_call_gives_what_the_page_says(network: ModuleType, root: Path) -> N
         assert [node.tracked_variables["heard"] for node in result.nodes] == [0, 5, 0]
 
 
-def test_classes_that_a_function_makes_run_in_both_modes(network: ModuleType) -> None:
+def test_classes_that_a_function_makes_run_in_both_modes(network: Any) -> None:
     class Farther(network.Listener):  # type: ignore[name-defined, misc]
         """One that a function makes."""
 

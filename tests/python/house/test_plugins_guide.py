@@ -3,7 +3,6 @@
 import csv
 import importlib
 import re
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -93,11 +92,8 @@ def test_pings_are_answered_and_not_seen(run: Run) -> None:
     assert tracked(run("Ping"), "answer") == ["pong", "pong"]
 
 
-def test_the_script_flies_in_formation(guide: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.syspath_prepend(guide)
-    monkeypatch.delitem(sys.modules, "guide", raising=False)
-    positions = importlib.import_module("guide").fly_in_formation()
-    monkeypatch.delitem(sys.modules, "guide")
+def test_the_script_flies_in_formation(guide: Path, imported: Callable[[Path], Any]) -> None:
+    positions = imported(guide / "guide.py").fly_in_formation()
     assert positions == [pytest.approx((0, 50 - 5 * node_id, 20)) for node_id in range(4)]
 
 
