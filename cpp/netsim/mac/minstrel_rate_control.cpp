@@ -10,10 +10,30 @@ namespace {
 // Rates that succeed at least as often are all as good as can be, and the one with the most throughput is taken.
 constexpr double likely_enough = 0.95;
 
-// Seconds from one attempt to the next on a free channel: DIFS, the mean of the first backoff, frame, SIFS, ACK.
-double attempt_s(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes) {
+// Of rates that do so or hardly ever, two attempts in a row tell enough.
+constexpr double unlikely_enough = 0.1;
+constexpr int fewest_in_a_row = 2;
+
+// All attempts of a stage together take no longer.
+constexpr double longest_stage_s = 6e-3;
+
+// Seconds from one attempt to the next on a free channel: DIFS, the mean backoff from that contention window, frame, SIFS, ACK.
+double attempt_s(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes, int cw) {
     const SimTime fixed = timing.difs + timing.sifs + modes.response_mode(mode).duration(ack_bytes);
-    return (fixed + mode.duration(psdu_bytes)).seconds() + modes.cw_min() * timing.slot.seconds() / 2;
+    return (fixed + mode.duration(psdu_bytes)).seconds() + cw * timing.slot.seconds() / 2;
+}
+
+// With windows that double from one to the next.
+int attempts_in_a_stage(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes) {
+    int attempts = 0;
+    int cw = modes.cw_min();
+    double taken_s = attempt_s(modes, timing, mode, psdu_bytes, cw);
+    while (taken_s <= longest_stage_s) {
+        ++attempts;
+        cw = std::min(2 * cw + 1, modes.cw_max());
+        taken_s += attempt_s(modes, timing, mode, psdu_bytes, cw);
+    }
+    return std::max(attempts, fewest_in_a_row);
 }
 
 }  // namespace
@@ -56,17 +76,23 @@ std::size_t MinstrelRateControl::choose(const Link& link, const RateAttempt& att
     if (link.tried > chain.best && attempt.number == 0) {
         return link.tried;
     }
-    constexpr int stages = 4;
-    switch (attempt.number * stages / attempt.limit) {
-        case 0:
-            return chain.best;
-        case 1:
-            return link.tried < chain.best ? link.tried : chain.second;
-        case 2:
-            return chain.likeliest;
-        default:
-            return 0;
+    const std::size_t second = link.tried < chain.best ? link.tried : chain.second;
+    int before = attempt.number;
+    for (const std::size_t mode : {chain.best, second, chain.likeliest}) {
+        const int in_a_row = attempts_in_a_row(link, mode, attempt.psdu_bytes);
+        if (before < in_a_row) {
+            return mode;
+        }
+        before -= in_a_row;
     }
+    return 0;
+}
+
+int MinstrelRateControl::attempts_in_a_row(const Link& link, std::size_t mode, int psdu_bytes) const {
+    const double mean = link.modes[mode].mean;
+    return mean > likely_enough || mean < unlikely_enough
+               ? fewest_in_a_row
+               : attempts_in_a_stage(modes_, timing_, modes_.modes()[mode], psdu_bytes);
 }
 
 void MinstrelRateControl::succeeded(const RateAttempt& attempt, const Mode& mode, SimTime now) {
@@ -94,7 +120,7 @@ void MinstrelRateControl::update(Link& link, int psdu_bytes, SimTime now) const 
     }
     const std::span<const Mode> modes = modes_.modes();
     const auto throughput = [&](std::size_t mode) {
-        return link.modes[mode].mean / attempt_s(modes_, timing_, modes[mode], psdu_bytes);
+        return link.modes[mode].mean / attempt_s(modes_, timing_, modes[mode], psdu_bytes, modes_.cw_min());
     };
     // Of equals the slower one: where nothing succeeded, the slowest, which is also in for a second best.
     std::size_t best = 0;

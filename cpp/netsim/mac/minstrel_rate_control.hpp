@@ -5,7 +5,8 @@
 //
 //   throughput = mean share of successes / time that an attempt takes, waiting and ACK included
 //
-// The attempts of a frame go down a chain of four stages, of about the same number of attempts each:
+// The attempts of a frame go down a chain of stages, each of as many attempts as fit into 6 ms, or two if the rate succeeds nearly
+// always or hardly ever, until the MAC gives the frame up:
 //
 //   best throughput --> second best --> most likely to succeed --> slowest
 //
@@ -13,9 +14,8 @@
 // attempt, a slower one in place of the second stage, where it costs nothing unless the best one fails.
 //
 // Sources: the description of Minstrel in the documentation of Linux' mac80211; D. Xia, J. Hart, Q. Fu, "Evaluation of the
-// Minstrel rate adaptation algorithm in IEEE 802.11g WLANs", ICC 2013. Ours: the stages share the attempts that
-// the MAC's retry limit leaves (Minstrel: what fits into 6 ms each), and times are those of the frame
-// sent last (Minstrel: of 1200 B).
+// Minstrel rate adaptation algorithm in IEEE 802.11g WLANs", ICC 2013. Ours: the MAC's
+// retry limit, which mostly cuts the chain, and times are those of the frame sent last (Minstrel: of 1200 B).
 #pragma once
 
 #include <cstddef>
@@ -68,6 +68,7 @@ private:
     void update(Link& link, int psdu_bytes, SimTime now) const;
     std::size_t draw_tried(const Link& link);
     std::size_t choose(const Link& link, const RateAttempt& attempt) const;
+    int attempts_in_a_row(const Link& link, std::size_t mode, int psdu_bytes) const;
     void count(const RateAttempt& attempt, const Mode& mode, bool success, SimTime now);
 
     const ModeSet& modes_;

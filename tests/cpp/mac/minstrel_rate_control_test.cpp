@@ -1,9 +1,12 @@
 #include "netsim/mac/minstrel_rate_control.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -160,30 +163,98 @@ TEST(MinstrelRateControl, WhereNothingSucceedsItIsTheSlowest) {
     EXPECT_EQ(link.send(Shares{}), std::vector<std::size_t>(limit, 0));
 }
 
-// Every rate has been tried: 54 Mbps is best, 48 second, 6 Mbps the most likely.
-TEST(MinstrelRateControl, TheAttemptsOfAFrameGoDownTheChain) {
-    MinstrelRateControl control(modes(), modes().fastest_mandatory(), {update_interval, 0, 0.75},
-                                RandomStream(1, 0, Purpose::rate_control));
-    const Shares shares{0.9, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8};
-    SimTime now;
-    for (std::size_t mode = 0; mode < shares.size(); ++mode) {
-        for (int i = 0; i < 10; ++i) {
-            const RateAttempt attempt{1, psdu_bytes, 0, limit};
-            i < 10 * shares.at(mode) ? control.succeeded(attempt, modes().modes()[mode], now)
-                                     : control.failed(attempt, modes().modes()[mode], now);
+// Ten attempts at each rate, of which so many succeeded, and an update after them.
+class LearnedLink {
+public:
+    explicit LearnedLink(const std::array<int, 8>& successes, int psdu_bytes = netsim::psdu_bytes)
+        : psdu_bytes_(psdu_bytes) {
+        for (std::size_t mode = 0; mode < successes.size(); ++mode) {
+            for (int i = 0; i < 10; ++i) {
+                const RateAttempt attempt{1, psdu_bytes, 0, limit};
+                i < successes.at(mode) ? control_.succeeded(attempt, modes().modes()[mode], SimTime{})
+                                       : control_.failed(attempt, modes().modes()[mode], SimTime{});
+            }
         }
     }
-    now = update_interval;
-    const auto chain = [&](int attempts) {
+    // The modes of the attempts of one frame that all fail.
+    std::vector<std::size_t> chain(int attempts) {
         std::vector<std::size_t> used;
         for (int number = 0; number < attempts; ++number) {
-            used.push_back(modes().index_of(control.mode_for({1, psdu_bytes, number, attempts}, now)));
+            const RateAttempt attempt{1, psdu_bytes_, number, attempts};
+            used.push_back(modes().index_of(control_.mode_for(attempt, update_interval)));
         }
         return used;
-    };
-    EXPECT_EQ(chain(7), (std::vector<std::size_t>{7, 7, 6, 6, 0, 0, 0}));
-    EXPECT_EQ(chain(4), (std::vector<std::size_t>{7, 6, 0, 0}));
-    EXPECT_EQ(chain(1), std::vector<std::size_t>{7});
+    }
+
+private:
+    int psdu_bytes_;
+    MinstrelRateControl control_{modes(),
+                                 modes().fastest_mandatory(),
+                                 {update_interval, 0, 0.75},
+                                 RandomStream(1, 0, Purpose::rate_control)};
+};
+
+std::vector<std::size_t> in_a_row(std::initializer_list<std::pair<int, std::size_t>> stages) {
+    std::vector<std::size_t> attempts;
+    for (const auto& [count, mode] : stages) {
+        attempts.insert(attempts.end(), static_cast<std::size_t>(count), mode);
+    }
+    return attempts;
+}
+
+// 54 Mbps is best, 48 second, 9 Mbps the most likely, 6 the slowest.
+TEST(MinstrelRateControl, TheAttemptsOfAFrameGoDownTheChain) {
+    LearnedLink link({8, 9, 8, 8, 8, 8, 8, 8});
+    EXPECT_EQ(link.chain(20), in_a_row({{5, 7}, {5, 6}, {4, 1}, {6, 0}}));
+}
+
+TEST(MinstrelRateControl, TheLimitOfTheMacCutsTheChain) {
+    LearnedLink link({8, 9, 8, 8, 8, 8, 8, 8});
+    EXPECT_EQ(link.chain(7), in_a_row({{5, 7}, {2, 6}}));
+    EXPECT_EQ(link.chain(4), in_a_row({{4, 7}}));
+    EXPECT_EQ(link.chain(1), in_a_row({{1, 7}}));
+}
+
+class MinstrelStage : public testing::TestWithParam<std::pair<std::size_t, int>> {};
+
+// n attempts take n (DIFS + data + SIFS + ACK) and mean backoffs of 67.5 µs, 207 µs, 490.5 µs, 1062 µs, 2209.5 µs and 4509 µs
+// together: three at 6 Mbps 5104.5 µs, four 7214 µs; five at 54 Mbps 3499.5 µs, six 6057 µs.
+TEST_P(MinstrelStage, HasAsManyAttemptsAsFitInto6Ms) {
+    const auto [mode, attempts] = GetParam();
+    std::array<int, 8> successes{};
+    successes.at(mode) = 9;
+    EXPECT_EQ(LearnedLink(successes).chain(attempts + 1), in_a_row({{attempts, mode}, {1, 0}}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, MinstrelStage,
+                         testing::Values(std::pair{1U, 4}, std::pair{2U, 4}, std::pair{3U, 5},
+                                         std::pair{4U, 5}, std::pair{5U, 5}, std::pair{6U, 5},
+                                         std::pair{7U, 5}),
+                         [](const auto& test) { return std::to_string(test.param.first); });
+
+// 54 Mbps never fails, 6 Mbps comes second.
+TEST(MinstrelRateControl, AtTheSlowestRateAStageHasThreeAttemptsOfAUsualFrame) {
+    LearnedLink link({9, 0, 0, 0, 0, 0, 0, 10});
+    EXPECT_EQ(link.chain(7), in_a_row({{2, 7}, {3, 0}, {2, 7}}));
+}
+
+// At 6 Mbps 2304 B take 3.1 ms.
+TEST(MinstrelRateControl, AStageHasTwoAttemptsAlsoOfFramesThatTakeLonger) {
+    LearnedLink link({9, 0, 0, 0, 0, 0, 0, 10}, 2304);
+    EXPECT_EQ(link.chain(6), in_a_row({{2, 7}, {2, 0}, {2, 7}}));
+}
+
+TEST(MinstrelRateControl, OfARateThatAlwaysSucceedsTwoAttemptsAreEnough) {
+    LearnedLink link({8, 8, 8, 8, 8, 8, 8, 10});
+    EXPECT_EQ(link.chain(9), in_a_row({{2, 7}, {5, 6}, {2, 7}}));
+}
+
+// The mean of 24 Mbps falls below 10 % in eight updates of 0.75 each, and still is the largest. All others are unknown.
+TEST(MinstrelRateControl, OfARateThatHardlyEverSucceedsTooAndOfUnknownOnes) {
+    LossyLink link(1, 0);
+    link.run(cliff_after(7), SimTime::from_seconds(1));
+    link.run(Shares{}, update_interval * 20);
+    EXPECT_EQ(link.send(Shares{}), in_a_row({{2, 4}, {2, 0}, {2, 4}, {1, 0}}));
 }
 
 // 10000 frames, one in ten tries another of seven rates: 1000 ± 30; five standard deviations are allowed, a false
