@@ -77,9 +77,7 @@ void Dcf::channel_granted() {
 }
 
 RateAttempt Dcf::attempt() const {
-    return {in_progress().receiver, in_progress().psdu_bytes, attempts_,
-            is_long(in_progress()) ? parameters_.retry_limits.long_failures
-                                   : parameters_.retry_limits.short_failures};
+    return {in_progress().receiver, in_progress().psdu_bytes, attempts_};
 }
 
 void Dcf::choose_data_mode() {

@@ -20,8 +20,7 @@ namespace netsim {
 struct RateAttempt {
     NodeId destination = 0;
     int psdu_bytes = 0;
-    int number = 0;  // of times that the frame was on the air before: 0 … limit − 1
-    int limit = 1;   // attempts after which it is given up
+    int number = 0;  // of times that the frame was on the air before
 };
 
 class RateControl {

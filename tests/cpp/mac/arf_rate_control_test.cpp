@@ -26,13 +26,13 @@ public:
         : control(mode_set(op_mode), mode_set(op_mode).mode_for_bitrate(initial_bps), parameters) {}
 
     double mode_mbps(NodeId destination = 1) {
-        return static_cast<double>(control.mode_for({destination, 100, 0, 7}, now).bitrate_bps) / 1e6;
+        return static_cast<double>(control.mode_for({destination, 100, 0}, now).bitrate_bps) / 1e6;
     }
     // Of each attempt the rate in Mbps; '+' is a success, '-' a failure.
     std::vector<double> rates(std::string_view outcomes, NodeId destination = 1) {
         std::vector<double> used;
         for (const char outcome : outcomes) {
-            const RateAttempt attempt{destination, 100, 0, 7};
+            const RateAttempt attempt{destination, 100, 0};
             const Mode& mode = control.mode_for(attempt, now);
             used.push_back(static_cast<double>(mode.bitrate_bps) / 1e6);
             outcome == '+' ? control.succeeded(attempt, mode, now) : control.failed(attempt, mode, now);
@@ -129,6 +129,17 @@ TEST(ArfRateControl, TheIntervalBeginsAnewAtEveryChange) {
     EXPECT_EQ(attempts.mode_mbps(), 24);
 }
 
+TEST(ArfRateControl, TheIntervalBeginsAnewAtAnIncreaseToo) {
+    Attempts attempts(arf);
+    attempts.rates("+");
+    attempts.now = attempts.now + interval;
+    EXPECT_EQ(attempts.rates("++"), (std::vector<double>{36, 36}));
+    attempts.now = attempts.now + interval - step * 3;
+    EXPECT_EQ(attempts.mode_mbps(), 36);
+    attempts.now = attempts.now + step;
+    EXPECT_EQ(attempts.mode_mbps(), 48);
+}
+
 TEST(ArfRateControl, EachDestinationHasARateOfItsOwn) {
     Attempts attempts(arf);
     attempts.rates("----", 1);
@@ -154,7 +165,7 @@ TEST(ArfRateControl, TheRateMovesByOneStepInTheDirectionOfWhatHappened) {
             const ModeSet& modes = mode_set(op_mode);
             ArfRateControl control(modes, modes.fastest_mandatory(), parameters);
             RandomStream draws(1, 0, Purpose{1001});
-            const RateAttempt attempt{1, 100, 0, 7};
+            const RateAttempt attempt{1, 100, 0};
             SimTime now;
             const Mode* before = &control.mode_for(attempt, now);
             for (int i = 0; i < 5000; ++i) {

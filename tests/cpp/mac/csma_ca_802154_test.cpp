@@ -90,6 +90,42 @@ TEST_F(CsmaCa802154Test, AFrameIsAcknowledgedIfItAsksForThat) {
     EXPECT_EQ(asking.received.size() + other.received.size(), 2U);
 }
 
+TEST_F(CsmaCa802154Test, TheNextMessageHasAllRepetitions) {
+    Device& sender = add_device({0, 0, 0});
+    constexpr NodeId stranger = 99;
+    sender.send(stranger, 50);
+    sender.send(stranger, 50);
+    air.run();
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 8U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::retry_limit), 2U);
+}
+
+TEST_F(CsmaCa802154Test, WhatComesWhileItTurnsToTransmitIsNotReceived) {
+    CsmaConfig slow = without_backoff();
+    slow.turnaround_s = 10e-3;
+    Device& sender = add_device({0, 0, 0}, slow);
+    BareRadio& jammer = add_jammer({30, 0, 0});
+    sender.send(broadcast_id, 50);
+    air.at(us(1'000), [&] { jam(jammer, us(2'000)); });
+    air.run();
+    EXPECT_TRUE(sender.received.empty());
+}
+
+TEST_F(CsmaCa802154Test, WhatComesWhileItTurnsToAcknowledgeIsNotReceived) {
+    CsmaConfig slow;
+    slow.sifs_s = 10e-3;
+    CsmaConfig once = without_backoff();
+    once.max_frame_retries = 0;
+    Device& sender = add_device({0, 0, 0}, once);
+    Device& receiver = add_device({30, 0, 0}, slow);
+    BareRadio& jammer = add_jammer({60, 0, 0});
+    sender.send(receiver.id(), 50);
+    air.at(us(5'000), [&] { jam(jammer, us(2'000)); });
+    air.run();
+    EXPECT_EQ(receiver.received.size(), 1U);
+    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 1U);
+}
+
 TEST_F(CsmaCa802154Test, TheLongestMessageFillsAFrameOf127Bytes) {
     Device& sender = add_device({0, 0, 0}, without_backoff());
     Sniffer& sniffer = add_sniffer({0, 0, 0});

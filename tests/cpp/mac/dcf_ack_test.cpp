@@ -102,6 +102,24 @@ TEST_F(DcfAck, AnotherFrameInsteadOfTheAckIsAFailure) {
     EXPECT_EQ(given_up(), 1U);
 }
 
+TEST_F(DcfAck, ABrokenFrameThatEndsBeforeTheTimeoutIsNoFailure) {
+    MacConfig mac = without_backoff();
+    mac.short_retry_limit = 1;
+    add_pair_without_way_back(mac);
+    a->send(b->id(), 100);
+    test::BareRadio& rude = air.add_radio({0, 10, 0});
+    test::BareRadio& ruder = air.add_radio({0, 5, 0});
+    air.at(data_duration + us(5), [&] { rude.send(us(30)); });
+    air.at(data_duration + us(6), [&] { ruder.send(us(30)); });
+    const auto given_up = [this] {
+        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
+    };
+    air.run(data_duration + ack_timeout - SimTime::from_ps(1));
+    EXPECT_EQ(given_up(), 0U);  // the ACK may still come
+    air.run(data_duration + ack_timeout);
+    EXPECT_EQ(given_up(), 1U);
+}
+
 TEST_F(DcfAck, ADuplicateIsAcknowledgedButNotDeliveredAgain) {
     add_pair_without_way_back(MacConfig());
     a->send(b->id(), "once");

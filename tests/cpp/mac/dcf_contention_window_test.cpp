@@ -88,6 +88,60 @@ TEST_F(ContentionWindow, IsItsMinimumOnlyOnceWithStationCounters) {
     }
 }
 
+// Of three messages that fail: without the broadcast, the failures of the first two would count together.
+TEST_F(ContentionWindow, ABroadcastSetsTheStationCountersBack) {
+    MacConfig mac;
+    mac.short_retry_limit = 4;
+    mac.inet_station_retry_counters = true;
+    std::vector<std::int64_t> slots;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        Air air(MediumConfig(), Hearing::what_matters, seed);
+        Station& sender = air.add_station({0, 0, 0}, mac);
+        Station& gone = air.add_station({1e7, 0, 0}, mac);
+        Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+        for (const NodeId destination : {gone.id(), broadcast_id, gone.id(), gone.id()}) {
+            sender.send(destination, 100);
+        }
+        air.run(SimTime::from_seconds(1));
+        const std::vector<Heard> frames = of_kind(sniffer, FrameKind::unicast);
+        ASSERT_EQ(frames.size(), 12U);
+        const SimTime waited = frames[8].start - frames[7].end - sifs - ack_duration - difs;
+        slots.push_back(waited.ps() / slot.ps());
+    }
+    expect_draws_up_to(slots, 31);
+}
+
+// Three RTS fail, the fourth one is answered, its data is lost, and the fifth one fails: the last failure of the frame is
+// the first one of the station after the CTS, and doubles the window once more.
+TEST_F(ContentionWindow, ACtsSetsTheStationCounterOfRtsBack) {
+    MacConfig mac;
+    mac.rts_threshold_bytes = 0;
+    mac.short_retry_limit = 4;
+    mac.inet_station_retry_counters = true;
+    constexpr SimTime nav_of_rts = us(180);
+    std::vector<std::int64_t> slots;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        Air air(MediumConfig(), Hearing::what_matters, seed);
+        Station& sender = air.add_station({0, 0, 0}, mac);
+        test::BareRadio& peer = air.add_radio({10, 0, 0});
+        Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+        sender.send(peer.id(), 100);
+        sender.send(peer.id(), 100);
+        while (sniffer.heard.size() < 4) {
+            air.run(air.simulator.now() + us(5));
+        }
+        air.at(sniffer.heard.back().end + sifs,
+               [&] { peer.send_control(FrameKind::cts, sender.id(), SimTime()); });
+        air.run(SimTime::from_seconds(1));
+        ASSERT_EQ(of_kind(sniffer, FrameKind::unicast).size(), 1U);
+        const std::vector<Heard> frames = of_kind(sniffer, FrameKind::rts);
+        ASSERT_EQ(frames.size(), 9U);
+        const SimTime waited = frames[5].start - frames[4].end - nav_of_rts - difs;
+        slots.push_back(waited.ps() / slot.ps());
+    }
+    expect_draws_up_to(slots, 1023);
+}
+
 TEST_F(ContentionWindow, IsItsMinimumAgainAfterAnAck) {
     std::vector<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {

@@ -96,6 +96,17 @@ TEST_F(DcfRateControl, EachRetryHasTheModeThatTheFailuresSoFarLeadTo) {
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
 }
 
+// All but the last attempt at 24 Mbps, that one at 6.
+TEST_F(DcfRateControl, EachRetryGoesDownTheChainOfMinstrel) {
+    MacConfig mac = mac_with("MinstrelRateControl");
+    mac.look_around_share = 0;
+    mac.long_retry_limit = mac.short_retry_limit;
+    add_pair(mac, test::radio_of_power(1e-6));
+    a->send(b->id(), 100);
+    air.run();
+    EXPECT_EQ(data.durations_us(), (std::vector<std::int64_t>{82, 82, 82, 82, 82, 82, 250}));
+}
+
 // SIFS of 10 µs and an ACK in the mode of the frame or the next slower mandatory one.
 TEST_F(DcfRateControl, DurationFieldsAndAcksFollowTheMode) {
     add_pair(mac_with("ArfRateControl", 9e6));

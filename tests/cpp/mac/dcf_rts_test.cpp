@@ -163,6 +163,21 @@ TEST_F(RtsTest, GivesUpWhenTheCtsTimeoutOfTheLastAttemptIsOver) {
     EXPECT_EQ(given_up(), 1U);
 }
 
+// The preamble of a CTS at 1 Mbps is longer than that of the data at 24 Mbps.
+TEST_F(RtsTest, TheTimeoutIsThatOfACtsInTheModeOfTheRts) {
+    constexpr SimTime slow_rts_duration = us(352);
+    constexpr SimTime slow_cts_timeout = us(222);
+    MacConfig mac = with_rts();
+    mac.control_bitrate_bps = 1e6;
+    mac.short_retry_limit = 1;
+    add(mac);
+    station->send(stranger, 100);
+    air.run(slow_rts_duration + slow_cts_timeout - SimTime::from_ps(1));
+    EXPECT_EQ(given_up(), 0U);
+    air.run(slow_rts_duration + slow_cts_timeout);
+    EXPECT_EQ(given_up(), 1U);
+}
+
 TEST_F(RtsTest, ACtsThatHasBegunByTheTimeoutIsWaitedFor) {
     // At 44 light microseconds to and fro, the CTS begins 54 us after the end of the RTS and ends at 88 us.
     Station& a = air.add_station({0, 0, 0}, with_rts(), test::radio_of_power(100));
@@ -202,6 +217,16 @@ TEST_F(RtsTest, AFailedRtsIsRepeatedAfterItsOwnNav) {
         expected.push_back((rts_duration + rts_field + difs) * i);
     }
     EXPECT_EQ(starts(*sniffer, FrameKind::rts), expected);
+}
+
+// As INET has it: after its CTS, a station waits for the exchange to be over, also if no data comes.
+TEST_F(RtsTest, TheOwnCtsSetsTheNav) {
+    add(with_rts_without_backoff());
+    peer_sends(us(0), FrameKind::rts, station->id(), us(1000));
+    air.at(us(20), [&] { station->send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(starts(*sniffer, FrameKind::cts), std::vector{rts_duration + sifs});
+    EXPECT_EQ(starts(*sniffer, FrameKind::broadcast), std::vector{rts_duration + us(1000) + difs});
 }
 
 // As the standard has it.
@@ -263,6 +288,35 @@ TEST_F(RtsRetries, TheNextMessageHasAllAttempts) {
     air.run();
     EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 14U);
     EXPECT_EQ(given_up(), 2U);
+}
+
+// Of each data frame that is sent, whether it says that it is sent again.
+class RetryFlags final : public MediumListener {
+public:
+    Trajectory trajectory{Position{}};
+    std::vector<bool> flags;
+
+    void arrival_started(const Arrival&) override {}
+    void arrival_ended(const Arrival& arrival) override {
+        if (arrival.transmission->label.kind == FrameKind::unicast) {
+            flags.push_back(arrival.transmission->frame->retry);
+        }
+    }
+};
+
+TEST_F(RtsRetries, DataThatIsSentForTheFirstTimeAfterAFailedRtsIsNoRetry) {
+    RetryFlags listener;
+    const RadioConfig radio;
+    air.medium.attach(
+        air.next_node(),
+        Receiver{&listener, &listener.trajectory, {.band = {radio.carrier_hz, radio.bandwidth_hz}}});
+    add(with_rts_without_backoff());
+    station->send(peer->id(), 100);
+    for (const int i : {1, 2}) {
+        peer_sends(attempt * i + rts_duration + sifs, FrameKind::cts, station->id());
+    }
+    air.run();
+    EXPECT_EQ(listener.flags, (std::vector{false, true}));
 }
 
 // Two stations that ask each other at the same time: the later one's RTS meets a station that waits for a CTS.

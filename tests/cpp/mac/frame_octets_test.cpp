@@ -131,6 +131,11 @@ TEST(FrameOctets, TheChecksumsHoldForEveryLength) {
     }
 }
 
+// A checksum of 0 would say that there is none (RFC 768).
+TEST(FrameOctets, AUdpChecksumOfZeroIsWrittenAsOnes) {
+    EXPECT_EQ(part(octets_of(data_frame(1, 2, "e6")), 58, 2), (Octets{0xff, 0xff}));
+}
+
 TEST(FrameOctets, ALongSequenceKeepsTwelveBitsInTheFrameAndSixteenInTheDatagram) {
     Frame frame = data_frame(1, 2, "");
     frame.sequence = 0x54321;

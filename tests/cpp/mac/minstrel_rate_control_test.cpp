@@ -55,7 +55,7 @@ public:
     std::vector<std::size_t> send(const Shares& shares) {
         std::vector<std::size_t> used;
         for (int number = 0; number < limit; ++number) {
-            const RateAttempt attempt{1, psdu_bytes, number, limit};
+            const RateAttempt attempt{1, psdu_bytes, number};
             const Mode& mode = control.mode_for(attempt, now);
             used.push_back(modes().index_of(mode));
             now = now + SimTime::from_us(static_cast<std::int64_t>(attempt_us(used.back())));
@@ -163,16 +163,17 @@ TEST(MinstrelRateControl, WhereNothingSucceedsItIsTheSlowest) {
     EXPECT_EQ(link.send(Shares{}), std::vector<std::size_t>(limit, 0));
 }
 
-// Ten attempts at each rate, of which so many succeeded, and an update after them.
+// Fifty attempts at each rate, with that share of successes, and an update after them.
 class LearnedLink {
 public:
-    explicit LearnedLink(const std::array<int, 8>& successes, int psdu_bytes = netsim::psdu_bytes)
+    explicit LearnedLink(const Shares& shares, int psdu_bytes = netsim::psdu_bytes)
         : psdu_bytes_(psdu_bytes) {
-        for (std::size_t mode = 0; mode < successes.size(); ++mode) {
-            for (int i = 0; i < 10; ++i) {
-                const RateAttempt attempt{1, psdu_bytes, 0, limit};
-                i < successes.at(mode) ? control_.succeeded(attempt, modes().modes()[mode], SimTime{})
-                                       : control_.failed(attempt, modes().modes()[mode], SimTime{});
+        constexpr int attempts = 50;
+        for (std::size_t mode = 0; mode < shares.size(); ++mode) {
+            for (int i = 0; i < attempts; ++i) {
+                const RateAttempt attempt{1, psdu_bytes, 0};
+                i < attempts* shares.at(mode) ? control_.succeeded(attempt, modes().modes()[mode], SimTime{})
+                                              : control_.failed(attempt, modes().modes()[mode], SimTime{});
             }
         }
     }
@@ -180,7 +181,7 @@ public:
     std::vector<std::size_t> chain(int attempts) {
         std::vector<std::size_t> used;
         for (int number = 0; number < attempts; ++number) {
-            const RateAttempt attempt{1, psdu_bytes_, number, attempts};
+            const RateAttempt attempt{1, psdu_bytes_, number};
             used.push_back(modes().index_of(control_.mode_for(attempt, update_interval)));
         }
         return used;
@@ -204,15 +205,8 @@ std::vector<std::size_t> in_a_row(std::initializer_list<std::pair<int, std::size
 
 // 54 Mbps is best, 48 second, 9 Mbps the most likely, 6 the slowest.
 TEST(MinstrelRateControl, TheAttemptsOfAFrameGoDownTheChain) {
-    LearnedLink link({8, 9, 8, 8, 8, 8, 8, 8});
+    LearnedLink link({0.8, 0.9, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8});
     EXPECT_EQ(link.chain(20), in_a_row({{5, 7}, {5, 6}, {4, 1}, {6, 0}}));
-}
-
-TEST(MinstrelRateControl, TheLimitOfTheMacCutsTheChain) {
-    LearnedLink link({8, 9, 8, 8, 8, 8, 8, 8});
-    EXPECT_EQ(link.chain(7), in_a_row({{5, 7}, {2, 6}}));
-    EXPECT_EQ(link.chain(4), in_a_row({{4, 7}}));
-    EXPECT_EQ(link.chain(1), in_a_row({{1, 7}}));
 }
 
 class MinstrelStage : public testing::TestWithParam<std::pair<std::size_t, int>> {};
@@ -221,9 +215,9 @@ class MinstrelStage : public testing::TestWithParam<std::pair<std::size_t, int>>
 // together: three at 6 Mbps 5104.5 µs, four 7214 µs; five at 54 Mbps 3499.5 µs, six 6057 µs.
 TEST_P(MinstrelStage, HasAsManyAttemptsAsFitInto6Ms) {
     const auto [mode, attempts] = GetParam();
-    std::array<int, 8> successes{};
-    successes.at(mode) = 9;
-    EXPECT_EQ(LearnedLink(successes).chain(attempts + 1), in_a_row({{attempts, mode}, {1, 0}}));
+    Shares shares{};
+    shares.at(mode) = 0.9;
+    EXPECT_EQ(LearnedLink(shares).chain(attempts + 1), in_a_row({{attempts, mode}, {1, 0}}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, MinstrelStage,
@@ -234,18 +228,18 @@ INSTANTIATE_TEST_SUITE_P(Rates, MinstrelStage,
 
 // 54 Mbps never fails, 6 Mbps comes second.
 TEST(MinstrelRateControl, AtTheSlowestRateAStageHasThreeAttemptsOfAUsualFrame) {
-    LearnedLink link({9, 0, 0, 0, 0, 0, 0, 10});
+    LearnedLink link({0.9, 0, 0, 0, 0, 0, 0, 1});
     EXPECT_EQ(link.chain(7), in_a_row({{2, 7}, {3, 0}, {2, 7}}));
 }
 
 // At 6 Mbps 2304 B take 3.1 ms.
 TEST(MinstrelRateControl, AStageHasTwoAttemptsAlsoOfFramesThatTakeLonger) {
-    LearnedLink link({9, 0, 0, 0, 0, 0, 0, 10}, 2304);
+    LearnedLink link({0.9, 0, 0, 0, 0, 0, 0, 1}, 2304);
     EXPECT_EQ(link.chain(6), in_a_row({{2, 7}, {2, 0}, {2, 7}}));
 }
 
 TEST(MinstrelRateControl, OfARateThatAlwaysSucceedsTwoAttemptsAreEnough) {
-    LearnedLink link({8, 8, 8, 8, 8, 8, 8, 10});
+    LearnedLink link({0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8, 1});
     EXPECT_EQ(link.chain(9), in_a_row({{2, 7}, {5, 6}, {2, 7}}));
 }
 
@@ -255,6 +249,18 @@ TEST(MinstrelRateControl, OfARateThatHardlyEverSucceedsTooAndOfUnknownOnes) {
     link.run(cliff_after(7), SimTime::from_seconds(1));
     link.run(Shares{}, update_interval * 20);
     EXPECT_EQ(link.send(Shares{}), in_a_row({{2, 4}, {2, 0}, {2, 4}, {1, 0}}));
+}
+
+TEST(MinstrelRateControl, TheMostLikelyRateIsTheFastestOfThoseThatSucceedNineteenTimesInTwenty) {
+    LearnedLink with_some({1, 0.98, 0.96, 0.8, 0.8, 0.8, 0.8, 0.8});
+    EXPECT_EQ(with_some.chain(13), in_a_row({{5, 7}, {5, 6}, {2, 2}, {1, 0}}));
+    LearnedLink without({0.9, 0.94, 0.92, 0.8, 0.8, 0.8, 0.8, 0.8});
+    EXPECT_EQ(without.chain(15), in_a_row({{5, 7}, {5, 6}, {4, 1}, {1, 0}}));
+}
+
+TEST(MinstrelRateControl, BesideTheSlowestRateAsTheBestOneThereIsASecondBest) {
+    LearnedLink link({1, 0.5, 0, 0, 0, 0, 0, 0});
+    EXPECT_EQ(link.chain(7), in_a_row({{2, 0}, {4, 1}, {1, 0}}));
 }
 
 // 10000 frames, one in ten tries another of seven rates: 1000 ± 30; five standard deviations are allowed, a false
@@ -284,10 +290,34 @@ TEST(MinstrelRateControl, ASlowerRateIsTriedOnlyAfterTheBestOneFailed) {
     }
 }
 
+// 24 Mbps succeeds in two intervals, 54 Mbps is tried in the second one only.
+TEST(MinstrelRateControl, OfARateThatWasNeverTriedTheFirstShareCountsInFull) {
+    MinstrelRateControl control(modes(), modes().fastest_mandatory(), {update_interval, 0, 0.75},
+                                RandomStream(1, 0, Purpose::rate_control));
+    const RateAttempt attempt{1, psdu_bytes, 0};
+    control.succeeded(attempt, modes().modes()[4], SimTime());
+    EXPECT_EQ(modes().index_of(control.mode_for(attempt, update_interval)), 4U);
+    control.succeeded(attempt, modes().modes()[4], update_interval);
+    control.succeeded(attempt, modes().modes()[7], update_interval);
+    EXPECT_EQ(modes().index_of(control.mode_for(attempt, update_interval * 2)), 7U);
+}
+
+TEST(MinstrelRateControl, AFrameTriesOneRateAtAllAttemptsOfTheSecondStage) {
+    MinstrelRateControl control(modes(), modes().fastest_mandatory(), {update_interval, 1, 0.75},
+                                RandomStream(6, 0, Purpose::rate_control));
+    for (int frame = 0; frame < 100; ++frame) {
+        std::vector<std::size_t> used;
+        for (int number = 0; number < 4; ++number) {
+            used.push_back(modes().index_of(control.mode_for({1, psdu_bytes, number}, SimTime())));
+        }
+        ASSERT_EQ(used[2], used[3]) << frame;
+    }
+}
+
 TEST(MinstrelRateControl, EachDestinationHasStatisticsOfItsOwn) {
     LossyLink link(5, 0.1);
     link.run(cliff_after(0), SimTime::from_seconds(2));
-    const RateAttempt to_another{2, psdu_bytes, 1, limit};
+    const RateAttempt to_another{2, psdu_bytes, 1};
     EXPECT_EQ(link.control.mode_for(to_another, link.now).bitrate_bps, 24'000'000);
 }
 

@@ -19,7 +19,7 @@ MacConfig config_of(const char* rate_control, double bitrate_bps = -1, double in
 }
 
 std::int64_t first_bitrate_bps(const MacConfig& config) {
-    return make_rate_control(config, 1, {0, 0})->mode_for({1, 100, 0, 7}, SimTime()).bitrate_bps;
+    return make_rate_control(config, 1, {0, 0})->mode_for({1, 100, 0}, SimTime()).bitrate_bps;
 }
 
 class EachAdaptiveRateControl : public testing::TestWithParam<const char*> {};
@@ -42,7 +42,7 @@ TEST(RateControl, WithoutOneTheRateIsThatOfDataFramesWhateverHappens) {
     const auto control = make_rate_control(config_of("", 36e6, 9e6), 1, {0, 0});
     SimTime now;
     for (int number = 0; number < 7; ++number) {
-        const RateAttempt attempt{1, 100, number, 7};
+        const RateAttempt attempt{1, 100, number};
         const Mode& mode = control->mode_for(attempt, now);
         EXPECT_EQ(mode.bitrate_bps, 36'000'000);
         control->failed(attempt, mode, now);

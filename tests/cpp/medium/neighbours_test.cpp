@@ -131,6 +131,17 @@ TEST(Neighbours, NobodyIsFartherThanTheFarthest) {
     }
 }
 
+TEST(Neighbours, NobodyHasGoneFartherThanTheFarthest) {
+    Crowd crowd;
+    crowd.add({0, 0, 0});
+    Trajectory& traveller = crowd.add({1000, 0, 0});
+    traveller.go_to(s(0), {1e6, 0, 0}, 1);
+    for (int i = 0; i < 1000; ++i) {
+        crowd.neighbours.prepare(s(i), crowd.odometer, 100);
+        ASSERT_GE(crowd.neighbours.farthest_m({0, 0, 0}), traveller.position_at(s(i)).x);
+    }
+}
+
 TEST(Neighbours, OfNobodyAreNone) {
     Crowd crowd;
     EXPECT_TRUE(crowd.found({0, 0, 0}, infinite, s(0), 100).empty());

@@ -1,4 +1,5 @@
 // The radio with preamble detection, frame capture and SNIR by chunks, each off by default.
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,15 @@ TEST_F(RadioWithPreambleDetection, OfTwoAtOnceTheStrongerIsReceived) {
     EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
 }
 
+TEST_F(RadioWithPreambleDetection, OfTwoOfEqualPowerTheFirstIsDetected) {
+    config.preamble_threshold = 0.5;
+    arrives(strong_w, us(100), us(10));
+    arrives(strong_w, us(101), us(10));
+    air.run();
+    EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
+    EXPECT_EQ(count(FrameFate::preamble_undetected), 0U);
+}
+
 TEST_F(RadioWithPreambleDetection, WhatIsStillListenedToAtADetectionIsLost) {
     const NodeId strong = arrives(100 * strong_w, us(100));
     arrives(strong_w, us(103));
@@ -206,6 +216,30 @@ TEST_F(RadioWithChunks, InterferenceWithTheDataIsBlamed) {
     air.run();
     EXPECT_EQ(count(FrameFate::interference), 1U);
     EXPECT_EQ(air.frame_fates.interferers_at(receiver().id()), (std::map<NodeId, std::uint64_t>{{other, 1}}));
+}
+
+// Interference during the header alone, so strong that about half of the headers survive it.
+TEST_F(RadioWithChunks, AHeaderThatSurvivedIsNotDecidedAgain) {
+    constexpr unsigned frames = 200;
+    config.snir_threshold = 0;
+    BareRadio& here = receiver();
+    BareRadio& sender = air.add_radio(
+        {light_microsecond_m, 0, 0}, test::radio_of_power(test::power_for(strong_w, light_microsecond_m)));
+    BareRadio& other =
+        air.add_radio({0, light_microsecond_m, 0},
+                      test::radio_of_power(test::power_for(0.7 * strong_w, light_microsecond_m)));
+    std::vector<SimTime> header_ends;
+    for (unsigned i = 0; i < frames; ++i) {
+        const SimTime start = us(1000) * (i + 1);
+        air.at(start, [&] { sender.send(us(200)); });
+        air.at(start + us(16), [&] { other.send(us(4)); });
+        header_ends.push_back(start + us(1 + 20));
+    }
+    air.run();
+    const std::vector<SimTime> corrupted = here.log.times_of(RadioWord::corrupted);
+    EXPECT_GT(corrupted.size(), frames / 4);
+    EXPECT_LT(corrupted.size(), frames);
+    EXPECT_TRUE(std::ranges::includes(header_ends, corrupted));
 }
 
 TEST_F(RadioWithChunks, AFrameThatEndsWithItsHeaderIsDecided) {

@@ -66,6 +66,7 @@ def test_a_mean_may_be_of_numbers_whose_sum_is_none(values: list[float], mean: f
         ([HUGE, -HUGE], math.inf),
         ([HUGE, -HUGE] * 50, pytest.approx(1.98422 / math.sqrt(99) * HUGE, rel=1e-5)),
         ([0.0, 1e290], pytest.approx(12.7062 * 1e290 / 2, rel=1e-5)),
+        ([0.0, 0.0, -HUGE, -HUGE], pytest.approx(3.18245 / math.sqrt(12) * HUGE, rel=1e-5)),
     ],
 )
 def test_an_interval_may_be_of_huge_numbers(values: list[float], half_width: float) -> None:

@@ -239,6 +239,16 @@ def test_a_long_instant_does_not_keep_the_events_that_ran():
     assert (remaining, len(loop)) == (0, 0)
 
 
+@pytest.mark.parametrize("taken_at_once", [False, True])
+def test_all_events_of_a_long_instant_run_in_their_order(taken_at_once):
+    loop = EventLoop()
+    count = 200_000
+    loop.schedule_events(0, [(nothing, str(number)) for number in range(count)])
+    events = loop.take_events() if taken_at_once else iter(loop.take_event, None)
+    assert [context for _, context in events] == [str(number) for number in range(count)]
+    assert len(loop) == 0
+
+
 def test_the_clock_can_be_set_forward_to_a_time_without_events():
     loop = EventLoop()
     loop.schedule_event(5, nothing)

@@ -66,6 +66,17 @@ def test_levels(root, capsys, options, levels):
     assert [text.split()[0] for text in capsys.readouterr().err.splitlines()] == levels
 
 
+def test_a_root_logger_that_lets_more_pass_goes_on_doing_so(root):
+    before = root.level
+    root.setLevel(logging.DEBUG)
+    formatter = setup_simulation_formatter(False, None)
+    during = root.level
+    formatter.remove()
+    after = root.level
+    root.setLevel(before)
+    assert (during, after) == (logging.DEBUG, logging.DEBUG)
+
+
 def test_the_lines_go_to_the_file_too(root, tmp_path):
     formatter = setup_simulation_formatter(False, tmp_path / "run.log")
     logging.getLogger().info("hällo")

@@ -84,6 +84,11 @@ def test_defaults_ask_for_no_grid(folder: Any) -> None:
     assert places(folder, "*.uavs[*].mobility.separationX = default\n", 2) == [(0.0, 0.0)] * 2
 
 
+def test_more_columns_than_nodes_take_no_separation(folder: Any) -> None:
+    lines = "*.uavs[*].mobility.columns = 3\n*.uavs[*].mobility.marginX = 5m\n"
+    assert places(folder, lines, 1) == [(5.0, 0.0)]
+
+
 @pytest.mark.parametrize("line", ["columns = 2", "marginX = 3m", 'typename = "StaticGridMobility"'])
 def test_a_grid_without_a_separation_is_an_error_at_its_line(folder: Any, line: str) -> None:
     assert folder.error(f"*.uavs[*].mobility.{line}\n").startswith(

@@ -69,6 +69,12 @@ def test_a_material_of_its_own(folder: Any) -> None:
     assert (obstacle.relative_permittivity, obstacle.conductivity_spm) == (4.0, 0.1)
 
 
+def test_the_least_of_a_material(folder: Any) -> None:
+    folder.write("town.geojson", town(feature(height=3, relativePermittivity=1, conductivity=0)))
+    (obstacle,) = folder.load(LINE).obstacles
+    assert (obstacle.relative_permittivity, obstacle.conductivity_spm) == (1.0, 0.0)
+
+
 def test_they_follow_those_of_the_ini_file(folder: Any) -> None:
     folder.write("town.geojson", town(feature()))
     own = "*.environment.numObstacles = 1\n*.environment.obstacle[0].minZ = 0m\n"

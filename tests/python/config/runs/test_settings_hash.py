@@ -21,6 +21,10 @@ def test_other_settings_have_another(folder: Any, other: list[str]) -> None:
     assert hash_of(folder, "", *other) != hash_of(folder, "", "**.speed=3mps")
 
 
+def test_the_same_value_of_another_key_has_another(folder: Any) -> None:
+    assert hash_of(folder, "", "**.initialX=3m") != hash_of(folder, "", "**.initialY=3m")
+
+
 @pytest.mark.parametrize(
     "added",
     [

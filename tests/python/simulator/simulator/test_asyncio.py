@@ -64,6 +64,18 @@ def test_a_task_brings_an_event_forward_in_real_time():
     simulator.finalize()
 
 
+def test_an_event_that_is_brought_forward_comes_when_it_is_due():
+    async def work(handler):
+        handler.event_loop.schedule_event(0.1, lambda: handler.calls.append(time.monotonic()))
+
+    handler = Asynchronous(work)
+    simulator = build(timers(3600), handlers=[handler], real_time=True)
+    start = time.monotonic()
+    simulator.run_events(1)
+    simulator.finalize()
+    assert handler.calls[-1] - start >= 0.1
+
+
 def test_in_real_time_events_come_when_they_are_due(monkeypatch):
     handler = Asynchronous()
     simulator = build(timers(0.01, 0.03), handlers=[handler], real_time=True)

@@ -99,6 +99,15 @@ def test_the_profile_is_logged_at_the_end(capsys):
     ]
 
 
+def test_the_profile_knows_the_events_of_single_steps(capsys):
+    simulator = build(timers(1, 2), profile=True, execution_logging=False)
+    while simulator.step_simulation():
+        pass
+    assert ["Tested", "0", "handle_timer", "2"] in [
+        line.split()[:4] for line in capsys.readouterr().err.splitlines()
+    ]
+
+
 def test_a_dropped_simulation_leaves_no_log_handler():
     simulator = build(timers(1, 2))
     simulator.step_simulation()
