@@ -43,13 +43,16 @@ class Pilot:
         self._speed_is_new.set()
 
     def go_to(self, target: Position) -> None:
-        """Fly to a point (x, y, z) in metres.
+        """Fly to a point (x, y, z) in metres; for z < 0 to the ground at x and y, and stand there.
+
+        A target below the ground would be met where the way to it meets the ground.
 
         Raises:
             ValueError: There is no such place on Earth.
             SitlError: The vehicle is gone, as for all orders.
         """
-        place = self._place_of(target)
+        x, y, z = target
+        place = self._place_of((x, y, max(0.0, z)))
         self._target = target
         if self._speed_mps == 0:
             self._stop()

@@ -53,6 +53,15 @@ def test_a_node_is_flown_where_its_protocol_sends_it(flown_scenario, mode):
     assert track[-1][1] == pytest.approx((0, 10, 20), abs=1)
 
 
+def test_sent_below_the_ground_it_stands_at_that_place(flown_scenario, mode):
+    """And not where the straight way there meets the ground."""
+    landing = FLYER.replace("40, -20, 15", "40, -20, -30").replace("0, 10, 20", "40, -20, -30")
+    settings = ("*.uavs[0].mobility.speed = 4mps", "sim-time-limit = 25s")
+    track = track_of(mode.run(flown_scenario(landing, *settings)))
+    for _, position in track[-4:]:
+        assert position == pytest.approx((40, -20, 0), abs=1)
+
+
 def test_the_flight_is_the_same_in_both_modes(flown_scenario):
     scenario = flown_scenario(FLYER)
     one, other = (track_of(mode.run(scenario)) for mode in MODES.values())

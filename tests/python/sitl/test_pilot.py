@@ -54,6 +54,11 @@ def test_a_target_is_a_place_on_earth(pilot, vehicle):
     assert vehicle.orders == [("go_to", 1.0, 2.0, 5.0)]
 
 
+def test_a_target_below_the_ground_is_the_ground_at_the_same_place(pilot, vehicle):
+    pilot.go_to((100.0, 200.0, -20.0))
+    assert vehicle.orders == [("go_to", 1.0, 2.0, 0.0)]
+
+
 def test_a_speed_is_told_in_the_next_turn(pilot, vehicle, loop):
     pilot.set_speed(4.0)
     assert (pilot.has_news, vehicle.orders) == (True, [])
