@@ -21,7 +21,7 @@ class FlightOrders(Protocol):
         """Fly to a point (x, y, z) in metres; ValueError if there is no such place on Earth."""
 
     def set_speed(self, speed_mps: float) -> None:
-        """Fly at this ground speed, >= 0."""
+        """Fly at this ground speed, >= 0; ValueError if it cannot."""
 
     def set_velocity(self, velocity_mps: Position) -> None:
         """Hold a velocity (North, East, up)."""
@@ -54,7 +54,12 @@ def give_order(command: MobilityCommand, node_id: int, reference: Position, vehi
     if wrong := wrong_mobility(command, node_id, can_move=True):
         raise MasslessMobilityException(wrong)
     if command.command_type == MobilityCommandType.SET_SPEED:
-        vehicle.set_speed(float(cast("float", command.param_1)))
+        try:
+            vehicle.set_speed(float(cast("float", command.param_1)))
+        except ValueError as error:
+            raise MasslessMobilityException(
+                f"node {node_id} was given the speed {command.param_1!r}: {error}"
+            ) from None
         return
     try:
         vehicle.go_to(cast("Position", three_numbers(command)))

@@ -1,4 +1,4 @@
-"""ArduCopter's program for SITL: where it is, what it is started with, how its options are called."""
+"""ArduCopter's program for SITL: where it is, how it is started, how its options are called; its limits."""
 
 import os
 import shutil
@@ -10,6 +10,9 @@ from gradysim.sitl.error import SitlError
 
 ENVIRONMENT_VARIABLE = "GRADYSIM_ARDUPILOT"
 """Names the program, or a checkout of ArduPilot, where no path is given."""
+
+LOWEST_SPEED_MPS = 0.2
+"""Ground speed of flights to a place: ArduCopter accepts a lower one, and flies on at the one before."""
 
 _IN_A_CHECKOUT = Path("build/sitl/bin/arducopter")
 
@@ -41,6 +44,11 @@ _AT_ONCE = "1000"
 """A pace that it never reaches: who waits for physics is not to wait for the wall's clock besides."""
 
 _SYSTEM_ID_OF_OLD = "SYSID_THISMAV"
+
+
+def is_too_slow(speed_mps: float) -> bool:
+    """Whether ArduCopter ignores a ground speed; one that is `LOWEST_SPEED_MPS` but for rounding it obeys."""
+    return speed_mps < LOWEST_SPEED_MPS * (1 - 1e-9)
 
 
 def find_arducopter(path: str | os.PathLike[str] | None) -> Path:

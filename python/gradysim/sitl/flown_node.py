@@ -31,7 +31,7 @@ class FlownNode:
         id: Of the node; its MAVLink system id is one more.
         name: For people.
         start: Where it hovers as the simulation begins: (x, y, z) in metres, not below the ground.
-        speed_mps: Ground speed until it is told another, > 0.
+        speed_mps: Ground speed until it is told another, >= `LOWEST_SPEED_MPS`.
         program: An arducopter for SITL, version 4.1 or newer; see `find_arducopter`.
         user: Whom its autopilot belongs to if root starts it; None for root.
         parameters: Of ArduCopter, by name; SIM_WIND_SPD (m/s) and SIM_WIND_DIR (deg, where it comes from) are

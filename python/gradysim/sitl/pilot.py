@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Callable
 
 from gradysim.protocol.position import Position
+from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
 from gradysim.sitl.vehicle import Vehicle
 
 _RENEWAL_S = 1.0
@@ -30,7 +31,7 @@ class Pilot:
             vehicle: What it is to fly.
             place_of: Returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in
                 metres; ValueError if there is no such place.
-            speed_mps: Ground speed, > 0.
+            speed_mps: Ground speed, >= `LOWEST_SPEED_MPS`.
             pace: Seconds of the autopilot's time for each second of the asyncio loop's.
         """
         self.vehicle = vehicle
@@ -68,7 +69,16 @@ class Pilot:
         self.vehicle.set_velocity(*velocity_mps)
 
     def set_speed(self, speed_mps: float) -> None:
-        """Fly at this ground speed from now on, >= 0; the autopilot has to confirm it, in `attend`."""
+        """Fly at this ground speed from now on; the autopilot has to confirm it, in `attend`.
+
+        Args:
+            speed_mps: 0, to stand, or >= `LOWEST_SPEED_MPS`.
+
+        Raises:
+            ValueError: It is between them.
+        """
+        if speed_mps != 0 and is_too_slow(speed_mps):
+            raise ValueError(f"an autopilot flies at {LOWEST_SPEED_MPS:g} m/s or faster, or stands at 0")
         before, self._speed_mps = self._speed_mps, speed_mps
         if speed_mps == 0:
             self._stop()

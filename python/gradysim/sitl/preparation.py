@@ -24,7 +24,7 @@ async def prepare(
         vehicle: Its link is connected.
         start: (latitude deg, longitude deg, height above home m).
         position_hz: How often it is to send its position, by its own clock.
-        speed_mps: Ground speed from the start on, > 0.
+        speed_mps: Ground speed from the start on, >= `LOWEST_SPEED_MPS`.
         timeout_s: For each step.
         parameters: Of the autopilot, by name; it has to confirm each.
         check: Called when its position is known and it has not moved; may raise SitlError.

@@ -212,7 +212,10 @@ class Vehicle:
         )
 
     async def set_speed(self, speed_mps: float) -> None:
-        """Set the ground speed, > 0, of its flight to the present target; climbing has its own."""
+        """Set the ground speed of its flight to the present target; climbing has its own.
+
+        Below `LOWEST_SPEED_MPS` it is confirmed, and ignored.
+        """
         step = f"speed {speed_mps:g} m/s"
         command = self._dialect.MAV_CMD_DO_CHANGE_SPEED
         self._check(step, await self._answer(step, command, _GROUND_SPEED, speed_mps, -1))

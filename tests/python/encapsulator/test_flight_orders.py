@@ -27,6 +27,8 @@ class Vehicle:
         self.orders.append(("go_to", target))
 
     def set_speed(self, speed_mps):
+        if 0 < speed_mps < 0.5:
+            raise ValueError("it stalls")
         self.orders.append(("set_speed", speed_mps))
 
     def set_velocity(self, velocity_mps):
@@ -74,6 +76,7 @@ def test_a_geographic_place_is_one_of_the_frame():
             "node 3 was given (1, None, 0): expected three finite numbers",
         ),
         (SetSpeedMobilityCommand(-1), "node 3 was given the speed -1: expected a finite number of m/s, >= 0"),
+        (SetSpeedMobilityCommand(0.25), "node 3 was given the speed 0.25: it stalls"),
         (MobilityCommand(17), "node 3 was given an unknown mobility command: 17"),
         ("north", "node 3 can carry out a MobilityCommand, was given 'north'"),
     ],

@@ -66,6 +66,23 @@ def test_a_speed_is_told_in_the_next_turn(pilot, vehicle, loop):
     assert (pilot.has_news, vehicle.orders) == (False, [("speed", 4.0)])
 
 
+def test_a_speed_that_arducopter_ignores_is_refused_and_the_one_before_holds(pilot, vehicle, loop):
+    for speed_mps in (0.1, 0.199):
+        with pytest.raises(ValueError, match=r"^an autopilot flies at 0\.2 m/s or faster, or stands at 0$"):
+            pilot.set_speed(speed_mps)
+    assert (pilot.has_news, vehicle.orders) == (False, [])
+    pilot.set_velocity((1.0, 0.0, 0.0))
+    pilot.go_to((100.0, 0.0, 5.0))
+    loop.turn(0.0)
+    assert vehicle.orders[-1] == ("speed", 10.0)
+
+
+def test_the_lowest_speed_is_obeyed_however_it_was_rounded(pilot, vehicle, loop):
+    pilot.set_speed(0.72 / 3.6)
+    loop.turn(0.0)
+    assert vehicle.orders == [("speed", pytest.approx(0.2))]
+
+
 def test_a_velocity_is_renewed_once_a_second_whatever_speeds_are_ordered(pilot, vehicle, loop):
     pilot.set_velocity((1.0, 2.0, 3.0))
     for tick in range(1, 51):

@@ -9,6 +9,7 @@ from gradysim.config.errors.source import Source
 from gradysim.config.keys.mobility import ARDUPILOT
 from gradysim.config.value.setting import Setting
 from gradysim.protocol.defaults import SPEED_MPS
+from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
 from gradysim.sitl.unprivileged import DEFAULT_USER
 
 
@@ -22,7 +23,7 @@ class AutopilotSpec:
         user_source: Where the user was named, or it was chosen.
         program: An arducopter for SITL, or an ArduPilot checkout; None for the environment's.
         user: Whom it belongs to if root runs the simulation; None for root.
-        speed_mps: Ground speed until the protocol sets another, > 0.
+        speed_mps: Ground speed until the protocol sets another, >= `LOWEST_SPEED_MPS`.
         parameters: Of ArduCopter, by name.
     """
 
@@ -45,8 +46,10 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
     if typename is None or typename.value != ARDUPILOT:
         return None
     speed = mobility.get("speed_mps")
-    if speed is not None and not float(speed.value) > 0:
-        raise ConfigError.at(speed.source, "an autopilot begins with a speed; expected more than 0mps")
+    if speed is not None and is_too_slow(float(speed.value)):
+        raise ConfigError.at(
+            speed.source, f"too slow for an autopilot; expected at least {LOWEST_SPEED_MPS:g}mps"
+        )
     program = autopilot.get("program")
     user = autopilot.get("user")
     parameters = autopilot.get("parameters")

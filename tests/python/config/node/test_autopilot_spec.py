@@ -42,7 +42,8 @@ def test_all_of_it(make_scenario, tmp_path):
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("*.uavs[*].mobility.speed = 0mps", "an autopilot begins with a speed; expected more than 0mps"),
+        ("*.uavs[*].mobility.speed = 0mps", "too slow for an autopilot; expected at least 0.2mps"),
+        ("*.uavs[*].mobility.speed = 0.1mps", "too slow for an autopilot; expected at least 0.2mps"),
         ('*.uavs[*].mobility.autopilotParameters = "A=1 B"', "`B` is no parameter; expected some as"),
         ('*.uavs[*].mobility.autopilotParameters = "A=fast"', "`A=fast` is no parameter"),
         ('*.uavs[*].mobility.autopilotParameters = "A=inf"', "`A=inf` is no parameter"),

@@ -9,6 +9,7 @@ from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.position import Position
 from gradysim.simulator.number_range import is_in_range
 from gradysim.simulator.reference_coordinates import check_reference
+from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
 from gradysim.sitl.connection import parse_address
 from gradysim.sitl.unprivileged import DEFAULT_USER
 
@@ -19,7 +20,7 @@ class ArdupilotMobilityConfiguration:
 
     Attributes:
         update_rate: Simulated time between two telemetries of a node; s, > 0.
-        default_speed: Ground speed of each node until its protocol sets another; m/s, > 0.
+        default_speed: Ground speed of each node until its protocol sets another; m/s, >= 0.2.
         reference_coordinates: (latitude deg, longitude deg, altitude m) of the origin of the frame.
         generate_report: Write `ardupilot_mobility_report.csv` into the working directory at the end.
         simulate_drones: Start an autopilot for each node; otherwise fly what is at `vehicle_addresses`.
@@ -73,6 +74,11 @@ class ArdupilotMobilityConfiguration:
             value = getattr(self, name)
             if not is_in_range(value, 0, above=True):
                 raise ValueError(f"{name} must be finite and > 0 {unit}".rstrip() + f", got {value!r}")
+        if is_too_slow(self.default_speed):
+            raise ValueError(
+                f"default_speed must be at least {LOWEST_SPEED_MPS:g} m/s for an autopilot, "
+                f"got {self.default_speed!r}"
+            )
         for name, value in (self.autopilot_parameters or {}).items():
             if not is_in_range(value, -math.inf, above=True):
                 raise ValueError(f"the autopilot's parameter {name} must be a finite number, got {value!r}")

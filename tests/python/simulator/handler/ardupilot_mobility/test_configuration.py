@@ -22,6 +22,14 @@ def test_a_number_that_is_none_is_refused(name, value):
         ArdupilotMobilityConfiguration(**{name: value})
 
 
+def test_a_speed_that_arducopter_ignores_is_refused():
+    with pytest.raises(
+        ValueError, match=r"^default_speed must be at least 0\.2 m/s for an autopilot, got 0\.1$"
+    ):
+        ArdupilotMobilityConfiguration(default_speed=0.1)
+    assert ArdupilotMobilityConfiguration(default_speed=0.2).default_speed == 0.2
+
+
 @pytest.mark.parametrize("place", [(91, 0, 0), (0, 0), None, (0, float("nan"), 0)])
 def test_a_place_that_is_none_is_refused(place):
     with pytest.raises(ValueError, match=r"^reference_coordinates must be"):

@@ -59,6 +59,7 @@ def test_a_parameter_that_the_autopilot_does_not_know_is_refused(toy_copter, qui
         (GotoGeoCoordsMobilityCommand(91, 0, 0), "latitude 91"),
         (GotoGeoCoordsMobilityCommand(-47.92, -15.84, 10), "did you mean latitude -15.84, longitude -47.92?"),
         (SetSpeedMobilityCommand(-1), "speed -1"),
+        (SetSpeedMobilityCommand(0.1), "given the speed 0.1: an autopilot flies at 0.2 m/s or faster"),
         (SetVelocityMobilityCommand(1, None, 0), "expected three finite numbers"),
         (MobilityCommand(17), "unknown mobility command"),
     ],
