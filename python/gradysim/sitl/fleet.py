@@ -3,7 +3,8 @@
 import asyncio
 import os
 import shutil
-import subprocess
+import signal
+import time
 import weakref
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,6 +20,7 @@ from gradysim.sitl.process import GRACE_S, AutopilotProcess, stop_all
 from gradysim.sitl.unprivileged import DEFAULT_USER, command_as, user_for
 
 _HELP_S = 10.0
+"""Wall time in which a program answers to --help."""
 
 
 class Fleet:
@@ -47,7 +49,7 @@ class Fleet:
         Raises:
             SitlError: The program cannot be run so.
         """
-        found = find_arducopter(program)
+        self._found = find_arducopter(program)
         self._user = user_for(user)
         self._consoles = None if console_folder is None else Path(console_folder).expanduser().absolute()
         if self._consoles is not None:
@@ -57,7 +59,7 @@ class Fleet:
         self._processes: list[AutopilotProcess] = []
         self._end = weakref.finalize(self, _end, self._processes, files, grace_s)
         self._instances: set[int] = set()
-        self._program = self._reachable(found)
+        self._program = self._reachable(self._found)
         self._help: str | None = None
 
     async def launch(
@@ -135,7 +137,7 @@ class Fleet:
         self._hand_over(folder)
         file = folder / "defaults.parm"
         system_id = identifier % 255 + 1
-        help_text = self._help_text()
+        help_text = self._help_text(name)
         file.write_text(parameter_file(system_id=system_id, help_text=help_text, more=parameters or {}))
         file.chmod(0o644)
         console = (self._consoles or self._folder) / f"autopilot_{identifier}.log"
@@ -175,21 +177,18 @@ class Fleet:
         if self._user is not None:
             shutil.chown(path, self._user)
 
-    def _help_text(self) -> str:
+    def _help_text(self, name: str) -> str:
+        """Return what the program answers to --help; it is asked once. `name` is of a vehicle, for people."""
         if self._help is None:
+            console = self._folder / "help.log"
             command = command_as(self._user, [str(self._program), "--help"])
-            try:
-                self._help = subprocess.run(
-                    command,
-                    cwd=self._folder,
-                    stdin=subprocess.DEVNULL,
-                    capture_output=True,
-                    text=True,
-                    timeout=_HELP_S,
-                    check=False,
-                ).stdout
-            except (OSError, subprocess.TimeoutExpired) as error:
-                raise SitlError(f"{self._program} does not answer to --help: {error}") from error
+            process = AutopilotProcess(name, command, self._folder, console)
+            self._processes.append(process)  # It ends with the others if Ctrl-C comes meanwhile.
+            if not process.wait_until(time.monotonic() + _HELP_S):
+                process.send(signal.SIGKILL)
+                process.wait_until(time.monotonic() + GRACE_S)
+                raise SitlError(f"{name}: start: {self._found} did not answer to --help in {_HELP_S:g} s")
+            self._help = console.read_text(errors="replace")
         return self._help
 
 

@@ -43,7 +43,7 @@ class AutopilotProcess:
                     start_new_session=True,
                 )
         except OSError as error:
-            raise SitlError(f"{name}: the autopilot cannot be started: {error}") from error
+            raise SitlError(f"{name}: the autopilot cannot be started: {error}") from None
 
     @property
     def pid(self) -> int:

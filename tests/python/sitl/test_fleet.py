@@ -3,11 +3,13 @@
 import asyncio
 import gc
 import os
+import time
 
 import pytest
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
+from python.simulator.handler.ardupilot_mobility.flying import programs_in
 from python.sitl.fleet_flight import HOME, fly, launched, new_fleet, ready, running
 
 pytestmark = pytest.mark.usefixtures("own_folder")
@@ -84,4 +86,22 @@ def test_an_autopilot_that_does_not_connect_is_told(tmp_path):
     fleet = new_fleet(program)
     with pytest.raises(SitlError, match=r"^vehicle 0: start: it did not connect in 0.1 s$"):
         asyncio.run(launched(fleet, timeout_s=0.1))
+    fleet.close()
+
+
+def test_a_program_that_does_not_answer_to_help_is_told_and_ends_with_what_it_started(tmp_path, monkeypatch):
+    program = tmp_path / "wrapper"
+    program.write_text('#!/bin/sh\ntail -f "$0"\nexit\n')
+    program.chmod(0o755)
+    monkeypatch.setattr("gradysim.sitl.fleet._HELP_S", 0.5)
+    fleet = new_fleet(program)
+    with pytest.raises(SitlError) as caught:
+        asyncio.run(launched(fleet))
+    assert str(caught.value) == f"vehicle 0: start: {program} did not answer to --help in 0.5 s"
+    assert caught.value.__cause__ is caught.value.__context__ is None
+    for _ in range(500):  # The kernel may need a moment.
+        if not programs_in(tmp_path):
+            break
+        time.sleep(0.01)
+    assert programs_in(tmp_path) == []
     fleet.close()
