@@ -161,8 +161,8 @@ class LockStepAutopilot:
         """Raise SitlError if the autopilot has ended, or for `trouble` after a time of `time.monotonic`."""
         assert self._process is not None
         if not self._process.is_running:
-            too_old = "" if self._frame is not None else "; ArduCopter 4.1 or newer is needed"
-            self._give_up(self._obituary() + too_old)
+            guess = "" if self._frame is not None else "; is it ArduCopter 4.1 or newer?"
+            self._give_up(self._obituary() + guess)
         if time.monotonic() > deadline_s:
             printed = self.link.last_words()
             self._give_up(f"{trouble}; it printed last: {printed}" if printed else trouble)

@@ -83,7 +83,7 @@ def test_how_often_it_is_asked_where_they_are_makes_no_difference(toy_copter, fl
         ({"leaves_at": 2}, "vehicle 0: flight: it left mode GUIDED for mode number 9"),
         (
             {"exits": True},
-            "ended with status 3; it printed last: no such model; ArduCopter 4.1 or newer is needed",
+            "ended with status 3; it printed last: no such model; is it ArduCopter 4.1 or newer?",
         ),
     ],
 )
