@@ -90,12 +90,12 @@ class AutopilotProcess:
 
 
 def stop_all(processes: Iterable[AutopilotProcess], grace_s: float = GRACE_S) -> None:
-    """End processes: SIGTERM to all, and SIGKILL to those that are there after `grace_s` wall seconds."""
+    """End processes: SIGTERM to all, and SIGKILL to what is left of them after `grace_s` wall seconds."""
     running = [process for process in processes if process.is_running]
     for process in running:
         process.send(signal.SIGTERM)
     deadline_s = time.monotonic() + grace_s
     for process in running:
-        if not process.wait_until(deadline_s):
-            process.send(signal.SIGKILL)
-            process.wait_until(time.monotonic() + GRACE_S)
+        process.wait_until(deadline_s)
+        process.send(signal.SIGKILL)  # What a wrapper started may outlive it.
+        process.wait_until(time.monotonic() + GRACE_S)

@@ -3,13 +3,12 @@
 import asyncio
 import gc
 import os
-import time
 
 import pytest
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.link import MavlinkLink
-from python.simulator.handler.ardupilot_mobility.flying import programs_in
+from python.simulator.handler.ardupilot_mobility.flying import programs_left_in
 from python.sitl.fleet_flight import HOME, fly, launched, new_fleet, ready, running
 
 pytestmark = pytest.mark.usefixtures("own_folder")
@@ -99,9 +98,5 @@ def test_a_program_that_does_not_answer_to_help_is_told_and_ends_with_what_it_st
         asyncio.run(launched(fleet))
     assert str(caught.value) == f"vehicle 0: start: {program} did not answer to --help in 0.5 s"
     assert caught.value.__cause__ is caught.value.__context__ is None
-    for _ in range(500):  # The kernel may need a moment.
-        if not programs_in(tmp_path):
-            break
-        time.sleep(0.01)
-    assert programs_in(tmp_path) == []
+    assert programs_left_in(tmp_path) == []
     fleet.close()

@@ -5,6 +5,7 @@ import pytest
 
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.process import AutopilotProcess, stop_all
+from python.simulator.handler.ardupilot_mobility.flying import programs_left_in
 
 STUBBORN = (
     "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(1, flush=True); time.sleep(60)"
@@ -67,6 +68,17 @@ def test_those_that_do_not_follow_sigterm_are_killed(start, tmp_path):
     stop_all([stubborn, mild], grace_s=0.2)
     assert "SIGKILL" in stubborn.obituary()
     assert "SIGTERM" in mild.obituary()
+
+
+def test_what_a_wrapper_started_ends_with_it(start, tmp_path):
+    child = tmp_path / "child.py"
+    child.write_text(STUBBORN)
+    wrapper = start(f"import subprocess, sys; subprocess.run([sys.executable, {str(child)!r}])")
+    while not (tmp_path / "0.log").read_text():
+        time.sleep(0.01)
+    stop_all([wrapper], grace_s=0.2)
+    assert "SIGTERM" in wrapper.obituary()
+    assert programs_left_in(tmp_path) == []
 
 
 def test_stopping_what_has_ended_does_nothing(start):

@@ -1,6 +1,7 @@
 """Simulations whose nodes are flown by processes that speak MAVLink: the toy of tests/python/sitl."""
 
 import os
+import time
 from pathlib import Path
 from typing import ClassVar
 
@@ -69,6 +70,15 @@ def programs_in(folder):
         if str(folder).encode() in line and int(file.parent.name) != os.getpid():
             found.append(line)
     return found
+
+
+def programs_left_in(folder):
+    """The same, some moments later if there are any: the kernel may need them to end what was killed."""
+    for _ in range(500):
+        if not programs_in(folder):
+            break
+        time.sleep(0.01)
+    return programs_in(folder)
 
 
 def build(program, *protocols, positions=None, duration=5, real_time=SPEED, **settings):
