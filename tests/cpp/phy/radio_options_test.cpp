@@ -223,8 +223,8 @@ TEST_F(RadioWithChunks, AHeaderThatSurvivedIsNotDecidedAgain) {
     constexpr unsigned frames = 200;
     config.snir_threshold = 0;
     BareRadio& here = receiver();
-    BareRadio& sender = air.add_radio(
-        {light_microsecond_m, 0, 0}, test::radio_of_power(test::power_for(strong_w, light_microsecond_m)));
+    BareRadio& sender = air.add_radio({light_microsecond_m, 0, 0},
+                                      test::radio_of_power(test::power_for(strong_w, light_microsecond_m)));
     BareRadio& other =
         air.add_radio({0, light_microsecond_m, 0},
                       test::radio_of_power(test::power_for(0.7 * strong_w, light_microsecond_m)));
