@@ -73,8 +73,8 @@ std::size_t MinstrelRateControl::draw_tried(const Link& link) {
 
 std::size_t MinstrelRateControl::choose(const Link& link, const RateAttempt& attempt) const {
     const Chain& chain = link.chain;
-    if (link.tried > chain.best && attempt.number == 0) {
-        return link.tried;
+    if (attempt.number == 0) {
+        return std::max(link.tried, chain.best);
     }
     const std::size_t second = link.tried < chain.best ? link.tried : chain.second;
     int before = attempt.number;

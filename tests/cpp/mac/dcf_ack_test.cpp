@@ -33,7 +33,7 @@ TEST_F(DcfAck, AFrameWithoutAckIsRepeated) {
         expected.push_back(attempt * i);
     }
     EXPECT_EQ(starts(FrameKind::unicast), expected);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(given_up(), 1U);
 }
 
 // Where the ACK would last longer than the timeout waits for its beginning, the medium is free only after the
@@ -55,9 +55,6 @@ TEST_F(DcfAck, GivesUpWhenTheAckTimeoutOfTheLastAttemptIsOver) {
     mac.short_retry_limit = 1;
     add_pair_without_way_back(mac);
     a->send(b->id(), 100);
-    const auto given_up = [this] {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
-    };
     air.run(data_duration + ack_timeout - SimTime::from_ps(1));
     EXPECT_EQ(given_up(), 0U);
     air.run(data_duration + ack_timeout);
@@ -83,7 +80,7 @@ TEST_F(DcfAck, AnAckThatBeginsAfterTheTimeoutIsTooLate) {
     a->send(b->id(), 100);
     air.run();
     EXPECT_EQ(b->received.size(), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(given_up(), 1U);
 }
 
 TEST_F(DcfAck, AnotherFrameInsteadOfTheAckIsAFailure) {
@@ -93,9 +90,6 @@ TEST_F(DcfAck, AnotherFrameInsteadOfTheAckIsAFailure) {
     a->send(b->id(), 100);
     test::BareRadio& rude = air.add_radio({0, 10, 0});
     air.at(data_duration + us(20), [&] { rude.send(us(50)); });
-    const auto given_up = [this] {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
-    };
     air.run(data_duration + ack_timeout);
     EXPECT_EQ(given_up(), 0U);  // it may be the ACK
     air.run(data_duration + us(71));
@@ -111,9 +105,6 @@ TEST_F(DcfAck, ABrokenFrameThatEndsBeforeTheTimeoutIsNoFailure) {
     test::BareRadio& ruder = air.add_radio({0, 5, 0});
     air.at(data_duration + us(5), [&] { rude.send(us(30)); });
     air.at(data_duration + us(6), [&] { ruder.send(us(30)); });
-    const auto given_up = [this] {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
-    };
     air.run(data_duration + ack_timeout - SimTime::from_ps(1));
     EXPECT_EQ(given_up(), 0U);  // the ACK may still come
     air.run(data_duration + ack_timeout);
@@ -137,7 +128,7 @@ TEST_F(DcfAck, AfterGivingUpTheNextMessageHasItsTurn) {
     a->send(b->id(), "next");
     air.run();
     EXPECT_EQ(b->texts(), std::vector<std::string>{"next"});
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(given_up(), 1U);
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
 }
 

@@ -68,6 +68,13 @@ protected:
     std::uint64_t given_up() const {
         return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
     }
+    // The first message, in that very instant.
+    void expect_given_up_at(SimTime time) {
+        air.run(time - SimTime::from_ps(1));
+        EXPECT_EQ(given_up(), 0U);
+        air.run(time);
+        EXPECT_EQ(given_up(), 1U);
+    }
 
     static constexpr NodeId stranger = 99;
 
@@ -157,10 +164,7 @@ TEST_F(RtsTest, GivesUpWhenTheCtsTimeoutOfTheLastAttemptIsOver) {
     mac.short_retry_limit = 1;
     add(mac);
     station->send(stranger, 100);
-    air.run(rts_duration + cts_timeout - SimTime::from_ps(1));
-    EXPECT_EQ(given_up(), 0U);
-    air.run(rts_duration + cts_timeout);
-    EXPECT_EQ(given_up(), 1U);
+    expect_given_up_at(rts_duration + cts_timeout);
 }
 
 // The preamble of a CTS at 1 Mbps is longer than that of the data at 24 Mbps.
@@ -172,10 +176,7 @@ TEST_F(RtsTest, TheTimeoutIsThatOfACtsInTheModeOfTheRts) {
     mac.short_retry_limit = 1;
     add(mac);
     station->send(stranger, 100);
-    air.run(slow_rts_duration + slow_cts_timeout - SimTime::from_ps(1));
-    EXPECT_EQ(given_up(), 0U);
-    air.run(slow_rts_duration + slow_cts_timeout);
-    EXPECT_EQ(given_up(), 1U);
+    expect_given_up_at(slow_rts_duration + slow_cts_timeout);
 }
 
 TEST_F(RtsTest, ACtsThatHasBegunByTheTimeoutIsWaitedFor) {

@@ -1,6 +1,7 @@
 // The fixture of tests of the Dcf: two stations and what is on the air at the first.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,6 +31,10 @@ protected:
             times.push_back(frame.start);
         }
         return times;
+    }
+    // Unicast messages, of either.
+    std::uint64_t given_up() const {
+        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
     }
 
     Air air;
