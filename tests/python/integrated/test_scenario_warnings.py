@@ -175,3 +175,13 @@ def test_obstacles_far_from_all_nodes_are_told(warnings: Callable[..., list[str]
     assert "warning: all obstacles are 4000 km and more from where any node starts" in text
     assert warnings(*BOX, IDEAL, "*.uavs[0].mobility.initialX=4000km") == []
     assert warnings(*BOX, IDEAL, "*.uavs[*].mobility.initialX=90km") == []
+
+
+@pytest.mark.parametrize("axis", ["X", "Y"])
+@pytest.mark.parametrize("sign", ["", "-"])
+@pytest.mark.parametrize(("distance", "told"), [("101km", 1), ("99km", 0)])
+def test_obstacles_are_far_from_100_km_on_in_any_direction(
+    warnings: Callable[..., list[str]], axis: str, sign: str, distance: str, told: int
+) -> None:
+    place = f"*.uavs[*].mobility.initial{axis}={sign}{distance}"
+    assert len(warnings(*BOX, IDEAL, place)) == told

@@ -143,6 +143,12 @@ def test_other_places_are_named(texts: Callable[..., list[str]], other: Source, 
     assert nor in text
 
 
+def test_a_few_lines_are_all_named(texts: Callable[..., list[str]]) -> None:
+    fields = ("use_acks", "max_frame_retries", "ack_wait_s", "sifs_s", "max_backoffs")
+    (text,) = texts({f"csma.{field}": line(number) for number, field in enumerate(fields, 1)}, chosen())
+    assert ", nor lines 2, 3, 4 and 5:" in text
+
+
 def test_many_lines_are_only_counted(texts: Callable[..., list[str]]) -> None:
     fields = ("use_acks", "max_frame_retries", "ack_wait_s", "sifs_s", "max_backoffs", "cca_s")
     (text,) = texts({f"csma.{field}": line(number) for number, field in enumerate(fields, 1)}, chosen())

@@ -35,6 +35,13 @@ def test_a_study_that_another_key_overrides(folder: Any, study: str, override: s
     assert f"{variables.instead.key}={variables.instead.value}" == override
 
 
+def test_the_line_in_force_is_told_from_lines_about_other_things(folder: Any) -> None:
+    study = "*.uavs[1].mobility.speed = ${v=1, 2}mps\n"
+    (variables,) = unread(folder, study, "**.bitrate=2Mbps", "*.uavs[*].mobility.speed=3mps")
+    assert variables.instead is not None
+    assert variables.instead.key == "*.uavs[*].mobility.speed"
+
+
 @pytest.mark.parametrize(
     ("study", "override"),
     [

@@ -242,6 +242,10 @@ def test_chains_of_any_length_end(sign: str) -> None:
         ("9" * 5000, "`99999999999999999999...` is too large a number"),
         ("(" * 5000, "the expression is nested too deeply; expected at most 50 levels"),
         ("-" * 5000 + "1", "the expression is nested too deeply; expected at most 50 levels"),
+        (
+            "(1) + " * 60 + "(" * 51 + "1" + ")" * 51,
+            "the expression is nested too deeply; expected at most 50 levels",
+        ),
     ],
 )
 def test_errors(text: str, message: str) -> None:

@@ -59,6 +59,7 @@ def test_sums_and_comparisons_are_exact(a: float, b: float) -> None:
         ("1", "==", '"1"', '`1` and `"1"` cannot be compared'),
         ("true", "<", "5", "`true` and `5` cannot be compared; several comparisons are joined by `&&`"),
         ("1", "=~", '"1"', "`=~` is for a text and a pattern, both in quotes"),
+        ('"1"', "=~", "1", "`=~` is for a text and a pattern, both in quotes"),
         ('"a"', "=~", '"{a"', "`{` is not closed; expected `}` after it (a plain brace is written `\\{`)"),
         ("true", "&&", "1", "`&&` is for true and false, and `1` is neither"),
         ('"a"', "+", "1", 'arithmetic is for numbers only, and `"a"` is none'),
