@@ -60,6 +60,13 @@ def test_csv_has_all_digits() -> None:
     ]
 
 
+def test_lines_of_csv_end_as_other_tools_expect_them() -> None:
+    text = StringIO(newline="")
+    write_csv([SLOW], text)
+    assert text.getvalue().count("\n") == 2
+    assert "\r" not in text.getvalue()
+
+
 def test_a_variable_called_as_another_column_has_a_heading_of_its_own_in_csv() -> None:
     text = StringIO()
     write_csv([Mean("Study", "integrated", {"mode": "b", "x": 1}, "uavs[*] heard", 1, 2.0, None)], text)

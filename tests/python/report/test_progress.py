@@ -1,11 +1,12 @@
 import math
 import threading
 from io import StringIO
+from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 
-from gradysim.report.progress import RunProgress
+from gradysim.report.progress import RunProgress, SpeedColumn
 
 
 def shown(limit_s, *times, width=120):
@@ -25,6 +26,21 @@ def test_title_and_simulated_time():
 
 def test_remaining_time_is_unknown_at_first():
     assert "-:--:--" in shown(10.0, 0.0)
+
+
+def test_it_is_drawn_anew_at_each_update():
+    text = StringIO()
+    with RunProgress(Console(file=text, force_terminal=True, width=120), "General run 0", 7200.0) as bar:
+        bar.update(120.0)
+        assert "120 of 7,200 s" in text.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("speed", "shown"), [(None, ""), (0.51234, "0.512"), (585.4, "585"), (12_345.6, "12,346")]
+)
+def test_a_speed_has_three_digits_or_all_before_the_point(speed, shown):
+    task = SimpleNamespace(finished_speed=None, speed=speed)
+    assert SpeedColumn().render(task).plain == (shown and f"{shown} x real time")
 
 
 def test_speed_is_shown_once_it_is_known():

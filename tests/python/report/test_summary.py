@@ -133,6 +133,10 @@ def test_a_long_value_is_cut():
     assert short("x" * 1000) == "x" * (MAX_VALUE_LENGTH - 1) + "…"
 
 
+def test_a_value_that_just_fits_is_not_cut():
+    assert short("x" * MAX_VALUE_LENGTH) == "x" * MAX_VALUE_LENGTH
+
+
 def test_what_is_no_number_is_shown_as_that():
     assert short(math.nan) == "nan"
 
