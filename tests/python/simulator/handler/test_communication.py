@@ -328,3 +328,13 @@ class TestStandingTime:
         answering(delay=1e-9, times=_RAN_AT_MOST + 40)
         world.run()
         assert world.loop.current_time == pytest.approx(1e-9 * (_RAN_AT_MOST + 41))
+
+    def test_some_more_messages_are_fine_when_the_instant_is_crowded(self, world, answering):
+        answering(delay=0.0, times=_RAN_AT_MOST + 5)
+        world.run()
+        assert len(world.loop) == 0
+
+    def test_many_messages_at_once_are_fine_before_the_instant_is_crowded(self, world, answering):
+        answering(delay=0.0, times=_RAN_AT_MOST - 1)
+        world.run()
+        assert len(world.loop) == 0

@@ -234,6 +234,11 @@ class TestStandingTime:
         world.run()
         assert world.loop.current_time == pytest.approx(2.5 + 1e-9 * (_RAN_AT_MOST + 20))
 
+    def test_some_more_timers_for_now_are_fine_when_the_instant_is_crowded(self, world, again):
+        again(delay=0.0, times=_RAN_AT_MOST + 5)
+        world.run()
+        assert len(world.loop) == 0
+
     def test_many_timers_for_now_are_fine_before_the_instant_is_crowded(self, world, again):
         again(delay=0.0, times=_RAN_AT_MOST - 1)
         world.run()
