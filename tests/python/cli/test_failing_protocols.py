@@ -1,5 +1,8 @@
 """What a user sees of a protocol that fails."""
 
+import contextlib
+import os
+import pty
 import signal
 import subprocess
 import sys
@@ -140,6 +143,28 @@ def test_a_protocol_that_ends_the_process(gradysim, folder, mode, status):
         "os._exit(self.status)",
         "General: run 0 failed, 0 of 3 runs are done, 2 were not begun (1..2)",
     ]
+
+
+def test_a_protocol_that_ends_the_process_of_a_terminal_leaves_it_with_its_cursor(folder):
+    (folder / "ends.py").write_text(ENDS)
+    name = '*.uavs[*].protocol.class="ends.py:EndsItself"'
+    ours, theirs = pty.openpty()
+    done = subprocess.run(
+        [sys.executable, "-m", "gradysim", "run", "test.ini", "--mode", "prototype", "--set", name],
+        cwd=folder,
+        env={**environment(), "TERM": "xterm"},
+        stdout=subprocess.PIPE,
+        stderr=theirs,
+        timeout=60,
+    )
+    os.close(theirs)
+    shown = b""
+    with os.fdopen(ours, "rb", buffering=0) as terminal, contextlib.suppress(OSError):  # nothing more comes
+        while chunk := terminal.read(4096):
+            shown += chunk
+    assert done.returncode == 1
+    assert shown.rindex(b"\x1b[?25h") > shown.rindex(b"\x1b[?25l")
+    assert b"os._exit(0) ends the process" in shown
 
 
 def test_a_process_that_a_protocol_began_ends_as_it_wants_to(gradysim, folder):

@@ -15,6 +15,12 @@ def test_what_is_written_arrives_and_no_letter_is_an_error(tmp_path):
     assert (tmp_path / "file").read_text() == "5 \\xb5W\n"
 
 
+def test_what_was_chosen_for_letters_that_it_lacks_stays_so(tmp_path):
+    with (tmp_path / "file").open("w", encoding="ascii", errors="replace") as file:
+        print("5 µW", file=named_output(file), flush=True)
+    assert (tmp_path / "file").read_text() == "5 ?W\n"
+
+
 def test_what_was_written_before_comes_first(tmp_path):
     with (tmp_path / "file").open("w") as file:
         print("before", file=file)

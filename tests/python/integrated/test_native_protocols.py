@@ -13,6 +13,7 @@ from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import IntegratedRun, run
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.simulator.handler.assertion import AssertionHandler, assert_always_true_for_protocol
+from python.integrated.watching import Watching
 
 ROOT = Path(__file__).parents[3]
 BEACON = '*.uavs[*].protocol.typename = "BeaconProtocol"'
@@ -159,3 +160,14 @@ def test_handlers_see_the_node_and_its_parameters(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", BEACON, interval)
     run(scenario, handlers=[AssertionHandler([look])])
     assert set(seen) == {(0, 0.5), (1, 0.5)}
+
+
+def test_handlers_can_ask_for_the_id_and_the_time_of_its_node(make_scenario):
+    class Asking(Watching):
+        def finalize(self):
+            providers = [node.protocol_encapsulator.protocol.provider for node in self.nodes]
+            self.told = [(provider.get_id(), provider.current_time()) for provider in providers]
+
+    handler = Asking()
+    run(make_scenario("class Tested(Quiet): pass", BEACON), handlers=[handler])
+    assert handler.told == [(0, 2.05), (1, 2.05)]
