@@ -118,6 +118,10 @@ def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
             "--ratio 90: it is out of range; expected more than 0 and less than 1; did you mean 0.9?",
         ),
         (
+            ["--range", "50m", "--ratio", "100"],
+            "--ratio 100: it is out of range; expected more than 0 and less than 1",
+        ),
+        (
             ["--range", "50m", "--ratio", "1"],
             "--ratio 1: it is out of range; expected more than 0 and less than 1",
         ),

@@ -102,6 +102,11 @@ def test_runs_with_one_seed_are_warned_of(gradysim, runs, seed, warned):
     assert ("warning: the 3 runs of General have seed 4" in done.stderr) is warned
 
 
+def test_two_runs_of_one_seed_are_warned_of(gradysim):
+    arguments = ("-r", "0,1", "--mode", "prototype", "--quiet", "--set", "seed-set=4")
+    assert "warning: the 2 runs of General have seed 4" in gradysim("run", "test.ini", *arguments).stderr
+
+
 @both_modes
 @pytest.mark.parametrize("seed", [-1, 2**63, 2**64 - 1, 2**64])
 def test_a_seed_out_of_range_is_refused(gradysim, mode, seed):

@@ -67,6 +67,12 @@ def test_delays_of_messages():
     assert row.split() == ["unicast", "2,000", *["1.05", "ms", "0.3", "ms", "0.3", "ms", "1,500", "ms"]]
 
 
+def test_the_delay_that_95_percent_do_not_exceed_is_told():
+    delays = {"unicast": constant_delays({0.001: 93, 0.002: 4, 0.003: 3})}
+    row = next(line for line in printed(message_delays=delays).splitlines() if line.startswith("unicast"))
+    assert row.split()[-4:] == ["2", "ms", "3", "ms"]
+
+
 def test_a_delay_of_many_seconds_is_written_out():
     lines = printed(message_delays={"unicast": constant_delays({12.3456: 1})}).splitlines()
     assert next(line for line in lines if line.startswith("unicast")).endswith("12,346 ms")
