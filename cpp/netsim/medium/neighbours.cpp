@@ -50,9 +50,9 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     lowest_ = {infinite, infinite, infinite};
     highest_ = {-infinite, -infinite, -infinite};
-    std::vector<Entry> unsorted;
+    std::vector<Position> places;
     std::vector<std::uint32_t> table_places;
-    unsorted.reserve(radios_.size());
+    places.reserve(radios_.size());
     table_places.reserve(radios_.size());
     first_entry_.assign(columns_ * columns_ + 1, 0);
     for (const Radio& radio : radios_) {
@@ -61,7 +61,7 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
         highest_ = {std::max(highest_.x, place.x), std::max(highest_.y, place.y),
                     std::max(highest_.z, place.z)};
         const std::size_t table_place = column_of(cell_of(place.y)) * columns_ + column_of(cell_of(place.x));
-        unsorted.push_back(Entry{place, radio.id, radio.trajectory});
+        places.push_back(place);
         table_places.push_back(static_cast<std::uint32_t>(table_place));
         ++first_entry_[table_place + 1];
     }
@@ -69,9 +69,12 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
         first_entry_[i] += first_entry_[i - 1];
     }
     std::vector<std::uint32_t> next = first_entry_;
-    entries_.resize(unsorted.size());
-    for (std::size_t i = 0; i < unsorted.size(); ++i) {
-        entries_[next[table_places[i]]++] = unsorted[i];
+    entries_.resize(radios_.size());
+    trajectories_.resize(radios_.size());
+    for (std::size_t i = 0; i < radios_.size(); ++i) {
+        const std::uint32_t entry = next[table_places[i]]++;
+        entries_[entry] = Entry{places[i], radios_[i].id};
+        trajectories_[entry] = radios_[i].trajectory;
     }
     const Position largest{std::max(-lowest_.x, highest_.x), std::max(-lowest_.y, highest_.y),
                            std::max(-lowest_.z, highest_.z)};
@@ -125,13 +128,13 @@ const std::vector<Neighbours::Near>& Neighbours::near(const Position& centre, do
     }
     if (!all_stand_) {
         for (std::size_t i = 0; i < found; ++i) {
-            fetch_bytes(entries_[found_[i]].trajectory, cache_line_bytes);
+            fetch_bytes(trajectories_[found_[i]], cache_line_bytes);
         }
     }
     near_.clear();
     for (std::size_t i = 0; i < found; ++i) {
         const Entry& entry = entries_[found_[i]];
-        near_.push_back({entry.id, all_stand_ ? entry.place : entry.trajectory->position_at(now_)});
+        near_.push_back({entry.id, all_stand_ ? entry.place : trajectories_[found_[i]]->position_at(now_)});
     }
     return near_;
 }

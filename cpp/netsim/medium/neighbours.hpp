@@ -45,10 +45,9 @@ private:
         RadioId id;
         const Trajectory* trajectory;
     };
-    struct Entry {
+    struct Entry {       // half a cache line: of all that is read for a transmission, this is read most often
         Position place;  // where it was when the grid was laid out
         RadioId id = 0;
-        const Trajectory* trajectory = nullptr;
     };
 
     void lay_out(SimTime now, double reach_m);
@@ -71,9 +70,10 @@ private:
     void find_runs(const Position& centre, double radius_m);
 
     std::vector<Radio> radios_;
-    std::vector<Entry> entries_;              // by place in the table
-    std::vector<std::uint32_t> first_entry_;  // of each place in the table, and the end
-    std::size_t columns_ = 1;                 // and as many rows
+    std::vector<Entry> entries_;                   // by place in the table
+    std::vector<const Trajectory*> trajectories_;  // of theirs
+    std::vector<std::uint32_t> first_entry_;       // of each place in the table, and the end
+    std::size_t columns_ = 1;                      // and as many rows
     double cell_m_ = 1;
     Position lowest_;
     Position highest_;
