@@ -36,12 +36,15 @@ inline double uniform_of(std::uint32_t high_word, std::uint32_t low_word) {
 class RandomStream {
 public:
     RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpose);
+    // After so many draws of `uniform`.
+    RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpose, std::uint64_t uniforms_drawn)
+        : RandomStream(seed, node, purpose) {
+        next_word_ = words_of_uniform * uniforms_drawn;
+    }
 
     std::uint32_t next_u32();
     // Uniform in [0, 1), 53 random bits.
     double uniform();
-    // As if one had been drawn, without working it out.
-    void skip_uniform() { next_word_ += words_of_uniform; }
     // Uniform between two bounds, as Python's random.uniform computes it.
     double uniform(double from, double to) { return from + (to - from) * uniform(); }
     // Uniform among 0 … count − 1, without bias. count > 0.

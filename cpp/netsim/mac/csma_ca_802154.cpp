@@ -9,8 +9,7 @@
 
 namespace netsim {
 
-CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
-                           NetworkInterfaceListener& listener)
+CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed)
     : simulator_(simulator),
       radio_(radio),
       config_(config),
@@ -20,7 +19,6 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       sifs_(SimTime::from_seconds(config.sifs_s)),
       lifs_(SimTime::from_seconds(config.lifs_s)),
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
-      listener_(listener),
       draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
       outbox_(radio.node(), config.queue_capacity) {
     radio_.set_listener(*this);
@@ -150,7 +148,7 @@ void CsmaCa802154::finish(MessageFate fate) {
 void CsmaCa802154::frame_received(const Transmission& transmission) {
     const Frame& frame = *transmission.frame;
     if (frame.kind == FrameKind::broadcast) {
-        listener_.message_received(frame);
+        pass_on_message(frame);
     } else if (frame.receiver != radio_.node()) {
         return;
     } else if (frame.kind == FrameKind::unicast) {
@@ -169,7 +167,7 @@ void CsmaCa802154::unicast_received(const Frame& frame) {
         acknowledge(frame);
     }
     if (!duplicates_.is_duplicate(frame)) {
-        listener_.message_received(frame);
+        pass_on_message(frame);
     }
 }
 

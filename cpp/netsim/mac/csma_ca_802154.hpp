@@ -44,8 +44,7 @@ namespace netsim {
 
 class CsmaCa802154 final : public NetworkInterface, private RadioListener {
 public:
-    CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed,
-                 NetworkInterfaceListener& listener);
+    CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed);
     CsmaCa802154(const CsmaCa802154&) = delete;
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
@@ -98,7 +97,6 @@ private:
     SimTime sifs_;
     SimTime lifs_;
     SimTime ack_wait_;
-    NetworkInterfaceListener& listener_;
     RandomStream draws_;
 
     Outbox outbox_;  // its frame in progress was on the air, or is about to be

@@ -10,10 +10,9 @@
 namespace netsim {
 
 Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-         std::uint64_t seed, NetworkInterfaceListener& listener)
+         std::uint64_t seed)
     : simulator_(simulator),
       radio_(radio),
-      listener_(listener),
       parameters_(*parameters),
       retry_(parameters->retry_limits, parameters->contention_window, parameters->retry_rule),
       contention_(simulator, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff),
@@ -166,7 +165,7 @@ void Dcf::frame_received(const Transmission& transmission) {
         }
     }
     if (frame.kind == FrameKind::broadcast) {
-        listener_.message_received(frame);
+        pass_on_message(frame);
     } else if (for_this_station) {
         addressed_here(frame, *transmission.mode);
     }
@@ -192,7 +191,7 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
     } else if (frame.kind == FrameKind::unicast) {
         respond_after_sifs(make_ack(frame), parameters_.modes.response_mode(mode));
         if (!duplicates_.is_duplicate(frame)) {
-            listener_.message_received(frame);
+            pass_on_message(frame);
         }
     }
 }

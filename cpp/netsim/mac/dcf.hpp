@@ -45,7 +45,7 @@ namespace netsim {
 class alignas(64) Dcf final : public NetworkInterface, private RadioListener, private ContentionListener {
 public:
     Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-        std::uint64_t seed, NetworkInterfaceListener& listener);
+        std::uint64_t seed);
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
@@ -113,7 +113,6 @@ private:
     // First what every frame that is heard touches: one cache line, which the medium fetches ahead.
     Simulator& simulator_;
     Radio& radio_;
-    NetworkInterfaceListener& listener_;
     SimTime nav_end_ = SimTime::long_ago();
     bool watches_channel_ = false;  // and contention is told of it
     // Only then is contention told of a frame that is received well: it lies in another cache line.

@@ -26,6 +26,9 @@ protected:
 class NetworkInterface {
 public:
     virtual ~NetworkInterface() = default;
+
+    // Who gets the messages; nobody, if null.
+    void set_listener(NetworkInterfaceListener* listener) { listener_ = listener; }
     // Takes a message for `destination` (broadcast_id: for all in reach). Throws SimulationError if it is longer than
     // longest_message_bytes().
     virtual void send(NodeId destination, Payload payload) = 0;
@@ -39,6 +42,16 @@ public:
     virtual std::size_t queued_messages() const = 0;
     // {bitrate in bps: unicast frames sent with it, retries included} of a station that has a rate control.
     virtual std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const { return {}; }
+
+protected:
+    void pass_on_message(const Frame& frame) const {
+        if (listener_ != nullptr) {
+            listener_->message_received(frame);
+        }
+    }
+
+private:
+    NetworkInterfaceListener* listener_ = nullptr;
 };
 
 }  // namespace netsim

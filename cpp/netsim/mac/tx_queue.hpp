@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -12,7 +13,7 @@ namespace netsim {
 
 class TxQueue {
 public:
-    explicit TxQueue(int capacity) : capacity_(static_cast<std::size_t>(capacity)) {}
+    explicit TxQueue(int capacity) : capacity_(static_cast<std::uint32_t>(capacity)) {}
 
     // False if it was full and the frame is dropped.
     bool push(std::shared_ptr<const Frame> frame) {
@@ -32,7 +33,7 @@ public:
         if (taken_ < others_.size()) {
             first_ = std::move(others_[taken_++]);
             if (2 * taken_ >= others_.size()) {  // so that a frame is moved once, on average
-                others_.erase(others_.begin(), others_.begin() + static_cast<std::ptrdiff_t>(taken_));
+                others_.erase(others_.begin(), others_.begin() + taken_);
                 taken_ = 0;
             }
         }
@@ -42,12 +43,12 @@ public:
     std::size_t size() const { return (first_ ? 1 : 0) + others_.size() - taken_; }
 
 private:
-    std::size_t capacity_;
+    std::uint32_t capacity_;
+    std::uint32_t taken_ = 0;  // of the others, at the front
     // Null only if there are no others. Mostly it is the only one, and has no place of its own in memory.
     std::shared_ptr<const Frame> first_;
     // Not a deque, which takes half a kilobyte even while it is empty.
     std::vector<std::shared_ptr<const Frame>> others_;
-    std::size_t taken_ = 0;  // of them, at the front
 };
 
 }  // namespace netsim

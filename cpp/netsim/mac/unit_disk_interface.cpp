@@ -9,14 +9,13 @@ namespace netsim {
 
 UnitDiskInterface::UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface,
                                      double range_m, const Trajectory& trajectory, FrameFates& frame_fates,
-                                     Fingerprint& fingerprint, NetworkInterfaceListener& listener)
+                                     Fingerprint& fingerprint)
     : simulator_(simulator),
       channel_(channel),
       range_m_(range_m),
       trajectory_(trajectory),
       frame_fates_(frame_fates),
       fingerprint_(fingerprint),
-      listener_(listener),
       id_(interface.node) {
     if (interface.index == 0) {
         NETSIM_ASSERT(interface.node == static_cast<NodeId>(channel.interfaces.size()));
@@ -84,7 +83,7 @@ void UnitDiskInterface::deliver(std::size_t flight) {
     free_flights_.push_back(flight);
     frame_fates_.book(landed.receiver->id_, {landed.frame->kind, landed.frame->receiver},
                       FrameFate::delivered);
-    landed.receiver->listener_.message_received(*landed.frame);
+    landed.receiver->pass_on_message(*landed.frame);
 }
 
 }  // namespace netsim

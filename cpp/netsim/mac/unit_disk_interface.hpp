@@ -31,8 +31,7 @@ struct UnitDiskChannel {
 class UnitDiskInterface final : public NetworkInterface {
 public:
     UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface, double range_m,
-                      const Trajectory& trajectory, FrameFates& frame_fates, Fingerprint& fingerprint,
-                      NetworkInterfaceListener& listener);
+                      const Trajectory& trajectory, FrameFates& frame_fates, Fingerprint& fingerprint);
     UnitDiskInterface(const UnitDiskInterface&) = delete;
     UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 
@@ -53,7 +52,6 @@ private:
     const Trajectory& trajectory_;
     FrameFates& frame_fates_;
     Fingerprint& fingerprint_;
-    NetworkInterfaceListener& listener_;
     NodeId id_;
     InstantCount sent_;
     MessageFates message_fates_;

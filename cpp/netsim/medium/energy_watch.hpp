@@ -33,9 +33,9 @@ public:
 
     // One more of those in `links`.
     void add_radio() { outlooks_.add_radio(); }
-    // Begins a new transmission's ring among an audience (energy_ring.hpp). Whoever then gets the ring's least power is to be
-    // put into it.
-    void begin_ring(OnAir& here, std::size_t audience);
+    // Begins a new transmission's ring among the audience of that index (energy_ring.hpp). Whoever then gets the ring's
+    // least power is to be put into it.
+    void begin_ring(OnAir& here, std::size_t index);
     // Tells where the newest and those beside it, none of which matters alone, make the channel busy: now, or at the end of
     // this instant.
     void add_up_in_time(OnAir& newest, const std::vector<OnAir*>& beside);

@@ -20,6 +20,11 @@ struct InterfaceId {
         return static_cast<std::uint32_t>(node) | static_cast<std::uint32_t>(index) << node_bits;
     }
 
+    static InterfaceId of_stream(std::uint32_t stream) {
+        return {static_cast<NodeId>(stream & (most_nodes - 1)),
+                static_cast<std::int32_t>(stream >> node_bits)};
+    }
+
     static constexpr int node_bits = 24;
     static constexpr std::int32_t most_nodes = std::int32_t{1} << node_bits;
 };

@@ -8,13 +8,15 @@
 
 namespace netsim {
 
-RadioId Links::add(InterfaceId interface, const ReceiverKind& kind, const Trajectory& trajectory,
-                   const MountedAntenna& antenna, SimTime now) {
+RadioId Links::add(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna,
+                   SimTime now) {
     const RadioId radio = count();
-    radios_.push_back(Radio{.interface = interface, .kind = kind_index(kind)});
+    const Trajectory& trajectory = *receiver.trajectory;
+    radios_.push_back(Radio{
+        .listener = receiver.listener, .stream = interface.stream(), .kind = kind_index(receiver.kind)});
     trajectories_.push_back(&trajectory);
     antennas_.add(antenna, trajectory);
-    if (first_radio_.empty() || radios_[first_radio_.back()].interface.node != interface.node) {
+    if (first_radio_.empty() || this->interface(first_radio_.back()).node != interface.node) {
         NETSIM_ASSERT(interface.node == static_cast<NodeId>(first_radio_.size()));
         first_radio_.push_back(radio);
         odometer_.watch(trajectory, now);
@@ -69,8 +71,7 @@ RadioId Links::addressee_of(const Transmission& sent) const {
     if (node < 0 || static_cast<std::size_t>(node) >= first_radio_.size()) {
         return -1;
     }
-    for (RadioId radio = first_radio_[node]; radio < count() && radios_[radio].interface.node == node;
-         ++radio) {
+    for (RadioId radio = first_radio_[node]; radio < count() && interface(radio).node == node; ++radio) {
         if (radio != sent.radio && kind(radio).can_decode(sent)) {
             return radio;
         }

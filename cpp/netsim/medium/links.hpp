@@ -27,11 +27,17 @@ public:
     Links(const MediumConfig& config, std::uint64_t seed) : propagation_(config, seed) {}
 
     // Radio ids are given in the order of adding: 0, 1, …, node by node.
-    RadioId add(InterfaceId interface, const ReceiverKind& kind, const Trajectory& trajectory,
-                const MountedAntenna& antenna, SimTime now);
+    RadioId add(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna, SimTime now);
+    // What each arrival at the radio touches in the layers above it: in a large network most of it is in no cache
+    // by then, so it can be fetched ahead (kernel/fetch.hpp). Null: nothing.
+    void set_touched(RadioId radio, const void* interface, const void* protocol) {
+        radios_[radio].touched_interface = interface;
+        radios_[radio].touched_protocol = protocol;
+    }
 
     RadioId count() const { return static_cast<RadioId>(radios_.size()); }
-    InterfaceId interface(RadioId radio) const { return radios_[radio].interface; }
+    MediumListener& listener(RadioId radio) const { return *radios_[radio].listener; }
+    InterfaceId interface(RadioId radio) const { return InterfaceId::of_stream(radios_[radio].stream); }
     const ReceiverKind& kind(RadioId radio) const { return kinds_[radios_[radio].kind]; }
     Position position(RadioId radio, SimTime time) const { return trajectories_[radio]->position_at(time); }
     // An index of `audiences()`.
@@ -45,13 +51,20 @@ public:
     RadioId addressee_of(const Transmission& sent) const;
 
     // A mark of each radio that the medium sets (Medium::watch_energy); kept beside what else each transmission asks.
-    bool watches_energy(RadioId radio) const { return radios_[radio].watches_energy; }
-    void set_watches_energy(RadioId radio, bool watches) { radios_[radio].watches_energy = watches; }
+    bool watches_energy(RadioId radio) const { return radios_[radio].watches_energy != 0; }
+    void set_watches_energy(RadioId radio, bool watches) { radios_[radio].watches_energy = watches ? 1 : 0; }
     // Has what a transmission to the radio, or from it, asks brought into the cache (kernel/fetch.hpp).
     void fetch(RadioId radio) const { netsim::fetch(radios_[radio]); }
     void fetch_sender(RadioId radio) const {
         fetch(radio);
         netsim::fetch(trajectories_[radio]);
+    }
+    // The same for what an arrival at the radio touches, which is no more than that of fetch(radio) away.
+    void fetch_touched(RadioId radio) const {
+        const Radio& there = radios_[radio];
+        fetch_bytes(there.listener, cache_line_bytes);
+        fetch_bytes(there.touched_interface, cache_line_bytes);
+        fetch_bytes(there.touched_protocol, cache_line_bytes);
     }
 
     // At `radio`, at `place` when the transmission starts. `share` is that of the transmission in the radio's band. Where
@@ -105,10 +118,13 @@ public:
 
 private:
     // What each transmission asks of a radio near by. As small as can be: in a large network, memory is what costs.
-    struct Radio {
-        InterfaceId interface;
-        std::uint32_t kind = 0;  // an index of `kinds_`
-        bool watches_energy = true;
+    struct alignas(32) Radio {
+        MediumListener* listener = nullptr;
+        const void* touched_interface = nullptr;
+        const void* touched_protocol = nullptr;
+        std::uint32_t stream = 0;     // of its interface (InterfaceId)
+        std::uint32_t kind : 31 = 0;  // an index of `kinds_`
+        std::uint32_t watches_energy : 1 = 1;
     };
 
     std::uint32_t kind_index(const ReceiverKind& kind);

@@ -24,9 +24,8 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       hearing_(hearing) {}
 
 RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna) {
-    touched_.push_back(Touched{.listener = receiver.listener});
     energy_watch_.add_radio();
-    return links_.add(interface, receiver.kind, *receiver.trajectory, antenna, simulator_.now());
+    return links_.add(interface, receiver, antenna, simulator_.now());
 }
 
 SimTime Medium::watch_energy(RadioId radio, SimTime since) {
@@ -118,7 +117,6 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
     const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
     for (const auto& [radio, place] : near) {
         links_.fetch(radio);
-        netsim::fetch(touched_[radio]);
     }
     std::uint64_t noticed = 0;
     for (const auto& [radio, place] : near) {
@@ -172,11 +170,7 @@ void Medium::book_copies(const OnAir& entry, CopyCount copies) {
 
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void Medium::fetch(RadioId radio, FrameKind kind) const {
-    const Touched& there = touched_[radio];
-    fetch_bytes(there.listener, 2 * cache_line_bytes);
-    fetch_bytes(there.interface, cache_line_bytes);
-    fetch_bytes(there.upper_layer, cache_line_bytes);
-    fetch_bytes(there.protocol, cache_line_bytes);
+    links_.fetch_touched(radio);
     fates_.fetch(links_.interface(radio).node, kind);
 }
 
@@ -218,7 +212,7 @@ void Medium::tell_next(OnAir& entry, OnAir::Edge edge) {
                               heard.lockable};
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
-            MediumListener& listener = *touched_[heard.radio].listener;
+            MediumListener& listener = links_.listener(heard.radio);
             edge == OnAir::begins ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
         } catch (...) {  // a protocol's: the others hear the frame all the same
             if (!is_last) {
@@ -263,11 +257,11 @@ void Medium::tell(RadioId radio, OnAir& on_air, const Arrival& arrival) {
 
 void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
     const Arrival arrival = on_air.told_apart[apart];  // a copy: others may be told meanwhile
-    touched_[radio].listener->arrival_started(arrival);
+    links_.listener(radio).arrival_started(arrival);
     simulator_.schedule_at_turn(arrival.end, on_air.turn_at(radio, OnAir::ends),
                                 [this, radio, &on_air, apart] {
                                     const Arrival ended = on_air.told_apart[apart];
-                                    touched_[radio].listener->arrival_ended(ended);
+                                    links_.listener(radio).arrival_ended(ended);
                                 });
 }
 

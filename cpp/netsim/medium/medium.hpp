@@ -42,13 +42,9 @@ public:
     // Radio ids are given in the order of attaching: 0, 1, …, node by node: all interfaces of node 0, those of node 1, …
     // No node may have two radios of one centre frequency.
     RadioId attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna = {});
-    // What each arrival at the radio touches in the layers above it: in a large network most of it is in no cache
-    // by then, so the medium has it fetched ahead. Null: nothing.
-    void set_touched(RadioId radio, const void* interface, const void* upper_layer, const void* protocol) {
-        Touched& touched = touched_[radio];
-        touched.interface = interface;
-        touched.upper_layer = upper_layer;
-        touched.protocol = protocol;
+    // What each arrival at the radio touches in the layers above it (Links::set_touched).
+    void set_touched(RadioId radio, const void* interface, const void* protocol) {
+        links_.set_touched(radio, interface, protocol);
     }
 
     // A radio that watches its energy is also told of frames of which none is loud enough alone, but that make its channel busy
@@ -89,13 +85,6 @@ public:
     std::uint64_t energy_look_count() const { return energy_watch_.look_count(); }
 
 private:
-    // By an arrival at a radio.
-    struct alignas(32) Touched {
-        MediumListener* listener = nullptr;
-        const void* interface = nullptr;
-        const void* upper_layer = nullptr;
-        const void* protocol = nullptr;
-    };
     struct Due {
         SimTime time;
         Turn turn = 0;
@@ -126,7 +115,6 @@ private:
     EnergyWatch energy_watch_;  // over both
     BackgroundNoise background_noise_;
     Hearing hearing_;
-    std::vector<Touched> touched_;  // [radio]
     SimTime remembered_;            // after their end
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;

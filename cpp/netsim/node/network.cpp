@@ -33,9 +33,7 @@ Node& Network::add_node(const NodeConfig& config) {
     }
     config.validate();
     check_with_medium(config);  // all of it before anything is built, so that a refused node leaves no trace
-    Node& node = nodes_.emplace_back(simulator_, config, node_count_++, seed_, fingerprint_, payload_hash_,
-                                     message_delays_);
-    node.set_node_count(&node_count_);
+    Node& node = nodes_.emplace_back(surroundings_, config, surroundings_.node_count++, seed_);
     frame_fates_.add_node();
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
         const InterfaceId id{node.id(), static_cast<std::int32_t>(index)};
@@ -49,23 +47,21 @@ Node& Network::add_node(const NodeConfig& config) {
 }
 
 std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig& config, InterfaceId id,
-                                                          Node& node) {
+                                                          const Node& node) {
     if (perfect_channel_) {
         return std::make_unique<UnitDiskInterface>(simulator_, unit_disk_, id,
                                                    config.radio.communication_range_m, node.trajectory(),
-                                                   frame_fates_, fingerprint_, node.interface_listener());
+                                                   frame_fates_, fingerprint_);
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
-    Radio& radio = radios_.emplace_back(medium_, id, radio_kind(config.radio), config.radio.tx_power_w,
-                                        node.trajectory(), seed_, node.attitude(), known_formats(config));
+    Radio& radio = radios_.emplace_back(id, radio_kind(config.radio), config.radio.tx_power_w,
+                                        node.trajectory(), node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
-        return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_,
-                                              node.interface_listener());
+        return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_);
     }
     link_types_.push_back(LinkType::radiotap);
-    return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_,
-                                 node.interface_listener());
+    return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_);
 }
 
 std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
@@ -73,7 +69,7 @@ std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
     config.tx_power_w = 0;
     config.communication_range_m = 0;
     return radio_kinds_.of(config, [this](const RadioConfig& radio) {
-        return std::make_shared<const RadioKind>(radio, medium_.background_noise());
+        return std::make_shared<const RadioKind>(radio, medium_, seed_);
     });
 }
 
@@ -83,8 +79,8 @@ std::shared_ptr<const DcfParameters> Network::dcf_parameters(const MacConfig& co
 }
 
 void Network::check_with_medium(const NodeConfig& config) {
-    if (node_count_ == InterfaceId::most_nodes) {
-        throw ConfigError("there are " + text_of(node_count_) + " nodes: no network can have more");
+    if (node_count() == InterfaceId::most_nodes) {
+        throw ConfigError("there are " + text_of(node_count()) + " nodes: no network can have more");
     }
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
         try {
@@ -192,9 +188,9 @@ void Network::close_captures() {
 }
 
 std::size_t Network::place_of(NodeId node) const {
-    if (node < 0 || node >= node_count_) {
+    if (node < 0 || node >= node_count()) {
         throw SimulationError("there is no node " + std::to_string(node) + ": there are " +
-                              std::to_string(node_count_) + ", from 0 on");
+                              std::to_string(node_count()) + ", from 0 on");
     }
     return static_cast<std::size_t>(node);
 }
@@ -222,8 +218,7 @@ void Network::initialize() {
     initialized_ = true;
     for (const Radio& radio : radios_) {
         Node& node = nodes_[radio.node()];
-        medium_.set_touched(radio.id(), node.interfaces()[radio.interface().index].get(), &node,
-                            node.protocol());
+        medium_.set_touched(radio.id(), node.interfaces()[radio.interface().index].get(), node.protocol());
     }
     for (Node& node : nodes_) {
         node.initialize();

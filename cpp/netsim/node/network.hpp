@@ -23,11 +23,11 @@
 #include "netsim/node/radio_capture.hpp"
 #include "netsim/node/scheduled_calls.hpp"
 #include "netsim/node/shared_kinds.hpp"
+#include "netsim/node/surroundings.hpp"
 #include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
 #include "netsim/phy/radio_kind.hpp"
 #include "netsim/trace/frame_fates.hpp"
-#include "netsim/trace/message_delays.hpp"
 #include "netsim/trace/message_fates.hpp"
 
 namespace netsim {
@@ -45,7 +45,7 @@ public:
     // Throws SimulationError for an id that no node has.
     Node& node(NodeId id) { return nodes_[place_of(id)]; }
     const Node& node(NodeId id) const { return nodes_[place_of(id)]; }
-    std::int32_t node_count() const { return node_count_; }
+    std::int32_t node_count() const { return surroundings_.node_count; }
 
     // Writes what the radio of the node's wlan[interface] sends and receives from now on to a pcap file, until
     // close_captures() or the end of the network. Throws ConfigError for a path that cannot be written, for an interface
@@ -84,7 +84,7 @@ public:
     const FrameFates& frame_fates() const { return frame_fates_; }
     // The sum over all interfaces; that of one: node(0).interfaces()[1]->message_fates().
     MessageFateSums message_fates() const;
-    const MessageDelays& message_delays() const { return message_delays_; }
+    const MessageDelays& message_delays() const { return surroundings_.message_delays; }
 
 private:
     std::size_t place_of(NodeId node) const;
@@ -97,16 +97,15 @@ private:
     void check_with_medium(const std::string& node, const InterfaceConfig& config);
     void check_with_others(const NodeConfig& config, std::size_t index) const;
     std::unique_ptr<NetworkInterface> make_interface(const InterfaceConfig& config, InterfaceId id,
-                                                     Node& node);
+                                                     const Node& node);
     Radio& radio(InterfaceId id);
     void add_to_telemetry_clock(Node& node, SimTime interval);
 
     Simulator simulator_;
     std::uint64_t seed_;
     Fingerprint fingerprint_;
-    PayloadHash payload_hash_;
+    Surroundings surroundings_{simulator_, fingerprint_};
     FrameFates frame_fates_;
-    MessageDelays message_delays_;
     bool perfect_channel_;
     Medium medium_;
     UnitDiskChannel unit_disk_;
@@ -119,7 +118,6 @@ private:
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
     ScheduledCalls scheduled_calls_{simulator_};
-    std::int32_t node_count_ = 0;
     bool initialized_ = false;
     bool finished_ = false;
 };

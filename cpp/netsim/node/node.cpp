@@ -1,7 +1,5 @@
 #include "netsim/node/node.hpp"
 
-#include <exception>
-#include <stdexcept>
 #include <utility>
 
 #include "netsim/error.hpp"
@@ -12,35 +10,39 @@ namespace netsim {
 
 namespace {
 
-// Words of the fingerprint that tell kinds of events apart.
-constexpr std::uint64_t packet_word = 0x7061636B6574;
-constexpr std::uint64_t timer_word = 0x74696D6572;
+constexpr std::uint64_t timer_word = 0x74696D6572;  // of the fingerprint: tells timers from other events
 
 }  // namespace
 
-Node::Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-           Fingerprint& fingerprint, PayloadHash& payload_hash, MessageDelays& message_delays)
-    : simulator_(simulator),
-      fingerprint_(fingerprint),
-      payload_hash_(payload_hash),
-      message_delays_(message_delays),
+Node::Node(Surroundings& surroundings, const NodeConfig& config, NodeId id, std::uint64_t seed)
+    : surroundings_(surroundings),
       id_(id),
       mobility_(make_mobility(config.mobility, config.initial_position)),
       name_(config.name),
       attitude_(config.mobility),
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
 
-template <typename Call>
-void Node::call_protocol(const char* callback, Call call) {
-    if (!protocol_) {
-        return;
+void Node::add_interface(std::unique_ptr<NetworkInterface> interface) {
+    interface->set_listener(protocol_.get());
+    interfaces_.push_back(std::move(interface));
+    first_interface_ = interfaces_.front().get();
+}
+
+void Node::set_protocol(std::unique_ptr<Protocol> protocol) {
+    protocol_ = std::move(protocol);
+    if (protocol_) {
+        protocol_->surroundings_ = &surroundings_;
+        protocol_->node_ = id_;
     }
-    try {
-        call(*protocol_);
-    } catch (const std::runtime_error& error) {  // a SimulationError is one
-        std::throw_with_nested(ProtocolError(error.what(), id_, callback, now()));
-    } catch (const std::logic_error& error) {
-        std::throw_with_nested(ProtocolError(error.what(), id_, callback, now()));
+    for (const auto& interface : interfaces_) {
+        interface->set_listener(protocol_.get());
+    }
+}
+
+template <typename Call>
+void Node::call_protocol(const char* callback, const Call& call) {
+    if (protocol_) {
+        call_of_protocol(callback, id_, now(), [&] { call(*protocol_); });
     }
 }
 
@@ -89,9 +91,9 @@ void Node::broadcast(Payload payload, std::int32_t interface) {
 }
 
 void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
-    if (destination < 0 || destination >= *node_count_) {
+    if (destination < 0 || destination >= node_count()) {
         throw SimulationError("cannot send to node " + std::to_string(destination) + ": nodes are 0 … " +
-                              std::to_string(*node_count_ - 1));
+                              std::to_string(node_count() - 1));
     }
     if (destination == id_) {
         throw SimulationError("node " + std::to_string(id_) + " cannot send a message to itself");
@@ -100,34 +102,23 @@ void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
 }
 
 void Node::schedule_timer(std::string timer, SimTime time) {
-    if (time < simulator_.now()) {
+    if (time < now()) {
         throw SimulationError("timer '" + timer + "' at " + std::to_string(time.seconds()) +
-                              " s is in the past: it is " + std::to_string(simulator_.now().seconds()) +
+                              " s is in the past: it is " + std::to_string(now().seconds()) +
                               " s now (timers take absolute simulated time)");
     }
-    if (time == simulator_.now() && timers_for_now_.exceeds(time)) {
+    if (time == now() && timers_for_now_.exceeds(time)) {
         throw SimulationError("node " + std::to_string(id_) + " has set " +
                               std::to_string(most_at_one_instant) + " timers for now, " +
                               std::to_string(time.seconds()) + " s, and this one, '" + timer +
                               "', is one more: time stands still; expected a later time");
     }
     const std::size_t number = timers_.add(std::move(timer));
-    timers_.set_event(number, simulator_.schedule_at(time, TimerDue{this, number}));
+    timers_.set_event(number, surroundings_.simulator.schedule_at(time, TimerDue{this, number}));
 }
 
 void Node::cancel_timer(const std::string& timer) {
-    timers_.cancel(timer, [this](EventHandle event) { simulator_.cancel(event); });
-}
-
-void Node::message_received(const Frame& frame) {
-    if (!protocol_) {
-        return;
-    }
-    message_delays_.add(message_kind(frame), now() - frame.accepted);
-    fingerprint_.add(packet_word ^ (static_cast<std::uint64_t>(frame.transmitter) << 40) ^
-                     static_cast<std::uint64_t>(id_));
-    fingerprint_.add(payload_hash_.of(frame.payload));
-    call_protocol("handle_packet", [&frame](Protocol& protocol) { protocol.handle_packet(frame.payload); });
+    timers_.cancel(timer, [this](EventHandle event) { surroundings_.simulator.cancel(event); });
 }
 
 void Node::fetch_for_timer(int step) const {
@@ -152,9 +143,10 @@ void Node::fetch_for_timer(int step) const {
 
 void Node::timer_due(std::size_t number) {
     const std::string timer = timers_.take(number);
-    fingerprint_.add(timer_word ^ static_cast<std::uint64_t>(id_));
-    fingerprint_.add(static_cast<std::uint64_t>(simulator_.now().ps()));
-    fingerprint_.add_text(timer);
+    Fingerprint& fingerprint = surroundings_.fingerprint;
+    fingerprint.add(timer_word ^ static_cast<std::uint64_t>(id_));
+    fingerprint.add(static_cast<std::uint64_t>(now().ps()));
+    fingerprint.add_text(timer);
     call_protocol("handle_timer", [&timer](Protocol& protocol) { protocol.handle_timer(timer); });
 }
 

@@ -10,42 +10,33 @@
 #include <vector>
 
 #include "netsim/config/node_config.hpp"
-#include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/instant_count.hpp"
 #include "netsim/kernel/random.hpp"
-#include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/network_interface.hpp"
 #include "netsim/mobility/attitude.hpp"
 #include "netsim/mobility/mobility.hpp"
-#include "netsim/node/payload_hash.hpp"
 #include "netsim/node/protocol.hpp"
+#include "netsim/node/surroundings.hpp"
 #include "netsim/node/timers.hpp"
 #include "netsim/node/tracked_variables.hpp"
-#include "netsim/trace/message_delays.hpp"
 
 namespace netsim {
 
-class alignas(64) Node final : private NetworkInterfaceListener {
+class alignas(64) Node final {
 public:
-    Node(Simulator& simulator, const NodeConfig& config, NodeId id, std::uint64_t seed,
-         Fingerprint& fingerprint, PayloadHash& payload_hash, MessageDelays& message_delays);
+    Node(Surroundings& surroundings, const NodeConfig& config, NodeId id, std::uint64_t seed);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
     NodeId id() const { return id_; }
     const std::string& name() const { return name_; }
-    Position position() const { return mobility_->trajectory().position_at(simulator_.now()); }
+    Position position() const { return mobility_->trajectory().position_at(now()); }
     const Trajectory& trajectory() const { return mobility_->trajectory(); }
     const Attitude& attitude() const { return attitude_; }
 
-    // Wiring, before the run. The interfaces, wlan[0] first, report to `interface_listener()`.
-    NetworkInterfaceListener& interface_listener() { return *this; }
-    void add_interface(std::unique_ptr<NetworkInterface> interface) {
-        interfaces_.push_back(std::move(interface));
-        first_interface_ = interfaces_.front().get();
-    }
-    void set_node_count(const std::int32_t* count) { node_count_ = count; }
-    void set_protocol(std::unique_ptr<Protocol> protocol) { protocol_ = std::move(protocol); }
+    // Wiring, before the run: the interfaces, wlan[0] first, and whom they bring messages. Without a protocol, nobody.
+    void add_interface(std::unique_ptr<NetworkInterface> interface);
+    void set_protocol(std::unique_ptr<Protocol> protocol);
     Protocol* protocol() { return protocol_.get(); }
     const std::vector<std::unique_ptr<NetworkInterface>>& interfaces() const { return interfaces_; }
 
@@ -60,16 +51,16 @@ public:
     void finish();
 
     // What a protocol may know of its surroundings, also before the run.
-    std::int32_t node_count() const { return *node_count_; }
+    std::int32_t node_count() const { return surroundings_.node_count; }
     bool can_move() const { return mobility_->can_move(); }
 
     // What a protocol may ask for. All throw SimulationError for what cannot be done.
-    SimTime now() const { return simulator_.now(); }
+    SimTime now() const { return surroundings_.simulator.now(); }
     // Through wlan[interface].
     void broadcast(Payload payload, std::int32_t interface = 0);
     void send(NodeId destination, Payload payload, std::int32_t interface = 0);
-    void go_to(Position target) { mobility_->go_to(simulator_.now(), target); }
-    void set_speed(double speed_mps) { mobility_->set_speed(simulator_.now(), speed_mps); }
+    void go_to(Position target) { mobility_->go_to(now(), target); }
+    void set_speed(double speed_mps) { mobility_->set_speed(now(), speed_mps); }
     // At `time`, not before now; equal names may be pending several times. What makes time stand still is refused.
     void schedule_timer(std::string timer, SimTime time);
     // All pending timers of that name; none is fine.
@@ -78,6 +69,8 @@ public:
     std::size_t longest_message_bytes() { return interface_at(0).longest_message_bytes(); }
     // The protocol's own random numbers: IProvider.random in Python.
     RandomStream& random() { return random_; }
+    // For messages that say nothing: a text of so many octets, which many nodes may have in common.
+    Payload filler(std::int64_t bytes) { return surroundings_.filler.of(static_cast<std::size_t>(bytes)); }
     // Values for the results of the run; they outlive the protocol.
     TrackedVariables& tracked_variables() { return tracked_variables_; }
     const TrackedVariables& tracked_variables() const { return tracked_variables_; }
@@ -86,8 +79,7 @@ private:
     NetworkInterface& interface_at(std::int32_t index);
     void send_through(std::int32_t interface, NodeId destination, Payload payload);
     template <typename Call>
-    void call_protocol(const char* callback, Call call);
-    void message_received(const Frame& frame) override;
+    void call_protocol(const char* callback, const Call& call);
     // What is due when a timer is.
     struct TimerDue {
         Node* node;
@@ -100,14 +92,10 @@ private:
     // Most timers send something.
     void fetch_for_timer(int step) const;
 
-    // First what every message touches: one cache line, which the medium fetches ahead. Then what every timer does.
-    Simulator& simulator_;
-    Fingerprint& fingerprint_;
-    PayloadHash& payload_hash_;
-    MessageDelays& message_delays_;
+    // First what every timer touches.
+    Surroundings& surroundings_;
     NodeId id_;
     bool observed_ = false;  // here, where it is at hand: most nodes are not
-    const std::int32_t* node_count_ = nullptr;
     std::unique_ptr<Protocol> protocol_;
     Timers timers_;
     NetworkInterface* first_interface_ = nullptr;  // of those below: mostly the one that is meant

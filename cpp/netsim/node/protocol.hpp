@@ -9,10 +9,13 @@
 
 #include "netsim/geometry/position.hpp"
 #include "netsim/mac/frame.hpp"
+#include "netsim/mac/network_interface.hpp"
 
 namespace netsim {
 
-class Protocol {
+struct Surroundings;  // node/surroundings.hpp
+
+class Protocol : private NetworkInterfaceListener {
 public:
     virtual ~Protocol() = default;
 
@@ -34,6 +37,16 @@ public:
     // A timer will be due soon: may have what it touches brought into the cache, beside the first two lines of the protocol
     // itself, which are there (kernel/fetch.hpp).
     virtual void fetch() const {}
+
+private:
+    friend class Node;  // says where it is
+
+    // Straight from the interface: what there is to note of a message is noted here, so that in a large network no line of
+    // the node has to be brought into the cache for it.
+    void message_received(const Frame& frame) final;
+
+    Surroundings* surroundings_ = nullptr;
+    NodeId node_ = 0;
 };
 
 }  // namespace netsim

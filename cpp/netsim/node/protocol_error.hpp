@@ -1,6 +1,8 @@
-// What a protocol in C++ got wrong during a run, and where in the run. Node throws it; who shows it to people wants all of it.
+// What a protocol in C++ got wrong during a run, and where in the run: who shows it to people wants all of it.
 #pragma once
 
+#include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "netsim/error.hpp"
@@ -24,5 +26,18 @@ private:
     const char* callback_;
     SimTime time_;
 };
+
+// Calls one of a protocol's methods. A std::runtime_error (SimulationError is one) or std::logic_error comes out nested in a
+// ProtocolError, all else as it is.
+template <typename Call>
+void call_of_protocol(const char* callback, NodeId node, SimTime now, const Call& call) {
+    try {
+        call();
+    } catch (const std::runtime_error& error) {
+        std::throw_with_nested(ProtocolError(error.what(), node, callback, now));
+    } catch (const std::logic_error& error) {
+        std::throw_with_nested(ProtocolError(error.what(), node, callback, now));
+    }
+}
 
 }  // namespace netsim

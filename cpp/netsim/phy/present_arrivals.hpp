@@ -1,15 +1,12 @@
 // The arrivals that last at one radio at the moment, in the order of their transmissions, whenever the radio is told of them:
-// how their sum is rounded must not depend on that.
+// how their sum is rounded must not depend on that. The radio may be locked on to one of them.
 //
-// Mostly there is one. That lies in the radio itself: a store to memory that is in no cache holds up what
-// comes after it, and in a large network any memory beside the radio is in none.
+// Mostly there is one. That lies in the radio itself, in a cache line that the medium fetches ahead: in a large network any
+// memory beside that is in no cache. Several lie together elsewhere.
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,58 +22,98 @@ struct PresentArrival {
 
 class PresentArrivals {
 public:
-    bool empty() const { return count_ == 0; }
-    std::span<const PresentArrival> all() const { return {begin(), count_}; }
-
-    void add(const PresentArrival& arrival) {
-        if (count_ < few_.size()) {
-            few_[count_] = arrival;
-        } else {
-            if (count_ == few_.size()) {
-                move_to_many();
-            }
-            // Mostly the last place.
-            const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
-                return id < other.transmission->id;
-            };
-            many_->insert(std::upper_bound(many_->begin(), many_->end(), arrival.transmission->id, is_later),
-                          arrival);
+    PresentArrivals() : one_{} {}
+    PresentArrivals(const PresentArrivals&) = delete;
+    PresentArrivals& operator=(const PresentArrivals&) = delete;
+    ~PresentArrivals() {
+        if (count_ == Count::several) {
+            delete several_;
         }
-        ++count_;
     }
 
-    // That of `transmission`, which is among them.
-    void remove(const Transmission* transmission) {
-        PresentArrival* const end = begin() + count_;
-        PresentArrival* const found = std::find_if(
-            begin(), end,
-            [transmission](const PresentArrival& present) { return present.transmission == transmission; });
-        NETSIM_ASSERT(found != end);
-        std::copy(found + 1, end, found);
-        if (count_ > few_.size()) {
-            many_->pop_back();
-            if (many_->size() == few_.size()) {
-                std::ranges::copy(*many_, few_.begin());
-            }
+    bool empty() const { return count_ == Count::none; }
+    std::span<const PresentArrival> all() const {
+        return count_ == Count::several ? std::span<const PresentArrival>(several_->arrivals)
+                                        : std::span(&one_, count_ == Count::one ? 1 : 0);
+    }
+
+    void add(const PresentArrival& arrival) {
+        if (count_ == Count::none) {
+            one_ = arrival;
+            count_ = Count::one;
+            return;
         }
-        --count_;
+        if (count_ == Count::one) {
+            several_ = new Several{.arrivals = {one_}, .locked = one_.transmission};
+            count_ = Count::several;
+        }
+        // Mostly the last place.
+        const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
+            return id < other.transmission->id;
+        };
+        std::vector<PresentArrival>& all = several_->arrivals;
+        all.insert(std::upper_bound(all.begin(), all.end(), arrival.transmission->id, is_later), arrival);
+    }
+
+    // That of `transmission`, which is among them, and which the radio is not locked on to any more.
+    void remove(const Transmission* transmission) {
+        if (count_ == Count::one) {
+            NETSIM_ASSERT(one_.transmission == transmission && !is_locked_);
+            count_ = Count::none;
+            return;
+        }
+        NETSIM_ASSERT(count_ == Count::several && locked() != transmission);
+        std::vector<PresentArrival>& all = several_->arrivals;
+        const auto found = std::ranges::find(all, transmission, &PresentArrival::transmission);
+        NETSIM_ASSERT(found != all.end());
+        all.erase(found);
+        if (all.size() == 1) {
+            const PresentArrival last = all.front();
+            delete several_;
+            one_ = last;
+            count_ = Count::one;
+        }
+    }
+
+    // Only while the radio is not locked, on to one of them.
+    void lock_on(const Transmission* transmission) {
+        NETSIM_ASSERT(!is_locked_);
+        is_locked_ = true;
+        if (count_ == Count::several) {
+            several_->locked = transmission;
+        } else {
+            NETSIM_ASSERT(count_ == Count::one && one_.transmission == transmission);
+        }
+    }
+    // Returns what it was locked on to. Only while it is.
+    const Transmission& unlock() {
+        const Transmission* const was_locked = locked();
+        NETSIM_ASSERT(was_locked != nullptr);
+        is_locked_ = false;
+        return *was_locked;
+    }
+    bool is_locked() const { return is_locked_; }
+    // What the radio is locked on to; null if it is not.
+    const Transmission* locked() const {
+        if (!is_locked_) {
+            return nullptr;
+        }
+        return count_ == Count::several ? several_->locked : one_.transmission;
     }
 
 private:
-    static constexpr std::size_t few = 1;
+    enum class Count : std::uint8_t { none, one, several };
+    struct Several {
+        std::vector<PresentArrival> arrivals;
+        const Transmission* locked = nullptr;  // of no account while the radio is not
+    };
 
-    const PresentArrival* begin() const { return count_ > few ? many_->data() : few_.data(); }
-    PresentArrival* begin() { return count_ > few ? many_->data() : few_.data(); }
-    void move_to_many() {
-        if (!many_) {
-            many_ = std::make_unique<std::vector<PresentArrival>>();
-        }
-        many_->assign(few_.begin(), few_.end());
-    }
-
-    std::array<PresentArrival, few> few_;                // all of them, if they are not more
-    std::unique_ptr<std::vector<PresentArrival>> many_;  // all of them otherwise
-    std::uint32_t count_ = 0;
+    union {
+        PresentArrival one_;
+        Several* several_;  // owned
+    };
+    Count count_ = Count::none;
+    bool is_locked_ = false;
 };
 
 }  // namespace netsim

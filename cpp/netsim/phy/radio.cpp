@@ -7,20 +7,15 @@
 
 namespace netsim {
 
-Radio::Radio(Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
-             const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude, PpduFormats formats)
-    : kind_(*kind),
-      medium_(medium),
-      interface_(interface),
-      reception_draws_(seed, interface.stream(), Purpose::reception),
-      tx_power_w_(tx_power_w),
-      owned_kind_(std::move(kind)) {
-    id_ = medium.attach(interface,
-                        Receiver{this,
-                                 &trajectory,
-                                 {kind_.band, kind_.sensitivity_w, kind_.energy_detection_w,
-                                  kind_.reception.noise_w, kind_.preamble_detection.duration(), formats}},
-                        MountedAntenna{kind_.antenna.get(), attitude, kind_.antenna_offset});
+Radio::Radio(InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
+             const Trajectory& trajectory, const Attitude& attitude, PpduFormats formats)
+    : stream_(interface.stream()), kind_(*kind), tx_power_w_(tx_power_w), owned_kind_(std::move(kind)) {
+    id_ = medium().attach(interface,
+                          Receiver{this,
+                                   &trajectory,
+                                   {kind_.band, kind_.sensitivity_w, kind_.energy_detection_w,
+                                    kind_.reception.noise_w, kind_.preamble_detection.duration(), formats}},
+                          MountedAntenna{kind_.antenna.get(), attitude, kind_.antenna_offset});
 }
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -30,10 +25,10 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmitting_ = true;
     turned_ = false;
     if (watches_energy_ && may_ignore_energy()) {  // its channel is busy in any case
-        medium_.stop_watching_energy(id_);
+        medium().stop_watching_energy(id_);
     }
     Transmission transmission;
-    transmission.sender = interface_;
+    transmission.sender = interface();
     transmission.radio = id_;
     transmission.duration = duration;
     transmission.power_w = tx_power_w_;
@@ -47,7 +42,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
         transmission.start = simulator().now();
         observer_->transmitted(transmission);
     }
-    medium_.transmit(std::move(transmission));
+    medium().transmit(std::move(transmission));
     simulator().schedule_after(duration, [this] { transmission_over(); });
     update_busy();
 }
@@ -60,16 +55,16 @@ void Radio::turn_to_transmit() {
 
 void Radio::give_up_reception() {
     drop_candidates(FrameFate::receiver_transmitting);
-    if (locked_ != nullptr) {
+    if (present_.is_locked()) {
         simulator().cancel(header_end_);
-        book(*std::exchange(locked_, nullptr), FrameFate::receiver_transmitting);
+        book(present_.unlock(), FrameFate::receiver_transmitting);
     }
 }
 
 void Radio::transmission_over() {
     listener_->transmission_ended();
     if (watches_energy_ && may_ignore_energy()) {  // before its channel could be found free
-        medium_.watch_energy(id_, simulator().now());
+        medium().watch_energy(id_, simulator().now());
     }
     transmitting_ = false;
     update_busy();
@@ -80,11 +75,11 @@ void Radio::arrival_started(const Arrival& arrival) {
     if (arrival.lockable) {
         if (transmitting_ || turned_) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
-        } else if (locked_ == nullptr) {
+        } else if (!present_.is_locked()) {
             begin_reception(arrival);
         } else if (kind_.frame_capture.captures(locked_arrival_, arrival)) {
             simulator().cancel(header_end_);
-            book(*std::exchange(locked_, nullptr), FrameFate::captured);
+            book(present_.unlock(), FrameFate::captured);
             listener_->frame_corrupted();
             begin_reception(arrival);
         } else {
@@ -143,7 +138,7 @@ void Radio::drop_candidates(FrameFate fate) {
 }
 
 void Radio::lock_on(const Arrival& arrival) {
-    locked_ = arrival.transmission;
+    present_.lock_on(arrival.transmission);
     if (kind_.frame_capture.is_on() || kind_.by_chunks) {
         locked_arrival_ = arrival;
     }
@@ -157,7 +152,7 @@ void Radio::end_header() {
     if (header_survives()) {
         return;
     }
-    const Transmission& lost = *std::exchange(locked_, nullptr);
+    const Transmission& lost = present_.unlock();
     add_to_fingerprint(lost, FrameFate::header_error);
     book(lost, FrameFate::header_error);
     listener_->frame_corrupted();
@@ -165,8 +160,9 @@ void Radio::end_header() {
 }
 
 void Radio::arrival_ended(const Arrival& arrival) {
-    present_.remove(arrival.transmission);
-    if (locked_ == arrival.transmission) {
+    if (present_.locked() == arrival.transmission) {
+        present_.unlock();
+        present_.remove(arrival.transmission);
         reports_ = true;
         try {
             end_reception(arrival);
@@ -177,6 +173,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
         end_report();
         return;
     }
+    present_.remove(arrival.transmission);
     if (is_candidate(arrival.transmission)) {
         const auto unnoticed = candidate_of(arrival.transmission);
         simulator().cancel(unnoticed->detection);
@@ -193,7 +190,7 @@ void Radio::end_report() {
 }
 
 void Radio::end_reception(const Arrival& arrival) {
-    const Transmission& transmission = *std::exchange(locked_, nullptr);
+    const Transmission& transmission = *arrival.transmission;
     const std::vector<NodeId>* interferers = nullptr;
     const FrameFate fate =
         kind_.by_chunks ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
@@ -203,14 +200,14 @@ void Radio::end_reception(const Arrival& arrival) {
         observer_->received(arrival, kind_.reception.noise_w, decoded);
     }
     if (interferers != nullptr) {
-        medium_.fates().book_interference(node(), transmission.label, *interferers);
+        medium().fates().book_interference(node(), transmission.label, *interferers);
     } else {
         book(transmission, fate);
     }
     if (decoded) {
         listener_->frame_received(transmission);
     } else {
-        others_are_weak_ = kind_.reception.noise_w + medium_.most_interference_w(arrival) <
+        others_are_weak_ = kind_.reception.noise_w + medium().most_interference_w(arrival) <
                            kind_.energy_detection_w * (1 - 1e-6);
         listener_->frame_corrupted();
     }
@@ -221,14 +218,15 @@ void Radio::end_reception(const Arrival& arrival) {
 FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
     // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
     // not be known. Mostly not even the draw.
-    const double least_success = kind_.reception.least_success(arrival, medium_.most_interference_w(arrival));
+    const double least_success =
+        kind_.reception.least_success(arrival, medium().most_interference_w(arrival));
     if (least_success == 1) {
-        reception_draws_.skip_uniform();
+        ++drawn_;  // mostly it need not be worked out
         return FrameFate::delivered;
     }
-    const double draw = reception_draws_.uniform();
+    const double draw = this->draw();
     if (draw < least_success ||
-        draw < kind_.reception.least_success(arrival, medium_.most_interference_w(id_, arrival))) {
+        draw < kind_.reception.least_success(arrival, medium().most_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
@@ -247,7 +245,7 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
     if (simulator().cancel(header_end_) && !header_survives()) {
         return FrameFate::header_error;  // the frame ends with its header
     }
-    const double draw = reception_draws_.uniform();
+    const double draw = this->draw();
     InterferenceSum& interference = interference_in(arrival, period_of(FramePart::data, arrival));
     if (draw < kind_.reception.success(FramePart::data, arrival, interference)) {
         return FrameFate::delivered;
@@ -262,21 +260,20 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
 bool Radio::header_survives() {
     InterferenceSum& interference =
         interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
-    return reception_draws_.uniform() <
-           kind_.reception.success(FramePart::header, locked_arrival_, interference);
+    return draw() < kind_.reception.success(FramePart::header, locked_arrival_, interference);
 }
 
 void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
-    medium_.fingerprint().add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
-    medium_.fingerprint().add(static_cast<std::uint64_t>(interface_.stream()));
+    medium().fingerprint().add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
+    medium().fingerprint().add(std::uint64_t{stream_});
 }
 
 void Radio::book(const Transmission& transmission, FrameFate fate) {
-    medium_.fates().book(node(), transmission.label, fate);
+    medium().fates().book(node(), transmission.label, fate);
 }
 
 void Radio::update_busy() {
-    bool busy = transmitting_ || reports_ || locked_ != nullptr;
+    bool busy = transmitting_ || reports_ || present_.is_locked();
     if (!busy && !present_.empty()) {
         double energy_w = kind_.reception.noise_w;
         busy = energy_w >= kind_.energy_detection_w;

@@ -54,8 +54,8 @@ protected:
 
 class alignas(64) Radio final : public MediumListener {
 public:
-    Radio(Medium& medium, InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
-          const Trajectory& trajectory, std::uint64_t seed, const Attitude& attitude = {},
+    Radio(InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
+          const Trajectory& trajectory, const Attitude& attitude = {},
           PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
@@ -66,8 +66,8 @@ public:
         observer_ = observer;
         is_observed_ = observer != nullptr;
     }
-    InterfaceId interface() const { return interface_; }
-    NodeId node() const { return interface_.node; }
+    InterfaceId interface() const { return InterfaceId::of_stream(stream_); }
+    NodeId node() const { return interface().node; }
     RadioId id() const { return id_; }
 
     // Turns around to send: what comes before the end of the next transmission is not received. Only while not
@@ -84,20 +84,20 @@ public:
     SimTime watch_channel(SimTime since) {
         tells_of_channel_ = true;
         watches_energy_ = true;
-        return std::max(free_since_, may_ignore_energy() && !transmitting_ ? medium_.watch_energy(id_, since)
+        return std::max(free_since_, may_ignore_energy() && !transmitting_ ? medium().watch_energy(id_, since)
                                                                            : SimTime::long_ago());
     }
     void stop_watching_channel() {
         tells_of_channel_ = false;
         watches_energy_ = false;
         if (may_ignore_energy()) {
-            medium_.stop_watching_energy(id_);
+            medium().stop_watching_energy(id_);
         }
     }
     // Tells of its channel again, but only what it hears of anyway: what frames do to it one by one.
     void tell_of_channel() { tells_of_channel_ = true; }
     // How far back watch_channel may ask.
-    void remember_channel(SimTime duration) { medium_.remember(duration); }
+    void remember_channel(SimTime duration) { medium().remember(duration); }
     // At the end of a frame that was received broken: whether the others on the air are too weak to make the channel busy
     // together.
     bool are_others_weak() const { return others_are_weak_; }
@@ -105,14 +105,14 @@ public:
     // It will probably send soon (NetworkInterface::fetch).
     void fetch(int step) const {
         if (step == 0) {
-            fetch_before(*this, observer_);
+            fetch_before(*this, owned_kind_);
         } else {
-            medium_.fetch_sender(id_);
+            medium().fetch_sender(id_);
         }
     }
 
     bool is_transmitting() const { return transmitting_; }
-    bool is_receiving() const { return locked_ != nullptr; }
+    bool is_receiving() const { return present_.is_locked(); }
     // Transmitting, locked on a frame, or noise and all arrivals together reach the energy detection level.
     bool is_channel_busy() const { return busy_; }
 
@@ -125,7 +125,8 @@ private:
         EventHandle detection;
     };
 
-    Simulator& simulator() const { return medium_.simulator(); }
+    Medium& medium() const { return kind_.medium; }
+    Simulator& simulator() const { return medium().simulator(); }
     bool detects_preambles() const { return kind_.preamble_detection.is_on(); }
     // One that detects preambles leaves out of its sums what the medium cannot know: it is told of energy all the time.
     bool may_ignore_energy() const { return !detects_preambles(); }
@@ -142,19 +143,20 @@ private:
     void end_reception(const Arrival& arrival);
     void end_report();
     // Both draw, and find interferers only if interference is to blame.
+    double draw() { return RandomStream(kind_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
     FrameFate decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     FrameFate decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     bool header_survives();
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
-        return medium_.interference_with(id_, arrival, period.start, period.end);
+        return medium().interference_with(id_, arrival, period.start, period.end);
     }
     void add_to_fingerprint(const Transmission& transmission, FrameFate fate);
     void book(const Transmission& transmission, FrameFate fate);
     void transmission_over();
     void update_busy();
 
-    // First what an arrival touches: two cache lines. In a large network they are in no cache, so the medium has them
-    // fetched ahead (Medium::fetch).
+    // First what an arrival touches: one cache line. In a large network it is in no cache, so the medium has it
+    // fetched ahead (Links::fetch_touched).
     [[no_unique_address]] PresentArrivals present_;  // the bits below lie in its padding
     bool transmitting_ : 1 = false;
     bool turned_ : 1 = false;  // to transmit, which it does not yet
@@ -164,17 +166,14 @@ private:
     bool others_are_weak_ : 1 = false;
     bool tells_of_channel_ : 1 = true;
     bool watches_energy_ : 1 = true;  // but while it transmits
-    const Transmission* locked_ = nullptr;
+    std::uint32_t stream_;            // of its interface (InterfaceId)
     const RadioKind& kind_;
     RadioListener* listener_ = nullptr;
-
-    Medium& medium_;
     SimTime free_since_ = SimTime::long_ago();  // its channel, if it is
-    InterfaceId interface_;
-    RadioId id_ = 0;
-    RandomStream reception_draws_;
-    double tx_power_w_;
+    std::uint64_t drawn_ = 0;                   // numbers that decide about receptions
 
+    RadioId id_ = 0;
+    double tx_power_w_;
     RadioObserver* observer_ = nullptr;
     std::shared_ptr<const RadioKind> owned_kind_;  // kind_ again: keeps it alive
     Arrival locked_arrival_;             // if locked on, for the options that ask for it before its end

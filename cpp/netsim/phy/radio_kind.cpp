@@ -4,8 +4,10 @@
 
 namespace netsim {
 
-RadioKind::RadioKind(const RadioConfig& config, const BackgroundNoise& background_noise)
-    : band{config.carrier_hz, config.bandwidth_hz},
+RadioKind::RadioKind(const RadioConfig& config, Medium& medium_, std::uint64_t seed_)
+    : medium(medium_),
+      seed(seed_),
+      band{config.carrier_hz, config.bandwidth_hz},
       sensitivity_w(config.sensitivity_w),
       energy_detection_w(config.energy_detection_w),
       by_chunks(config.snir_mode == snir_by_chunks),
@@ -15,7 +17,7 @@ RadioKind::RadioKind(const RadioConfig& config, const BackgroundNoise& backgroun
       antenna_offset(config.antenna.offset),
       error_model_(make_error_model(config)) {
     reception = {error_model_.get(), config.snir_threshold,
-                 background_noise.power_w(config.bandwidth_hz, config.noise_figure)};
+                 medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)};
 }
 
 }  // namespace netsim

@@ -14,8 +14,10 @@ SimTime us(std::int64_t microseconds) {
 class AirwavesTest : public testing::Test {
 protected:
     AirwavesTest() {
-        links.add(InterfaceId{0, 0}, {.band = band}, place, MountedAntenna(), SimTime());
-        links.add(InterfaceId{1, 0}, {.band = band}, elsewhere, MountedAntenna(), SimTime());
+        links.add(InterfaceId{0, 0}, {.trajectory = &place, .kind = {.band = band}}, MountedAntenna(),
+                  SimTime());
+        links.add(InterfaceId{1, 0}, {.trajectory = &elsewhere, .kind = {.band = band}}, MountedAntenna(),
+                  SimTime());
     }
     OnAir& put(SimTime start, SimTime last_end) {
         Transmission transmission;

@@ -45,10 +45,11 @@ protected:
         const RadioConfig config = deaf_but_sensing();
         watch.add_radio();
         return links.add(InterfaceId{static_cast<NodeId>(places.size()) - 1, 0},
-                         {.band = {config.carrier_hz, config.bandwidth_hz},
-                          .sensitivity_w = config.sensitivity_w,
-                          .energy_detection_w = config.energy_detection_w},
-                         trajectory, MountedAntenna(), SimTime());
+                         {.trajectory = &trajectory,
+                          .kind = {.band = {config.carrier_hz, config.bandwidth_hz},
+                                   .sensitivity_w = config.sensitivity_w,
+                                   .energy_detection_w = config.energy_detection_w}},
+                         MountedAntenna(), SimTime());
     }
     // Begins now for 100 µs, as the medium has it; the receiver at the origin gets that power.
     void send(RadioId sender, double received_w) {

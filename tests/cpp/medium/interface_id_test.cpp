@@ -27,5 +27,12 @@ TEST(InterfaceId, InterfacesAreOrderedByNodeFirst) {
     EXPECT_LT((InterfaceId{1, 0}), (InterfaceId{1, 1}));
 }
 
+TEST(InterfaceId, IsFoundAgainByItsStream) {
+    for (const InterfaceId id :
+         {InterfaceId{0, 0}, InterfaceId{7, 3}, InterfaceId{InterfaceId::most_nodes - 1, 255}}) {
+        EXPECT_EQ(InterfaceId::of_stream(id.stream()), id);
+    }
+}
+
 }  // namespace
 }  // namespace netsim

@@ -32,7 +32,8 @@ protected:
             places.emplace_back(place);
         }
         const auto node = static_cast<NodeId>(places.size()) - 1;
-        return links.add(InterfaceId{node, interface}, kind, places.back(), MountedAntenna(), SimTime());
+        return links.add(InterfaceId{node, interface}, {.trajectory = &places.back(), .kind = kind},
+                         MountedAntenna(), SimTime());
     }
     Transmission sent_by(RadioId radio, double power_w = 1e-3) const {
         Transmission sent;

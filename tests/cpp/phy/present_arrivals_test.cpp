@@ -47,6 +47,39 @@ TEST(PresentArrivals, ComeBackFromManyToFew) {
     EXPECT_EQ(powers_w(present), (std::vector<double>{1}));
 }
 
+TEST(PresentArrivals, KeepWhatTheRadioIsLockedOnToWhileOthersComeAndGo) {
+    std::array<Transmission, 3> sent;
+    PresentArrivals present;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        sent[i].id = i;
+    }
+    present.add({&sent[1], 1});
+    present.lock_on(&sent[1]);
+    EXPECT_EQ(present.locked(), &sent[1]);
+    present.add({&sent[0], 1});
+    present.add({&sent[2], 1});
+    EXPECT_EQ(present.locked(), &sent[1]);
+    present.remove(&sent[0]);
+    present.remove(&sent[2]);
+    EXPECT_EQ(present.locked(), &sent[1]);
+    EXPECT_EQ(&present.unlock(), &sent[1]);
+    EXPECT_EQ(present.locked(), nullptr);
+    EXPECT_FALSE(present.is_locked());
+}
+
+TEST(PresentArrivals, LetTheRadioLockOnToALaterOne) {
+    std::array<Transmission, 2> sent;
+    PresentArrivals present;
+    sent[1].id = 1;
+    present.add({&sent[0], 1});
+    present.lock_on(&sent[0]);
+    present.add({&sent[1], 1});
+    present.unlock();
+    present.lock_on(&sent[1]);
+    present.remove(&sent[0]);
+    EXPECT_EQ(present.locked(), &sent[1]);
+}
+
 // Random beginnings and ends against a vector.
 class PresentArrivalsOracle : public testing::TestWithParam<unsigned> {};
 

@@ -67,7 +67,8 @@ TEST(Reception, SurvivesWhatItsDrawIsBelow) {
     RandomStream draws(1, 2, Purpose{1});
     for (const double bitrate_bps : {2e6, 11e6, 6e6, 24e6, 54e6}) {
         const Mode& mode = mode_set("g(mixed)").mode_for_bitrate(bitrate_bps);
-        for (double snr = 0.1; snr < 1000; snr *= 1.03) {
+        for (int step = 0; step < 312; ++step) {  // up to 1000
+            const double snr = 0.1 * std::pow(1.03, step);
             const Frame100 frame(mode, snr);
             const ReceptionModel reception = model(0.5);
             for (int i = 0; i < 20; ++i) {

@@ -58,8 +58,9 @@ public:
     }
 };
 
-inline std::shared_ptr<const RadioKind> kind_of(const RadioConfig& config, const Medium& medium) {
-    return std::make_shared<const RadioKind>(config, medium.background_noise());
+inline std::shared_ptr<const RadioKind> kind_of(const RadioConfig& config, Medium& medium,
+                                                std::uint64_t seed) {
+    return std::make_shared<const RadioKind>(config, medium, seed);
 }
 
 // A radio without a MAC.
@@ -67,7 +68,7 @@ struct BareRadio {
     BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
               Position place, std::uint64_t seed)
         : trajectory(place),
-          radio(medium, interface, kind_of(config, medium), config.tx_power_w, trajectory, seed),
+          radio(interface, kind_of(config, medium, seed), config.tx_power_w, trajectory),
           log(simulator) {
         radio.set_listener(log);
     }
@@ -116,8 +117,10 @@ struct Station final : NetworkInterfaceListener {
             const MacConfig& mac_config, Position place, std::uint64_t seed)
         : simulator(simulator_),
           trajectory(place),
-          radio(medium, interface, kind_of(radio_config, medium), radio_config.tx_power_w, trajectory, seed),
-          dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed, *this) {}
+          radio(interface, kind_of(radio_config, medium, seed), radio_config.tx_power_w, trajectory),
+          dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed) {
+        dcf.set_listener(this);
+    }
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, const std::string& text) {

@@ -44,9 +44,11 @@ struct Device final : NetworkInterfaceListener {
            std::uint64_t seed)
         : air(air_),
           trajectory(place),
-          radio(air.medium, air.next_node(), kind_of(radio_config, air.medium), radio_config.tx_power_w,
-                trajectory, seed),
-          csma(air.simulator, radio, config, seed, *this) {}
+          radio(air.next_node(), kind_of(radio_config, air.medium, seed), radio_config.tx_power_w,
+                trajectory),
+          csma(air.simulator, radio, config, seed) {
+        csma.set_listener(this);
+    }
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, std::size_t bytes) {

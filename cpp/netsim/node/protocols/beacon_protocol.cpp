@@ -1,6 +1,5 @@
 #include "netsim/node/protocols/beacon_protocol.hpp"
 
-#include <memory>
 #include <string>
 
 #include "netsim/config/check.hpp"
@@ -15,9 +14,7 @@ void BeaconConfig::validate() const {
 }
 
 BeaconProtocol::BeaconProtocol(Node& node, const BeaconConfig& config)
-    : node_(node),
-      message_(std::make_shared<const std::string>(static_cast<std::size_t>(config.payload_bytes), 'x')),
-      config_(config) {}
+    : node_(node), message_(node.filler(config.payload_bytes)), config_(config) {}
 
 NativeProtocol BeaconProtocol::description() {
     using Config = BeaconConfig;

@@ -1,7 +1,6 @@
 #include "netsim/node/protocols/saturating_source.hpp"
 
 #include <limits>
-#include <memory>
 #include <string>
 
 #include "netsim/config/check.hpp"
@@ -17,9 +16,7 @@ void SaturatingSourceConfig::validate() const {
 }
 
 SaturatingSource::SaturatingSource(Node& node, const SaturatingSourceConfig& config)
-    : node_(node),
-      config_(config),
-      message_(std::make_shared<const std::string>(static_cast<std::size_t>(config.payload_bytes), 'x')) {}
+    : node_(node), config_(config), message_(node.filler(config.payload_bytes)) {}
 
 NativeProtocol SaturatingSource::description() {
     using Config = SaturatingSourceConfig;
