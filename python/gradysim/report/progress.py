@@ -9,12 +9,6 @@ from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn,
 from rich.table import Column
 from rich.text import Text
 
-MIN_BAR_WIDTH, MAX_BAR_WIDTH = 4, 40
-"""Columns of the bar itself."""
-
-TEXT_WIDTH = 76
-"""Columns that the texts beside the bar may need."""
-
 
 class SimulatedTimeColumn(ProgressColumn):
     """`120 of 7,200 s`."""
@@ -30,14 +24,10 @@ class SpeedColumn(ProgressColumn):
 
     def render(self, task: Task) -> Text:
         """Return the speed of the last seconds; nothing until it is known."""
-        speed = task.finished_speed or task.speed
-        return Text(
-            ""
-            if speed is None
-            else f"{speed:,.3g} x real time"
-            if speed < 1000
-            else f"{speed:,.0f} x real time"
-        )
+        if task.speed is None:
+            return Text()
+        digits = f"{task.speed:,.3g}" if task.speed < 999.5 else f"{task.speed:,.0f}"
+        return Text(f"{digits} x real time")
 
 
 class RunProgress:
@@ -50,10 +40,10 @@ class RunProgress:
         """Prepare a bar for a run of `limit_s` simulated seconds, which may be infinite."""
         self._bar = Progress(
             TextColumn("{task.description}", markup=False, table_column=Column(no_wrap=True)),
-            BarColumn(max(MIN_BAR_WIDTH, min(MAX_BAR_WIDTH, console.width - TEXT_WIDTH))),
+            BarColumn(),
             SimulatedTimeColumn(table_column=Column(no_wrap=True)),
             SpeedColumn(table_column=Column(no_wrap=True)),
-            TimeRemainingColumn(),
+            TimeRemainingColumn(table_column=Column(no_wrap=True)),
             TextColumn("left"),
             console=console,
             auto_refresh=False,

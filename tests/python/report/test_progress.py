@@ -36,10 +36,18 @@ def test_it_is_drawn_anew_at_each_update():
 
 
 @pytest.mark.parametrize(
-    ("speed", "shown"), [(None, ""), (0.51234, "0.512"), (585.4, "585"), (12_345.6, "12,346")]
+    ("speed", "shown"),
+    [
+        (None, ""),
+        (0.51234, "0.512"),
+        (585.4, "585"),
+        (999.6, "1,000"),
+        (1234.5, "1,234"),
+        (12_345.6, "12,346"),
+    ],
 )
 def test_a_speed_has_three_digits_or_all_before_the_point(speed, shown):
-    task = SimpleNamespace(finished_speed=None, speed=speed)
+    task = SimpleNamespace(speed=speed)
     assert SpeedColumn().render(task).plain == (shown and f"{shown} x real time")
 
 
@@ -54,9 +62,11 @@ def test_a_run_without_a_limit(limit_s):
     assert " of " not in text
 
 
-def test_it_fits_into_one_line_of_a_narrow_terminal():
+def test_all_of_it_fits_into_one_line_of_a_narrow_terminal():
     text = shown(28_800.0, 1.0, 27_000.0, 28_000.0, width=80)
     assert text.count("\n") == 1
+    assert "28,000 of 28,800 s" in text
+    assert "…" not in text
 
 
 def test_there_is_no_thread_beside_the_simulation():

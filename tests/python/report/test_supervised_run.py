@@ -1,4 +1,5 @@
 from asyncio import CancelledError
+from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -22,6 +23,8 @@ class FakeRun:
 
     def execute(self, progress=None, should_stop=None):
         self.arguments = (progress, should_stop)
+        if progress is not None:
+            progress(5.0)
         if self.ending is not None:
             raise self.ending
 
@@ -83,7 +86,9 @@ def test_without_a_console_nothing_is_shown():
     assert run.arguments == (None, never)
 
 
-def test_with_a_console_the_bar_is_moved():
-    run = FakeRun()
-    carry_out(lambda _: run, SCENARIO, never, Console(stderr=True))
-    assert run.arguments[0] is not None
+def test_with_a_console_a_bar_that_names_the_run_is_moved():
+    run, shown = FakeRun(), StringIO()
+    carry_out(lambda _: run, SCENARIO, never, Console(file=shown, force_terminal=True, width=100))
+    assert run.arguments[1] is never
+    assert "General run 0" in shown.getvalue()
+    assert "5 of 10 s" in shown.getvalue()
