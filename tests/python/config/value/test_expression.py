@@ -121,6 +121,11 @@ def test_any_text_can_be_written(text: str) -> None:
         ("true || false && false", True),
         ("1 + 2 == 3 && 2 < 3", True),
         ("1 < 2 == true", True),
+        ("false && true == false", False),
+        ("true == 1 < 2", True),
+        ("true != 1 > 2", True),
+        ('true > "a" =~ "b"', True),
+        ('"ab" =~ "a" + "?"', True),
         ('"a" + "b" =~ "a?"', True),
         ("true || 1", True),
         ("false && 1", False),
@@ -204,9 +209,11 @@ def test_chains_of_any_length_end(sign: str) -> None:
         ("(-1) ^ 0.5", "`-1` ^ `0.5` is no number"),
         ("10 ^ 999", "the result is too large for a number"),
         ("2m ^ 2", "`2m` ^ `2`: powers are for plain numbers"),
+        ("2 ^ 2m", "`2` ^ `2m`: powers are for plain numbers"),
         ('"a" - "b"', 'arithmetic is for numbers only, and `"a"` is none'),
         ("true + 1", "arithmetic is for numbers only, and `true` is none"),
         ("7.5 % 2", "`7.5` % `2`: it is for plain whole numbers; for others there is `fmod(a, b)`"),
+        ("7 % 2.5", "`7` % `2.5`: it is for plain whole numbers; for others there is `fmod(a, b)`"),
         ("50%", "the value ends too early; 50% is written `0.5`"),
         ("1 ? 2 : 3", "`?` is for true and false, and `1` is neither"),
         ("true ? 2", "`?` is without its `:`"),
@@ -215,9 +222,11 @@ def test_chains_of_any_length_end(sign: str) -> None:
         ("1 && true", "`&&` is for true and false, and `1` is neither"),
         ("true and false", "`and` is not understood there; did you mean `&&`?"),
         ("1 < 2 and true", "`and` is not understood there; did you mean `&&`?"),
+        ("true or false", "`or` is not understood there; did you mean `||`?"),
         ("not true", "`not` is not understood there; did you mean `!`?"),
         ("1 = 2", "`=` is not understood there; did you mean `==`?"),
         ("true & false", "`&` is not understood there; did you mean `&&`?"),
+        ("true | false", "`|` is not understood there; did you mean `||`?"),
         (
             "parentIndex * 3m",
             "`parentIndex` is no value (a text stands in quotes); did you mean `parentIndex()`?",
@@ -251,6 +260,11 @@ def test_chains_of_any_length_end(sign: str) -> None:
 def test_errors(text: str, message: str) -> None:
     with pytest.raises(BadValue, match=f"^{re.escape(message)}$"):
         parse_value(text)
+
+
+def test_where_no_function_has_a_name_like_that_all_are_named() -> None:
+    with pytest.raises(BadValue, match=r"^there is no function `gamma_d`; there are acos, .*, weibull$"):
+        parse_value("gamma_d(1, 2)")
 
 
 @given(st.text('0123456789.eE+-*/^(), smWdB"xy', max_size=12))

@@ -28,6 +28,8 @@ def test_the_numbers_never_change() -> None:
         0.381352411892407,
         0.2969851101537849,
     ]
+    assert stream.uniform_pair() == (0.007072630869297991, 0.9760583342794937)
+    assert stream.uniform_int(1000) == 819
 
 
 def test_a_block_is_the_generators_with_the_path_in_the_place_of_a_node() -> None:

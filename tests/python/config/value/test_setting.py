@@ -25,7 +25,8 @@ def test_holds_the_value_and_its_place() -> None:
 
 def test_reads_an_entry_once_for_each_kind() -> None:
     settings, written = SettingReader(), entry("3mps")
-    assert settings.setting(written, SPEED) is settings.setting(written, SPEED)
+    one, other = (settings.setting(written, SPEED, f"{node}.mobility.speed") for node in ("a", "b"))
+    assert one is other
 
 
 def test_an_entry_for_two_kinds_has_a_value_of_each() -> None:
@@ -40,6 +41,14 @@ def test_knows_which_lines_were_read_and_for_what() -> None:
     settings.for_checks().setting(checked, SPEED, "uavs[0].mobility.other")
     assert settings.lines_read() == {read.source}
     assert settings.parameters_read() == {"mobility.speed"}
+
+
+def test_knows_which_files_were_named() -> None:
+    settings = SettingReader()
+    settings.setting(entry('"table.csv"'), file_name())
+    settings.setting(entry('"no file"'), text())
+    settings.setting(entry('""'), file_name())
+    assert settings.files() == [Path("table.csv")]
 
 
 def test_errors_name_the_place_the_entry_and_what_was_expected() -> None:
