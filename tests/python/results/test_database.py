@@ -182,6 +182,14 @@ def test_a_folder_that_cannot_be_made_is_an_error(tmp_path):
         pass
 
 
+def test_a_folder_in_its_place_is_an_error_about_the_file(path):
+    path.mkdir(parents=True)
+    with pytest.raises(IsADirectoryError) as raised, new_database(path, IDENTITY):
+        pass
+    assert raised.value.filename == str(path)
+    assert list(path.parent.iterdir()) == [path]
+
+
 def test_what_no_file_can_hold_is_written_in_another_way(path):
     identity = RunIdentity("A", {"configname": "\ud800"}, {}, ())
     with new_database(path, identity) as database:

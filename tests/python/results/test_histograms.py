@@ -17,7 +17,11 @@ def test_of_each_kind_of_messages():
     (histogram,) = histograms(RESULT, "Field")
     assert (histogram.module, histogram.name) == ("Field", "broadcastMessage:delay:histogram")
     assert histogram.values is DELAYS
-    assert histogram.attributes["unit"] == "s"
+    assert histogram.attributes == {
+        "unit": "s",
+        "source": "broadcastMessage:delay",
+        "recordingmode": "histogram",
+    }
 
 
 def test_a_bin_of_a_single_value_is_wide_enough_for_a_density():

@@ -1,3 +1,5 @@
+import re
+
 import pytest
 
 from gradysim.results.node_ids import checked_ids
@@ -19,5 +21,5 @@ def test_an_id_that_is_not_there_is_named(node_id):
 
 @pytest.mark.parametrize("ids", [True, "all", [0.5], [None]])
 def test_what_is_no_id_is_shown(ids):
-    with pytest.raises(TypeError, match=r"^fates_at = .*: expected ids$"):
+    with pytest.raises(TypeError, match=rf"^fates_at = {re.escape(repr(ids))}: expected ids$"):
         checked_ids("fates_at", ids, 2, "ids")

@@ -49,6 +49,14 @@ def test_a_row_for_each_scalar(scalar_file):
     assert infinite["value"] == -math.inf
 
 
+@pytest.mark.parametrize("variable", ["runID", "module", "name", "value", "unit", "title", "source"])
+def test_a_variable_that_is_called_as_a_column_has_another_name(tmp_path, variable):
+    identity = RunIdentity("A", {}, {variable: "2"}, ())
+    write_scalar_file([Scalar("N", "heard:last", 5.0)], identity, tmp_path / "A.sca")
+    (row,) = read_scalars(tmp_path / "A.sca")
+    assert row == {"runID": "A", "module": "N", "name": "heard:last", "value": 5.0, f"${variable}": "2"}
+
+
 def test_several_files(scalar_file):
     assert len(read_scalars([scalar_file, str(scalar_file)])) == 6
     assert read_scalars([]) == []
