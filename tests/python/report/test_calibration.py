@@ -53,7 +53,7 @@ def test_its_powers_are_the_next_ones_that_are_enough(tx_power_w: float) -> None
 
 def test_an_interface_that_is_not_the_first_is_named() -> None:
     lines = text(replace(calibration(2), sender_interface=1, receiver="base.wlan[1]")).splitlines()
-    assert lines[0].startswith("relay.wlan[1] to base.wlan[1]: 0.5 of")
+    assert lines[0] == "relay.wlan[1] to base.wlan[1]: 0.5 of the broadcast frames are received at 50 m"
     assert "    *.relay.wlan[1].radio.transmitter.power = 1mW" in lines
 
 

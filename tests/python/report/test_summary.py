@@ -59,6 +59,13 @@ def test_what_is_in_it(what):
     assert what in printed()
 
 
+def test_nodes_are_a_table_with_a_row_for_each():
+    rows = [line.split() for line in printed().splitlines()]
+    heading = rows.index(["id", "name", "protocol", "position", "in", "m", "tracked", "variables"])
+    place = ["1.0,", "2.2,", "-3.0"]
+    assert rows[heading + 2] == ["0", "uavs[0]", "Mobile", *place, "data", "=", "5"]
+
+
 def test_delays_of_messages():
     delays = {"unicast": constant_delays({0.0003: 1999, 1.5: 1})}
     lines = printed(message_delays=delays).splitlines()
@@ -129,6 +136,10 @@ def test_the_time_of_an_interruption_is_the_simulated_time():
 
 def test_a_whole_run_is_not():
     assert "interrupted" not in printed()
+
+
+def test_a_run_shorter_than_a_second_has_a_speed():
+    assert "0.500 s (14,400 x real time)" in printed(wall_s=0.5)
 
 
 def test_a_run_that_took_no_time_has_no_speed():
