@@ -33,7 +33,7 @@ from gradysim.commands.run_options import (
     VectorsOption,
 )
 from gradysim.commands.scenarios import check, placed
-from gradysim.commands.several_runs import one_after_the_other, several_at_once
+from gradysim.commands.several_runs import check_jobs, one_after_the_other, several_at_once
 from gradysim.commands.simulators import check_names, simulator
 from gradysim.commands.warnings import tell, warnings_of_lines, warnings_of_networks, warnings_of_seeds
 from gradysim.commands.written_files import write_files
@@ -73,6 +73,7 @@ def run(
     # What protocols print, also when they are imported, must not get between the JSON objects.
     with contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext():
         try:
+            check_jobs(jobs)
             check_sqlite(asked)
             if asked.writes_files:
                 make_result_dir(asked.directory)

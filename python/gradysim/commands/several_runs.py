@@ -42,16 +42,21 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
     return OK
 
 
-def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO, jobs: int) -> int:
-    """Carry out runs in `jobs` processes; return the exit code of the command."""
+def check_jobs(jobs: int) -> None:
+    """Raise ConfigError for a number of runs at once that cannot be, before anything is read."""
     from gradysim.config.errors.config_error import ConfigError
-    from gradysim.integrated.compiled_part import CompiledPartMissingError
 
     if jobs < 1:
         raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
-    if not hasattr(os, "fork"):
+    if jobs > 1 and not hasattr(os, "fork"):
         raise ConfigError(f"--jobs {jobs}: this system cannot divide a process into two; expected --jobs 1")
+
+
+def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO, jobs: int) -> int:
+    """Carry out runs in `jobs` processes; return the exit code of the command."""
     from gradysim.commands.processes import in_processes
+    from gradysim.config.errors.config_error import ConfigError
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
 
     def work(index: int, interrupt: "StopOnInterrupt", output: TextIO) -> int:
         try:

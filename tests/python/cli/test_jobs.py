@@ -172,10 +172,11 @@ def test_many_runs_may_end_before_the_first_one_does(folder):
 
 
 @pytest.mark.parametrize("jobs", ["0", "-1"])
-def test_there_is_a_job_at_least(gradysim, jobs):
-    done = gradysim("run", "test.ini", "--mode", "prototype", f"--jobs={jobs}")
+def test_there_is_a_job_at_least(gradysim, folder, jobs):
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", "out", f"--jobs={jobs}")
     assert done.returncode == 2
     assert done.stderr == f"--jobs {jobs}: it is out of range; expected 1 or more\n"
+    assert not (folder / "out").exists()
 
 
 def test_a_system_that_cannot_fork_has_one_job(folder, monkeypatch, capsys):
