@@ -49,10 +49,8 @@ def summary(result: RunResult) -> RenderableType:
     """Return the summary of `result` as something that rich can print."""
     parts: list[RenderableType] = [heading(result), cost(result)]
     if result.nodes:
-        shown = result.nodes if len(result.nodes) <= MAX_NODES else result.nodes[:NODES_OF_MANY]
-        parts += [title("Nodes"), node_table(shown)]
-        if len(shown) < len(result.nodes):
-            parts.append(Text(f"… and {len(result.nodes) - len(shown):,} more nodes; --json has all"))
+        shown, rest = some_of(result.nodes)
+        parts += [title("Nodes"), node_table(shown), *rest]
     for what, kinds in result.fates.items():
         if has_counts(kinds):
             parts += [title(FATE_TITLES.get(what, what)), CountTables("fate", counted(kinds))]
@@ -66,7 +64,7 @@ def at_nodes(result: RunResult) -> list[RenderableType]:
     told = tuple(node for node in result.nodes if node.frame_fates is not None)
     if not told:
         return []
-    shown = told if len(told) <= MAX_NODES else told[:NODES_OF_MANY]
+    shown, rest = some_of(told)
     frames, messages = (names_of(result.fates[what]) for what in ("frames", "messages"))
     parts = [title("Fates of frames at nodes, whoever they were for"), fates_at_nodes(shown, frames)]
     if overheard := kinds_overheard(shown):
@@ -74,9 +72,15 @@ def at_nodes(result: RunResult) -> list[RenderableType]:
     if any(node.interferers for node in shown):
         parts += [title("Lost to interference, and to whose frames"), interferer_table(shown)]
     parts += [title("Messages from nodes and what became of them"), messages_from_nodes(shown, messages)]
-    if len(shown) < len(told):
-        parts.append(Text(f"… and {len(told) - len(shown):,} more nodes; --json has all"))
-    return parts
+    return [*parts, *rest]
+
+
+def some_of(nodes: tuple[NodeResult, ...]) -> tuple[tuple[NodeResult, ...], list[Text]]:
+    """Return the nodes that are shown, and what is said of the others if there are any."""
+    if len(nodes) <= MAX_NODES:
+        return nodes, []
+    left = len(nodes) - NODES_OF_MANY
+    return nodes[:NODES_OF_MANY], [Text(f"… and {left:,} more nodes; --json has all")]
 
 
 def names_of(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, None]:
