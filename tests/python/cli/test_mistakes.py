@@ -126,6 +126,10 @@ def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
             "--ratio 1: it is out of range; expected more than 0 and less than 1",
         ),
         (
+            ["--range", "50m", "--ratio", "0"],
+            "--ratio 0: it is out of range; expected more than 0 and less than 1",
+        ),
+        (
             ["--range", "50m", "--message", "-5B"],
             "--message -5B: it is out of range; expected a size such as 100B, at least 0B",
         ),
@@ -142,6 +146,13 @@ def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
 def test_a_quantity_of_calibrate_is_refused_for_what_it_is(gradysim, arguments, refusal):
     done = gradysim("calibrate", "test.ini", *arguments)
     assert (done.returncode, done.stdout, done.stderr.strip()) == (2, "", refusal)
+
+
+@compiled
+def test_calibrate_reads_the_configuration_that_was_asked_for(gradysim):
+    done = gradysim("calibrate", "test.ini", "-c", "WrongKey", "--range", "50m")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"test.ini:{LINE_OF_THE_WRONG_KEY}" in done.stderr
 
 
 @compiled

@@ -207,6 +207,26 @@ def test_calibrate_says_which_run_of_a_study_it_is_about(gradysim):
 
 
 @compiled
+def test_calibrate_is_told_who_sends_what_to_whom(gradysim):
+    base = ("--set", '*.base.protocol.class="protocol.py:Quiet"')
+    options = ("--sender", "base", "--receiver", "uavs[1]", "--message", "700B", "--ratio", "0.9")
+    first, second, *_ = gradysim(
+        "calibrate", "test.ini", "--range", "50m", *base, *options
+    ).stdout.splitlines()
+    assert first.startswith("base to uavs[1]: 0.9 of ")
+    assert second.startswith("if nobody else sends (700 B of message")
+
+
+@compiled
+def test_calibrate_draws_the_picture_that_was_asked_for(gradysim, folder):
+    pytest.importorskip("matplotlib")
+    done = gradysim("calibrate", "test.ini", "--range", "50m", "--picture", "curve.svg")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.endswith("\ndrawn in curve.svg\n")
+    assert (folder / "curve.svg").is_file()
+
+
+@compiled
 def test_the_command_can_be_called_from_python(folder):
     output = io.StringIO()  # which has no encoding
     with contextlib.redirect_stdout(output):
