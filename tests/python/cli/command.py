@@ -121,6 +121,12 @@ def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[s
     return run_command(folder, sys.executable, "-m", "gradysim", *arguments)
 
 
+def run_without(module: str, folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run the command in a folder where a module is not installed."""
+    code = f"import sys; sys.modules[{module!r}] = None; from gradysim.cli import main; sys.exit(main())"
+    return run_command(folder, sys.executable, "-c", code, *arguments)
+
+
 def objects(output: str) -> list[dict]:
     """The JSON objects of an output, one in each line."""
     return [json.loads(line) for line in output.splitlines()]

@@ -1,5 +1,7 @@
 """`gradysim keys`."""
 
+from python.cli.command import run_without
+
 
 def test_keys_are_plain_lines_when_there_is_no_terminal(gradysim):
     done = gradysim("keys", "mobility.speed")
@@ -20,3 +22,10 @@ def test_a_pattern_that_no_key_matches_is_a_mistake(gradysim):
         "no key, value or meaning contains 'sensitivty'; `gradysim keys` lists all;"
         " did you mean `sensitivity`?\n"
     )
+
+
+def test_defaults_of_the_compiled_part_are_unknown_without_it(folder):
+    done = run_without("gradysim._netsim", folder, "keys", "*.transmitter.power")
+    assert done.returncode == 0
+    assert done.stdout.split("\t")[:3] == ["*.nodes[*].wlan[*].radio.transmitter.power", "mW", "?"]
+    assert done.stderr == "defaults shown as ? are the compiled part's, which is not installed\n"

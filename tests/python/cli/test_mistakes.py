@@ -1,11 +1,10 @@
 """What a user is told who made a mistake."""
 
-import subprocess
 import sys
 
 import pytest
 
-from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, environment, run_command
+from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, run_command, run_without
 
 
 def test_a_wrong_key_is_named_with_its_place(gradysim):
@@ -163,24 +162,22 @@ def test_where_a_picture_cannot_be_nothing_is_calculated(gradysim):
     assert "--picture nowhere/curve.png: there is no folder nowhere" in done.stderr
 
 
-def test_integrated_mode_without_the_compiled_part_says_how_to_get_it(folder):
-    code = (
-        "import sys; sys.modules['gradysim._netsim'] = None; from gradysim.cli import main; sys.exit(main())"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, "run", "test.ini"],
-        cwd=folder, env=environment(), capture_output=True, text=True,
-    )  # fmt: skip
-    assert done.returncode == 2
+@pytest.mark.parametrize("arguments", [["run", "test.ini"], ["calibrate", "test.ini", "--range", "50m"]])
+def test_integrated_mode_without_the_compiled_part_says_how_to_get_it(folder, arguments):
+    done = run_without("gradysim._netsim", folder, *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
     assert "pip install ." in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_prototype_mode_needs_no_compiled_part(folder):
-    code = (
-        "import sys; sys.modules['gradysim._netsim'] = None; from gradysim.cli import main; sys.exit(main())"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code, "run", "test.ini", "--mode", "prototype"],
-        cwd=folder, env=environment(), capture_output=True, text=True,
-    )  # fmt: skip
+    done = run_without("gradysim._netsim", folder, "run", "test.ini", "--mode", "prototype")
     assert done.returncode == 0
+
+
+@compiled
+def test_a_picture_without_matplotlib_says_how_to_get_it(folder):
+    picture = ("--picture", "curve.svg")
+    done = run_without("matplotlib.figure", folder, "calibrate", "test.ini", "--range", "50m", *picture)
+    expected = "a picture needs matplotlib: pip install matplotlib\n"
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", expected)
