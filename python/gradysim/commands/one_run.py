@@ -69,7 +69,7 @@ def report(
 def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
     """Print a result: a line of JSON, or the summary for people."""
     if as_json:
-        print(json.dumps(result.to_json_object()), file=output, flush=True)
+        print(json.dumps(result.to_json_object()), file=output)
         return
     from gradysim.report.console import console
     from gradysim.report.summary import print_summary
