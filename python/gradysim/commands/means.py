@@ -31,6 +31,7 @@ def print_means(
         repeated,
     )
 
+    quoted = shlex.quote(str(directory))
     try:
         if not directory.is_dir():
             reason = "it is no folder" if directory.exists() else "there is no such folder"
@@ -41,7 +42,7 @@ def print_means(
             reason = "it has only files for OMNeT++'s tools" if are_others else "it has no results"
             raise ConfigError(
                 f"{directory}: {reason} of runs that came to their end; expected the JSON files of"
-                f" `gradysim run FILE --result-dir {shlex.quote(str(directory))}`"
+                f" `gradysim run FILE --result-dir {quoted}`"
             )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
@@ -55,7 +56,7 @@ def print_means(
         print(
             f"{directory}: warning: {of_files[2]} changed between {of_files[0]} and {of_files[1]}"
             " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
-            f" `gradysim run FILE --result-dir {shlex.quote(str(directory))} --resume` makes",
+            f" `gradysim run FILE --result-dir {quoted} --resume` makes",
             file=sys.stderr,
         )
     if repetitions := repeated(results):
