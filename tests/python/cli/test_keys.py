@@ -1,5 +1,9 @@
 """`gradysim keys`."""
 
+import contextlib
+import io
+
+from gradysim.cli import main
 from python.cli.command import run_without
 
 
@@ -7,6 +11,22 @@ def test_keys_are_plain_lines_when_there_is_no_terminal(gradysim):
     done = gradysim("keys", "mobility.speed")
     assert done.returncode == 0
     assert [line.split("\t")[0] for line in done.stdout.splitlines()] == ["*.nodes[*].mobility.speed"]
+
+
+def test_keys_are_tables_on_a_terminal():
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    with contextlib.redirect_stdout(Terminal()) as shown:
+        assert main(["keys", "mobility.speed"]) == 0
+    assert "unit or value" in shown.getvalue()
+
+
+def test_keys_are_a_page_in_markdown_if_it_is_asked_for(gradysim):
+    page = gradysim("keys", "mobility.speed", "--markdown").stdout
+    assert page.startswith("# Keys of .ini files\n\n")
+    assert page.splitlines()[-1].startswith("| `*.nodes[*].mobility.speed` | mps | ")
 
 
 def test_a_key_is_found_by_a_value_that_it_may_take(gradysim):

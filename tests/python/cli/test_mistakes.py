@@ -137,6 +137,11 @@ def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
             "--message 50.4B: `50.4B` is no whole number of bytes; expected a size such as 100B, at least 0B",
         ),
         (
+            ["--range", "50kmm"],
+            "--range 50kmm: there is no unit `kmm`; expected a length such as 50m, greater than 0m;"
+            " did you mean `mm`?",
+        ),
+        (
             ["--range", "5s"],
             "--range 5s: `s` is the unit of a time; expected a length such as 50m, greater than 0m",
         ),

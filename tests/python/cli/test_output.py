@@ -59,6 +59,17 @@ def test_a_full_disk_is_told_in_one_line(folder, arguments, buffering):
     assert (done.returncode, done.stderr) == (2, "standard output: No space left on device\n")
 
 
+@pytest.mark.skipif(not FULL_DISK.exists(), reason="this system has no disk that is always full")
+def test_why_a_protocol_failed_is_told_also_on_a_full_disk(folder):
+    with FULL_DISK.open("w") as full:
+        done = run_with_output(
+            folder, full, ["run", "test.ini", "-c", "Failing", "--mode", "prototype", "--json"]
+        )
+    assert done.returncode == 2
+    assert "RuntimeError: spoilt\n" in done.stderr
+    assert done.stderr.endswith("standard output: No space left on device\n")
+
+
 def test_a_result_that_finds_no_room_is_told_in_one_line(folder):
     arguments = [
         "run",

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from python.cli.command import both_modes
+from python.cli.command import both_modes, compiled
 
 NUMBERED = """
 import itertools
@@ -56,6 +56,15 @@ def test_a_run_does_not_depend_on_those_before_it(gradysim, beside, mode, option
     for run in runs:
         last = [node for node in run["nodes"] if node["name"].startswith("uavs")][-1]
         assert last["tracked_variables"]["taken"] == [0, 1], run["run"]
+
+
+@compiled
+def test_a_run_of_such_protocols_and_native_ones_does_not_either(gradysim, beside):
+    lines = ('*.uavs[*].protocol.class="numbered.py:Numbered"', '*.beacon.protocol.typename="BeaconProtocol"')
+    settings = [part for line in lines for part in ("--set", line)]
+    done = gradysim("run", "test.ini", "--json", "-r", "0,1", *settings)
+    runs = [json.loads(line) for line in done.stdout.splitlines()]
+    assert [run["nodes"][1]["tracked_variables"]["taken"] for run in runs] == [[0, 1], [0, 1]]
 
 
 @both_modes
