@@ -15,6 +15,7 @@ COSTS = ("wall_s", "cpu_s")
 
 TELLS = """
 import os
+import signal
 import sys
 
 from protocol import Talker
@@ -42,6 +43,14 @@ class EndsItself(Talker):
         os._exit(self.status)
 
 
+class PressesCtrlCUntilItEnds(Talker):
+    def handle_timer(self, timer):
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        while True:
+            os.kill(os.getppid(), signal.SIGINT)
+            signal.sigwait([signal.SIGINT])
+
+
 class WaitsForTheLast(Talker):
     number = 0
     last = 0
@@ -50,6 +59,18 @@ class WaitsForTheLast(Talker):
         super().initialize()
         if self.provider.get_id() == 0 and self.number in (0, self.last):
             open("pipe", "r" if self.number == 0 else "w").close()
+
+
+class PressesCtrlCAtItsEnd(WaitsForTheLast):
+    last = 1
+
+    def initialize(self):
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # which is passed on to all runs
+        super().initialize()
+
+    def finish(self):
+        if self.provider.get_id() == 0:
+            os.kill(os.getppid(), signal.SIGINT)
 """
 
 
@@ -222,6 +243,24 @@ def test_ctrl_c_ends_all_runs_under_way(two_endless_runs):
     assert err.splitlines()[-1] == (
         "Endless: run 0 was interrupted, run 1 was interrupted, 0 of 3 runs are done, 1 was not begun (2)"
     )
+
+
+def test_after_ctrl_c_no_run_is_begun_even_if_those_under_way_come_to_their_end(gradysim, folder):
+    (folder / "tells.py").write_text(TELLS)
+    os.mkfifo(folder / "pipe")
+    lines = ('class="tells.py:PressesCtrlCAtItsEnd"', "number=${runnumber}")
+    settings = [part for line in lines for part in ("--set", f"*.uavs[*].protocol.{line}")]
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--json", "-j", "2", *settings)
+    assert done.returncode == 130
+    assert done.stderr.endswith("General: 2 of 3 runs are done (0..1), 1 was not begun (2)\n")
+
+
+def test_the_third_ctrl_c_ends_a_protocol_that_takes_no_notice(gradysim, folder):
+    (folder / "tells.py").write_text(TELLS)
+    name = '*.uavs[*].protocol.class="tells.py:PressesCtrlCUntilItEnds"'
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0", "-j", "2", "--set", name)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "\nstopping after this step; Ctrl-C once more stops at once\n"
 
 
 def test_who_is_killed_leaves_nobody_behind(two_endless_runs):
