@@ -54,7 +54,7 @@ def check_file_names(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) 
     """Raise ConfigError for a name of a file that is too long for the folder, before the first run begins."""
     from gradysim.config.errors.config_error import ConfigError
 
-    last = max(scenarios, key=lambda scenario: scenario.run_number)
+    last = scenarios[-1]  # with the longest number
     folders = (asked.directory, *asked.directory.parents)
     there = next((folder for folder in folders if folder.is_dir()), Path())  # captures make theirs themselves
     for file in _all_files(last, mode, asked):
