@@ -36,6 +36,12 @@ class Killed(Talker):
         os.kill(os.getpid(), 9)
 
 
+class PrintsWhatIsNoText(Talker):
+    def handle_timer(self, timer):
+        print("half of a pair: \\ud800")
+        os.write(1, b"half of a letter: \\xc3\\n")
+
+
 class EndsItself(Talker):
     status = 0
 
@@ -46,9 +52,10 @@ class EndsItself(Talker):
 class PressesCtrlCUntilItEnds(Talker):
     def handle_timer(self, timer):
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
-        while True:
-            os.kill(os.getppid(), signal.SIGINT)
-            signal.sigwait([signal.SIGINT])
+        command = os.getppid()
+        while os.getppid() == command:
+            os.kill(command, signal.SIGINT)
+            signal.sigtimedwait([signal.SIGINT], 10)
 
 
 class WaitsForTheLast(Talker):
@@ -129,6 +136,15 @@ def test_a_process_that_is_killed_is_told(gradysim, folder):
         assert f"General run {run}: its process was ended by SIGKILL, and left no result\n" in done.stderr
     assert "General: run 0 failed, run 2 failed, 0 of 2 runs are done\n" in done.stderr
     assert (done.stdout.count("the last line\n"), done.stderr.count("the last error\n")) == (2, 2)
+
+
+def test_what_is_no_text_is_printed_in_another_way(gradysim, folder):
+    (folder / "tells.py").write_text(TELLS)
+    name = '*.uavs[*].protocol.class="tells.py:PrintsWhatIsNoText"'
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0,1", "-j", "2", "--set", name)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.count("half of a pair: \\ud800\n") == 4
+    assert done.stdout.count("half of a letter: \N{REPLACEMENT CHARACTER}\n") == 4
 
 
 @pytest.mark.parametrize("status", [0, 3])

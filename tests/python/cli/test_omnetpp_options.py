@@ -321,7 +321,9 @@ def test_a_python_without_sqlite(folder, monkeypatch, capsys, option):
     monkeypatch.chdir(folder)
     monkeypatch.setitem(sys.modules, "sqlite3", None)
     assert main([*PROTOTYPE, *option]) == 2
-    assert capsys.readouterr().err.endswith("; expected a Python with the module sqlite3\n")
+    told = capsys.readouterr().err
+    assert told.startswith(f"{' '.join(option)}: ")
+    assert told.endswith("; expected a Python with the module sqlite3\n")
     assert not (folder / "results").exists()
 
 
