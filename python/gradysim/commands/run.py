@@ -101,7 +101,7 @@ def run(
 
             def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
                 with back_afterwards():
-                    outcome = run_one(build, scenario, interrupt, bar=bar and jobs == 1)
+                    outcome = run_one(build, scenario, interrupt, bar=bar)
                 write = partial(write_files, scenario, asked=asked)
                 return report(outcome, output, write, as_json=as_json, quiet=quiet)
 

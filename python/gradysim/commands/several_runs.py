@@ -25,15 +25,12 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
     tell_of_crashes()
     with StopOnInterrupt() as interrupt:
         for done, scenario in enumerate(scenarios):
-            if interrupt.should_stop():  # pressed between two runs
-                say_unfinished(scenarios, dict.fromkeys(range(done), OK))
-                return INTERRUPTED
             codes = dict.fromkeys(range(done), OK)
             say_failed = partial(say_unfinished, scenarios, {**codes, done: FAILED})
             try:
                 with told_of_exit(f"{scenario.config} run {scenario.run_number}", say_failed):
                     code = carry_out(with_fresh_protocols(scenario) if done else scenario, interrupt, output)
-            except KeyboardInterrupt:  # while it was built
+            except KeyboardInterrupt:  # while it was built, or before
                 say_unfinished(scenarios, codes)
                 return INTERRUPTED
             if code != OK:

@@ -29,6 +29,26 @@ def test_ctrl_c_stops_at_once_what_is_still_being_built(gradysim, mode):
     assert done.stderr == "StuckInTheMaking: 0 of 3 runs are done, 3 were not begun (0..2)\n"
 
 
+@both_modes
+def test_ctrl_c_as_a_run_comes_to_its_end_begins_no_other(gradysim, folder, mode):
+    protocol = "import signal\nfrom protocol import Quiet\nclass Last(Quiet):\n    def finish(self):\n"
+    (folder / "last.py").write_text(protocol + "        self.provider.get_id() or signal.raise_signal(2)\n")
+    name = ("--set", "*.uavs[*].protocol.class=last.py:Last")
+    done = gradysim("run", "test.ini", "--mode", mode, "--json", *name)
+    assert done.returncode == 130
+    assert [run["interrupted"] for run in objects(done.stdout)] == [False]
+    assert done.stderr.endswith("General: 1 of 3 runs is done (0), 2 were not begun (1..2)\n")
+
+
+def test_ctrl_c_stops_at_once_several_runs_that_are_still_being_built(gradysim):
+    done = gradysim("run", "test.ini", "-c", "StuckInTheMaking", "--mode", "prototype", "-j", "2")
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == (
+        "StuckInTheMaking: run 0 was interrupted, run 1 was interrupted, 0 of 3 runs are done,"
+        " 1 was not begun (2)\n"
+    )
+
+
 def test_ctrl_c_stops_at_once_what_is_still_being_read(folder, gradysim):
     (folder / "long.py").write_text("import signal\nsignal.raise_signal(signal.SIGINT)\n", encoding="utf-8")
     done = gradysim("run", "test.ini", "--set", "*.uavs[*].protocol.class=long.py:Long")
