@@ -185,3 +185,12 @@ def test_a_crash_of_the_interpreter_is_told_with_its_line(gradysim, folder, mode
     assert done.returncode == -signal.SIGSEGV
     assert done.stderr.startswith("Fatal Python error: Segmentation fault")
     assert f'File "{folder / "ends.py"}", line 26 in handle_timer' in done.stderr
+
+
+def test_a_crash_of_several_runs_at_once_is_told_with_its_line(gradysim, folder):
+    (folder / "ends.py").write_text(ENDS)
+    name = '*.uavs[*].protocol.class="ends.py:Crashes"'
+    done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0,1", "-j", "2", "--set", name)
+    assert done.returncode == 1
+    assert done.stderr.count(f'File "{folder / "ends.py"}", line 26 in handle_timer') == 2
+    assert "General run 0: its process was ended by SIGSEGV, and left no result\n" in done.stderr
