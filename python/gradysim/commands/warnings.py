@@ -33,6 +33,7 @@ def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     from gradysim.config.doubts.mission_speeds import mission_speeds
     from gradysim.config.doubts.plugins_without_telemetry import plugins_without_telemetry
     from gradysim.config.doubts.shadowed_lines import shadowed_lines
+    from gradysim.config.doubts.shared_containers import shared_containers
     from gradysim.config.doubts.unread_variables import unread_variables
     from gradysim.config.keys.radio_media import has_radios
 
@@ -42,7 +43,14 @@ def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     yield from shadowed_lines(first.sections, has_powers=has_powers)
     yield from unread_variables(first.unread_variables, first.lines)
     networks = {id(scenario.nodes): scenario.nodes for scenario in scenarios}.values()
-    for doubts in (bands_beside_frequencies, doubtful_times, mission_speeds, plugins_without_telemetry):
+    about_nodes = (
+        bands_beside_frequencies,
+        doubtful_times,
+        mission_speeds,
+        plugins_without_telemetry,
+        shared_containers,
+    )
+    for doubts in about_nodes:
         yield from dict.fromkeys(text for nodes in networks for text in doubts(nodes))
 
 

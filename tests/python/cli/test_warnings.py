@@ -104,6 +104,15 @@ def test_a_speed_that_missions_override_is_told_once_for_all_runs(
     assert capsys.readouterr().err.count(told) == 1
 
 
+def test_a_list_that_nodes_share_is_told_once_for_all_runs(
+    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    make_scenario("class Tested(Talker):\n    known = []\n    def finish(self): self.known.append(1)")
+    arguments = ["--mode", "prototype", "--set", "repeat=2", "--quiet"]
+    assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
+    assert capsys.readouterr().err.count("`known` in the body of Tested is one list for all nodes") == 1
+
+
 @both_modes
 def test_a_plugin_without_telemetry_is_told_once_for_all_runs(
     make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str], mode: str
