@@ -2,7 +2,7 @@
 
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim runs FILE.ini [-c CONFIG]
-    gradysim means DIR [--csv]
+    gradysim means DIR [QUANTITY...] [--csv]
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 

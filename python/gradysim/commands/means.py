@@ -13,13 +13,21 @@ from gradysim.commands.exit_code import OK, say_mistake
 def print_means(
     directory: Annotated[Path, Parameter(name="DIR", help="The folder of `run --result-dir`.")],
     /,
-    *,
+    *quantities: Annotated[
+        str,
+        Parameter(
+            name="QUANTITY",
+            help="Which ones, by name, such as `uavs[*] heard` or `*delay*`: `*` is any letters, `?` any one;"
+            " all by default.",
+        ),
+    ],
     as_csv: Annotated[
         bool, Parameter(name="--csv", negative="", help="As CSV, with all digits, for other programs.")
     ] = False,
 ) -> int:
     """Print means over runs, of the last values of tracked variables and of fates, with 95 % intervals."""
     from gradysim.config.errors.config_error import ConfigError
+    from gradysim.config.errors.nearest import did_you_mean
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
     from gradysim.results.means import (
@@ -30,6 +38,7 @@ def print_means(
         read_results,
         repeated,
     )
+    from gradysim.results.wanted_names import wanted
 
     quoted = shlex.quote(str(directory))
     try:
@@ -44,6 +53,14 @@ def print_means(
                 f"{directory}: {reason} of runs that came to their end; expected the JSON files of"
                 f" `gradysim run FILE --result-dir {quoted}`"
             )
+        found = means(results)
+        names = dict.fromkeys(mean.quantity for mean in found)
+        for quantity in quantities:
+            if not any(map(wanted(quantity), names)):
+                raise ConfigError(
+                    f"{directory}: no quantity is called `{quantity}`; expected one that"
+                    f" `gradysim means {shlex.quote(str(directory))}` prints{did_you_mean(quantity, names)}"
+                )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
     if (two := of_different_settings(results)) is not None:
@@ -68,7 +85,8 @@ def print_means(
             " the default, gives them",
             file=sys.stderr,
         )
-    found = means(results)
+    fits = wanted(quantities or None)
+    found = [mean for mean in found if fits(mean.quantity)]
     if as_csv:
         write_csv(found, sys.stdout)
     else:

@@ -1,6 +1,7 @@
 """Mean values over the runs of a study, from the files that `--result-dir` holds."""
 
 import json
+import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from typing import Any
 from gradysim.results.run_figures import RunFigures
 from gradysim.results.shares import ALWAYS_TOLD
 from gradysim.results.student import mean_with_half_width
+from gradysim.results.wanted_names import Names, wanted
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
 """What tells a result of a run from other files."""
@@ -38,6 +40,17 @@ class Mean:
     mean: float | None
     half_width: float | None
     left_out: str = ""
+
+
+def read_means(directory: str | os.PathLike[str], quantities: Names | None = None) -> list[Mean]:
+    """Return what `gradysim means` prints of a folder, without its warnings of runs that do not fit together.
+
+    Runs that were interrupted are left out. `quantities` are those that are wanted, `"uavs[*] heard"` or
+    `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any one; None for all. Raises
+    OSError.
+    """
+    fits = wanted(quantities)
+    return [mean for mean in means(read_results(Path(directory))) if fits(mean.quantity)]
 
 
 def read_results(directory: Path) -> list[RunFigures]:

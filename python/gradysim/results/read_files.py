@@ -6,15 +6,13 @@ import math
 import os
 from array import array
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gradysim.results.wanted_names import Names, wanted
+
 if TYPE_CHECKING:
     import sqlite3
-
-Names = str | Iterable[str]
-"""A name, or several; with `*` for any letters and `?` for any one."""
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 """A file, or several."""
@@ -77,14 +75,14 @@ def _rows(
     names: Names | None,
     data_of: Callable[["sqlite3.Connection", Collection[int]], Mapping[int, Row]],
 ) -> list[Row]:
-    wanted = _is_wanted(names)
+    fits = wanted(names)
     rows: list[Row] = []
     for path in [paths] if isinstance(paths, str | os.PathLike) else paths:
         with _opened(Path(path)) as connection:
             runs = _runs(connection)
             own = _texts(connection, f"{kind}Id, attrName, attrValue FROM {kind}Attr")
             query = f"SELECT {kind}Id, runId, moduleName, {kind}Name FROM {kind} ORDER BY {kind}Id"
-            found = [row for row in connection.execute(query) if wanted(row[3])]
+            found = [row for row in connection.execute(query) if fits(row[3])]
             data = data_of(connection, {item for item, *_ in found})
             for item, run, module, name in found:
                 run_name, attributes = runs[run]
@@ -93,14 +91,6 @@ def _rows(
                     row.update((key, text) for key, text in more.items() if key not in row)
                 rows.append(row)
     return rows
-
-
-def _is_wanted(names: Names | None) -> Callable[[str], bool]:
-    if names is None:
-        return lambda _: True
-    # A bracket is a bracket, as in `received[0]:last`.
-    patterns = [name.replace("[", "[[]") for name in ([names] if isinstance(names, str) else names)]
-    return lambda name: any(fnmatchcase(name, pattern) for pattern in patterns)
 
 
 def _values(connection: "sqlite3.Connection", items: Collection[int]) -> dict[int, Row]:

@@ -21,6 +21,29 @@ def test_means_of_runs(gradysim):
     assert "General,prototype,3,uavs[*] said,3,3.0,0.0," in in_csv
 
 
+def test_only_the_quantities_that_are_wanted(gradysim):
+    gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", "out", "--quiet")
+
+    every = gradysim("means", "out", "--csv").stdout.splitlines()
+    assert any("delay in s" in line for line in every)
+    assert gradysim("means", "out", "uavs[*] said", "--csv").stdout.splitlines() == [
+        line for line in every if ",quantity," in line or ",uavs[*] said," in line
+    ]
+    two = gradysim("means", "out", "*delay*", "uavs[?] said", "--csv").stdout.splitlines()
+    assert two == [line for line in every if ",quantity," in line or " said," in line or " delay " in line]
+    assert "said" not in gradysim("means", "out", "*delay*").stdout
+
+
+def test_a_quantity_that_is_not_there(gradysim):
+    gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", "out", "--quiet")
+    done = gradysim("means", "out", "*delay*", "uavs said")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (
+        "out: no quantity is called `uavs said`; expected one that `gradysim means out` prints; did you mean"
+        " `uavs[*] said`?\n"
+    )
+
+
 def test_results_of_an_earlier_study_are_warned_of(gradysim):
     arguments = ("run", "test.ini", "--mode", "prototype", "--result-dir", "out", "--quiet")
     gradysim(*arguments)

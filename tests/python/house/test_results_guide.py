@@ -14,6 +14,7 @@ pytest.importorskip("gradysim._netsim")
 import gradysim.integrated.run
 from gradysim.config import Scenario, load_scenarios
 from gradysim.prototype.run import run
+from gradysim.results import read_means
 from gradysim.results.run_result import NodeResult
 
 GUIDE = "docs/guides/results.md"
@@ -68,15 +69,37 @@ def test_its_study_compares_both_modes(folder: Path, shown: dict[str, Any]) -> N
     assert totals[-2:] == [("100ms", "prototype", 2, 708), ("100ms", "integrated", 2, 708)]
 
 
-def test_the_means_of_the_study_are_those_that_are_shown(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], folder: Path
-) -> None:
+@pytest.fixture
+def done_study(code_blocks: CodeBlocks, shell: Callable[[str, Path], str], folder: Path) -> Path:
+    """The folder, with the results of the README's study."""
     with (folder / "hello.ini").open("a") as file:
         file.write(code_blocks("README.md", "ini")[1])
     shell("gradysim run hello.ini -c Study --result-dir results --quiet", folder)
+    return folder
+
+
+def test_the_means_of_the_study_are_those_that_are_shown(
+    root: Path, code_blocks: CodeBlocks, shell: Callable[[str, Path], str], done_study: Path
+) -> None:
     _, table = code_blocks(GUIDE, "text")
-    printed = shell("gradysim means results", folder).splitlines()
+    printed = shell("gradysim means results", done_study).splitlines()
     assert [line.rstrip() for line in printed] == table.splitlines()
+    some = re.search(r"`(gradysim means results '.*?)`", (root / GUIDE).read_text())
+    assert some is not None
+    rows = [line.split() for line in shell(some[1], done_study).splitlines()[3:]]
+    assert rows == [line.split() for line in table.splitlines() if " heard " in line or " delay " in line]
+
+
+def test_its_means_in_a_script_are_those_of_the_command(done_study: Path, shown: dict[str, Any]) -> None:
+    results = str(done_study / "results")
+    nodes = {mean.iterations["jitter"]: mean for mean in read_means(results, "nodes[*] heard")}
+    greetings = 59  # of each node; each of the four hears as many of them
+    assert shown["heard_by"](results) == {
+        jitter: pytest.approx((mean.mean / greetings, mean.half_width / greetings))
+        for jitter, mean in nodes.items()
+    }
+    delays = [mean.mean for mean in read_means(results) if "delay" in mean.quantity]
+    assert list(shown["mean_delays_s"](results).values()) == delays
 
 
 def test_its_other_order_of_runs(root: Path, folder: Path) -> None:

@@ -11,6 +11,7 @@ from gradysim.results.means import (
     means,
     of_different_files,
     of_different_settings,
+    read_means,
     read_results,
     repeated,
 )
@@ -220,6 +221,19 @@ def test_results_are_read_in_the_order_of_their_runs(tmp_path: Path) -> None:
     for run in (10, 9):
         (tmp_path / f"Study-#{run}.integrated.json").write_text(json.dumps(result(run)))
     assert [read.run for read in read_results(tmp_path)] == [9, 10]
+
+
+def test_means_of_a_folder_by_their_names(tmp_path: Path) -> None:
+    delays = {"unicast": {"mean_s": 0.1}}
+    (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result(message_delays=delays)))
+
+    def names(quantities: str | list[str] | None) -> list[str]:
+        return [mean.quantity for mean in read_means(str(tmp_path), quantities)]
+
+    both = ["uavs[*] heard", "unicast messages delay in s"]
+    assert names(None) == names("*") == names(["unicast*", "uavs[?] heard"]) == both
+    assert names("uavs[*] heard") == ["uavs[*] heard"]
+    assert names("heard") == names([]) == []
 
 
 def test_other_files_and_interrupted_runs_are_left_out(tmp_path: Path) -> None:
