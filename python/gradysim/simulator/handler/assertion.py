@@ -11,7 +11,7 @@ A decorator turns a predicate into a case, and an `AssertionHandler` evaluates i
 
 import sys
 from abc import ABC
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -170,8 +170,11 @@ class AssertionHandler(INodeHandler):
         """Take the cases, which are classes.
 
         Raises:
-            TypeError: One of them is something else, such as a predicate without its decorator.
+            TypeError: One of them is something else, such as a predicate without its decorator, or they are
+                no list.
         """
+        if not isinstance(assertions, Iterable):
+            raise TypeError(f"expected a list of cases, got {assertions!r}")
         for case in assertions:
             if not (isinstance(case, type) and issubclass(case, SimulationTestCase)):
                 raise TypeError(
@@ -211,13 +214,17 @@ class AssertionHandler(INodeHandler):
         """Evaluate all cases.
 
         Raises:
-            FailedAssertionException: One of them failed.
+            FailedAssertionException: One of them failed. What a predicate raises goes through, with a note.
         """
+        name = ""
         try:
             for case in self._cases:
+                name = type(case).__name__
                 case.test_iteration(self._nodes, iteration, timestamp)
-        except BaseException:
+        except BaseException as error:
             self.judge_nothing_more()
+            if not isinstance(error, FailedAssertionException | KeyboardInterrupt):
+                error.add_note(f"in the assertion {name}: {_when(iteration, timestamp)}")
             raise
 
     def judge_nothing_more(self) -> None:

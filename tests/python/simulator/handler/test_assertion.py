@@ -215,13 +215,30 @@ def test_ctrl_c_is_what_an_interrupted_simulation_ends_with():
         run(eventually(4), protocols=(Interrupted,))
 
 
-def test_an_exception_of_a_predicate_passes():
+def test_an_exception_of_a_predicate_passes_with_a_note():
     @assert_always_true_for_protocol(Counter, "wrong")
     def wrong(node):
-        return node.height > 0
+        return count(node) < 2 or node.height > 0
 
-    with pytest.raises(AttributeError, match="height"):
-        run(wrong)
+    with pytest.raises(AttributeError, match="height") as error:
+        run(always(9), wrong, eventually(1))
+    assert error.value.__notes__ == ["in the assertion wrong: [iteration=1 | timestamp=1.0]"]
+
+
+@pytest.mark.parametrize("raised", [FailedAssertionException, KeyboardInterrupt])
+def test_what_says_all_itself_and_ctrl_c_gain_no_note(raised):
+    @assert_always_true_for_protocol(Counter, "ends")
+    def ends(node):
+        raise raised
+
+    with pytest.raises(raised) as error:
+        run(ends)
+    assert not hasattr(error.value, "__notes__")
+
+
+def test_a_case_in_the_place_of_their_list_is_refused():
+    with pytest.raises(TypeError, match=r"^expected a list of cases, got <class .*few'>$"):
+        AssertionHandler(always(1))
 
 
 @pytest.mark.parametrize("decorator", [assert_always_true_for_protocol, assert_eventually_true_for_protocol])
