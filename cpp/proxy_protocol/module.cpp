@@ -4,8 +4,6 @@
 #include "netsim/kernel/sim_time.hpp"
 #include "proxy_protocol/bindings.hpp"
 
-namespace py = pybind11;
-
 PYBIND11_MODULE(_netsim, module) {
     module.doc() = "The engine of integrated mode.";
     module.attr("longest_run_s") = netsim::SimTime::longest_run_s;
