@@ -111,7 +111,8 @@ void Node::schedule_timer(std::string timer, SimTime time) {
         throw SimulationError("node " + std::to_string(id_) + " has set " +
                               std::to_string(most_at_one_instant) + " timers for now, " +
                               std::to_string(time.seconds()) + " s, and this one, '" + timer +
-                              "', is one more: time stands still; expected a later time");
+                              "', is one more: time stands still; expected a later time (timers take "
+                              "absolute simulated time: current_time() + 1, not 1)");
     }
     const std::size_t number = timers_.add(std::move(timer));
     timers_.set_event(number, surroundings_.simulator.schedule_at(time, TimerDue{this, number}));

@@ -115,7 +115,8 @@ TEST_F(NodeTest, TimersForNowWithoutEndAreAnError) {
     };
     EXPECT_EQ(error_of([this] { run(2); }),
               "node 0 has set 1000000 timers for now, 1.000000 s, and this one, 'tick', is one more: time "
-              "stands still; expected a later time");
+              "stands still; expected a later time (timers take absolute simulated time: current_time() + 1, "
+              "not 1)");
 }
 
 TEST_F(NodeTest, CancelTakesAllTimersOfTheName) {

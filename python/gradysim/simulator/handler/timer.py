@@ -104,7 +104,8 @@ class TimerHandler(INodeHandler):
         if self._for_now.setdefault(node.id, InstantCount()).exceeds(now):
             raise TimerException(
                 f"node {node.id} has set {MOST_AT_ONE_INSTANT} timers for now, {readable_number(now)} s, "
-                f"and this one, {message!r}, is one more: time stands still; expected a later time"
+                f"and this one, {message!r}, is one more: time stands still; expected a later time "
+                "(timers take absolute simulated time: current_time() + 1, not 1)"
             )
 
     def _timers_of(self, node: Node[Any]) -> _Pending:
