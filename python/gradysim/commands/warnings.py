@@ -31,6 +31,7 @@ def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     from gradysim.config.doubts.bands_beside_frequencies import bands_beside_frequencies
     from gradysim.config.doubts.doubtful_times import doubtful_times
     from gradysim.config.doubts.mission_speeds import mission_speeds
+    from gradysim.config.doubts.overwritten_parameters import overwritten_parameters
     from gradysim.config.doubts.plugins_without_telemetry import plugins_without_telemetry
     from gradysim.config.doubts.shadowed_lines import shadowed_lines
     from gradysim.config.doubts.shared_containers import shared_containers
@@ -47,6 +48,7 @@ def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
         bands_beside_frequencies,
         doubtful_times,
         mission_speeds,
+        overwritten_parameters,
         plugins_without_telemetry,
         shared_containers,
     )

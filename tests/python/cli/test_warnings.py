@@ -104,6 +104,15 @@ def test_a_speed_that_missions_override_is_told_once_for_all_runs(
     assert capsys.readouterr().err.count(told) == 1
 
 
+def test_a_parameter_that_the_protocol_sets_itself_is_told_once_for_all_runs(
+    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    make_scenario("class Tested(Talker):\n    retries = 3\n    def __init__(self): self.retries = 5")
+    setting = "**.retries = ${2, 4}"
+    assert main(["run", str(tmp_path / "test.ini"), "--mode", "prototype", "--set", setting, "--quiet"]) == 0
+    assert capsys.readouterr().err.count("has no effect: `__init__` of Tested sets `self.retries`") == 1
+
+
 def test_a_list_that_nodes_share_is_told_once_for_all_runs(
     make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
