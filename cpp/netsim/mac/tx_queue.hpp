@@ -32,7 +32,7 @@ public:
         std::shared_ptr<const Frame> frame = std::move(first_);
         if (taken_ < others_.size()) {
             first_ = std::move(others_[taken_++]);
-            if (2 * taken_ >= others_.size()) {  // so that a frame is moved once, on average
+            if (2 * std::size_t{taken_} >= others_.size()) {  // so that a frame is moved once, on average
                 others_.erase(others_.begin(), others_.begin() + taken_);
                 taken_ = 0;
             }

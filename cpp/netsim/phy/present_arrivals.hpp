@@ -22,55 +22,55 @@ struct PresentArrival {
 
 class PresentArrivals {
 public:
-    PresentArrivals() : one_{} {}
+    PresentArrivals() = default;
     PresentArrivals(const PresentArrivals&) = delete;
     PresentArrivals& operator=(const PresentArrivals&) = delete;
     ~PresentArrivals() {
         if (count_ == Count::several) {
-            delete several_;
+            delete content_.several;
         }
     }
 
     bool empty() const { return count_ == Count::none; }
     std::span<const PresentArrival> all() const {
-        return count_ == Count::several ? std::span<const PresentArrival>(several_->arrivals)
-                                        : std::span(&one_, count_ == Count::one ? 1 : 0);
+        return count_ == Count::several ? std::span<const PresentArrival>(content_.several->arrivals)
+                                        : std::span(&content_.one, count_ == Count::one ? 1 : 0);
     }
 
     void add(const PresentArrival& arrival) {
         if (count_ == Count::none) {
-            one_ = arrival;
+            content_.one = arrival;
             count_ = Count::one;
             return;
         }
         if (count_ == Count::one) {
-            several_ = new Several{.arrivals = {one_}, .locked = one_.transmission};
+            content_.several = new Several{.arrivals = {content_.one}, .locked = content_.one.transmission};
             count_ = Count::several;
         }
         // Mostly the last place.
         const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
             return id < other.transmission->id;
         };
-        std::vector<PresentArrival>& all = several_->arrivals;
+        std::vector<PresentArrival>& all = content_.several->arrivals;
         all.insert(std::upper_bound(all.begin(), all.end(), arrival.transmission->id, is_later), arrival);
     }
 
     // That of `transmission`, which is among them, and which the radio is not locked on to any more.
     void remove(const Transmission* transmission) {
         if (count_ == Count::one) {
-            NETSIM_ASSERT(one_.transmission == transmission && !is_locked_);
+            NETSIM_ASSERT(content_.one.transmission == transmission && !is_locked_);
             count_ = Count::none;
             return;
         }
         NETSIM_ASSERT(count_ == Count::several && locked() != transmission);
-        std::vector<PresentArrival>& all = several_->arrivals;
+        std::vector<PresentArrival>& all = content_.several->arrivals;
         const auto found = std::ranges::find(all, transmission, &PresentArrival::transmission);
         NETSIM_ASSERT(found != all.end());
         all.erase(found);
         if (all.size() == 1) {
             const PresentArrival last = all.front();
-            delete several_;
-            one_ = last;
+            delete content_.several;
+            content_.one = last;
             count_ = Count::one;
         }
     }
@@ -80,9 +80,9 @@ public:
         NETSIM_ASSERT(!is_locked_);
         is_locked_ = true;
         if (count_ == Count::several) {
-            several_->locked = transmission;
+            content_.several->locked = transmission;
         } else {
-            NETSIM_ASSERT(count_ == Count::one && one_.transmission == transmission);
+            NETSIM_ASSERT(count_ == Count::one && content_.one.transmission == transmission);
         }
     }
     // Returns what it was locked on to. Only while it is.
@@ -98,7 +98,7 @@ public:
         if (!is_locked_) {
             return nullptr;
         }
-        return count_ == Count::several ? several_->locked : one_.transmission;
+        return count_ == Count::several ? content_.several->locked : content_.one.transmission;
     }
 
 private:
@@ -108,10 +108,12 @@ private:
         const Transmission* locked = nullptr;  // of no account while the radio is not
     };
 
-    union {
-        PresentArrival one_;
-        Several* several_;  // owned
+    union Content {
+        PresentArrival one{};
+        Several* several;  // owned
     };
+
+    Content content_;
     Count count_ = Count::none;
     bool is_locked_ = false;
 };

@@ -22,7 +22,7 @@ using test::Station;
 using test::us;
 
 std::string name_of(const testing::TestParamInfo<Hearing>& given) {
-    return given.param == Hearing::everything ? "everything" : "what_matters";
+    return std::string(given.param == Hearing::everything ? "everything" : "what_matters");
 }
 
 // Two or three signals at one receiver, none of which it would notice alone.
@@ -302,7 +302,7 @@ TEST(EnergyAtABorder, IsNoticedByWhoFliesAsFastAsItMoves) {
     RadioConfig radio = test::radio_of_power(6e-11);
     radio.sensitivity_w = 1e-9;
     radio.energy_detection_w = 1e-10;
-    for (const int i : {1, 2}) {
+    for (const std::int64_t i : {1, 2}) {
         BareRadio& sender = air.add_radio({0, 0, 0}, radio);
         air.at(us(10 * i), [&sender] { sender.send(us(1000)); });
     }
