@@ -16,8 +16,8 @@ constexpr std::uint64_t timer_word = 0x74696D6572;  // of the fingerprint: tells
 
 Node::Node(Surroundings& surroundings, const NodeConfig& config, NodeId id, std::uint64_t seed)
     : surroundings_(surroundings),
-      id_(id),
       mobility_(make_mobility(config.mobility, config.initial_position)),
+      id_(id),
       name_(config.name),
       attitude_(config.mobility),
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
@@ -124,7 +124,7 @@ void Node::cancel_timer(const std::string& timer) {
 
 void Node::fetch_for_timer(int step) const {
     if (step == 0) {
-        fetch_before(*this, interfaces_);
+        fetch_before(*this, observed_);
     } else if (step == 1) {
         timers_.fetch();
         fetch_bytes(protocol_.get(), 2 * cache_line_bytes);

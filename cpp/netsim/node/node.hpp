@@ -92,14 +92,15 @@ private:
     // Most timers send something.
     void fetch_for_timer(int step) const;
 
-    // First what every timer touches.
+    // First what every timer touches: one cache line.
     Surroundings& surroundings_;
-    NodeId id_;
-    bool observed_ = false;  // here, where it is at hand: most nodes are not
     std::unique_ptr<Protocol> protocol_;
-    Timers timers_;
     NetworkInterface* first_interface_ = nullptr;  // of those below: mostly the one that is meant
     std::unique_ptr<Mobility> mobility_;
+    [[no_unique_address]] Timers timers_;  // the id lies in its padding
+    NodeId id_;
+
+    bool observed_ = false;  // most nodes are not
     InstantCount timers_for_now_;
     std::vector<std::unique_ptr<NetworkInterface>> interfaces_;
     std::string name_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,22 +51,23 @@ public:
     }
 
 private:
-    static constexpr std::size_t none = ~std::size_t{0};
+    using Place = std::uint32_t;  // of a timer: there is no memory for so many
+    static constexpr Place none = ~Place{0};
 
     struct alignas(64) Timer {
         std::string name;
         EventHandle event;
         bool pending = false;
-        std::size_t next_free = none;  // of those that are not pending
+        Place next_free = none;  // of those that are not pending
     };
 
     void release(std::size_t number) {
         timers_[number].pending = false;
-        timers_[number].next_free = std::exchange(first_free_, number);
+        timers_[number].next_free = std::exchange(first_free_, static_cast<Place>(number));
     }
 
     std::vector<Timer> timers_;
-    std::size_t first_free_ = none;  // the one that was released last
+    Place first_free_ = none;  // the one that was released last
 };
 
 }  // namespace netsim
