@@ -81,7 +81,8 @@ public:
 
 private:
     static constexpr std::uint64_t last_of_instant = std::uint64_t{1} << 63;  // in EventKey::order
-    struct alignas(64) Slot {                                                 // one cache line
+    // One cache line.
+    struct alignas(64) Slot {
         Action action;
         std::uint32_t generation = 1;
     };
