@@ -12,8 +12,9 @@ RadioId Links::add(InterfaceId interface, const Receiver& receiver, const Mounte
                    SimTime now) {
     const RadioId radio = count();
     const Trajectory& trajectory = *receiver.trajectory;
-    radios_.push_back(Radio{
-        .listener = receiver.listener, .stream = interface.stream(), .kind = kind_index(receiver.kind)});
+    radios_.push_back(Radio{.listener = receiver.listener,
+                            .stream = interface.stream(),
+                            .kind = kind_index(receiver.kind) & most_kinds});
     trajectories_.push_back(&trajectory);
     antennas_.add(antenna, trajectory);
     if (first_radio_.empty() || this->interface(first_radio_.back()).node != interface.node) {

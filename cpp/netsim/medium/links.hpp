@@ -117,6 +117,7 @@ public:
     double loud_to_all_m(const Transmission& sent, const Audience& audience) const;
 
 private:
+    static constexpr std::uint32_t most_kinds = 0x7FFFFFFF;  // no network has so many radios
     // What each transmission asks of a radio near by. As small as can be: in a large network, memory is what costs.
     struct alignas(32) Radio {
         MediumListener* listener = nullptr;

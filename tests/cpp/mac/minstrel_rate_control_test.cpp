@@ -166,12 +166,11 @@ TEST(MinstrelRateControl, WhereNothingSucceedsItIsTheSlowest) {
 // Fifty attempts at each rate, with that share of successes, and an update after them.
 class LearnedLink {
 public:
-    explicit LearnedLink(const Shares& shares, int psdu_bytes = netsim::psdu_bytes)
-        : psdu_bytes_(psdu_bytes) {
+    explicit LearnedLink(const Shares& shares, int bytes = psdu_bytes) : psdu_bytes_(bytes) {
         constexpr int attempts = 50;
         for (std::size_t mode = 0; mode < shares.size(); ++mode) {
             for (int i = 0; i < attempts; ++i) {
-                const RateAttempt attempt{1, psdu_bytes, 0};
+                const RateAttempt attempt{1, psdu_bytes_, 0};
                 i < attempts* shares.at(mode) ? control_.succeeded(attempt, modes().modes()[mode], SimTime{})
                                               : control_.failed(attempt, modes().modes()[mode], SimTime{});
             }

@@ -19,7 +19,7 @@ std::vector<double> powers_w(const PresentArrivals& present) {
 }
 
 TEST(PresentArrivals, AreNoneAtFirst) {
-    const PresentArrivals present;
+    const PresentArrivals present{};
     EXPECT_TRUE(present.empty());
     EXPECT_TRUE(present.all().empty());
 }
