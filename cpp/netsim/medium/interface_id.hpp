@@ -20,6 +20,7 @@ struct InterfaceId {
         return static_cast<std::uint32_t>(node) | static_cast<std::uint32_t>(index) << node_bits;
     }
 
+    // The one whose name that is.
     static InterfaceId of_stream(std::uint32_t stream) {
         return {static_cast<NodeId>(stream & (most_nodes - 1)),
                 static_cast<std::int32_t>(stream >> node_bits)};

@@ -142,8 +142,8 @@ private:
     void end_header();
     void end_reception(const Arrival& arrival);
     void end_report();
-    // Both draw, and find interferers only if interference is to blame.
     double draw() { return RandomStream(kind_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
+    // Both draw, and find interferers only if interference is to blame.
     FrameFate decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     FrameFate decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     bool header_survives();

@@ -59,7 +59,7 @@ def print_means(
             if not any(map(wanted(quantity), names)):
                 raise ConfigError(
                     f"{directory}: no quantity is called `{quantity}`; expected one that"
-                    f" `gradysim means {shlex.quote(str(directory))}` prints{did_you_mean(quantity, names)}"
+                    f" `gradysim means {quoted}` prints{did_you_mean(quantity, names)}"
                 )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
