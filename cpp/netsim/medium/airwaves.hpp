@@ -75,7 +75,6 @@ public:
     std::uint64_t first_id() const { return entries_.front()->transmission.id; }
     std::uint64_t next_id() const { return next_id_; }
     OnAir& of_id(std::uint64_t id) const { return *entries_[id - first_id()]; }
-    const OnAir& of(const Arrival& arrival) const { return of_id(arrival.transmission->id); }
     // Those that began before `newest` and are not over everywhere as it begins.
     void find_those_beside(const OnAir& newest, std::vector<OnAir*>& beside) const;
 
@@ -111,7 +110,9 @@ public:
 private:
     // With the radio at `place` when the transmission starts.
     Arrival arrival_at_place(const OnAir& on_air, RadioId radio, const Position& place) const {
-        return links_.arrival(on_air.transmission, share_at(on_air, radio), radio, place);
+        Arrival arrival = links_.arrival(on_air.transmission, share_at(on_air, radio), radio, place);
+        arrival.on_air = &on_air;
+        return arrival;
     }
     double power_at_place(const OnAir& on_air, RadioId radio, const Position& place) const {
         const Transmission& sent = on_air.transmission;

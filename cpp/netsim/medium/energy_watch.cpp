@@ -215,7 +215,7 @@ double EnergyWatch::missing_at(RadioId radio, const Position& place) {
             // The place is not quite that of a radio that moves: only what can be locked on is asked for it.
             listener_.energy_matters(
                 radio, other,
-                Arrival{&other.transmission, coming.start, coming.end, coming.power_w, place, false});
+                Arrival{&other.transmission, coming.start, coming.end, coming.power_w, place, false, &other});
         });
     return outlook.missing_w;
 }

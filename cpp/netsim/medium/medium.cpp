@@ -209,7 +209,8 @@ void Medium::tell_next(OnAir& entry, OnAir::Edge edge) {
                               heard.start + entry.transmission.duration,
                               heard.power_w,
                               entry.places[heard.place_index],
-                              heard.lockable};
+                              heard.lockable,
+                              &entry};
         const bool is_last = entry.told[edge] == entry.heard.size();
         try {
             MediumListener& listener = links_.listener(heard.radio);

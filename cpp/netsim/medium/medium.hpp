@@ -68,7 +68,7 @@ public:
 
     // In W, no less than its largest sum over the time of the arrival, for one that reached the sensitivity: known at
     // once. Infinite if that says nothing.
-    double most_interference_w(const Arrival& arrival) const { return airwaves_.of(arrival).others_w; }
+    double most_interference_w(const Arrival& arrival) const { return arrival.on_air->others_w; }
     // The same at that receiver, once the arrival has ended: nearer to the truth, and more to work out.
     double most_interference_w(RadioId receiver, const Arrival& arrival) const;
 

@@ -22,7 +22,7 @@ void Medium::bound_interference(OnAir& here, const OnAir& there) const {
 }
 
 double Medium::most_interference_w(RadioId receiver, const Arrival& arrival) const {
-    const OnAir& here = airwaves_.of(arrival);
+    const OnAir& here = *arrival.on_air;
     double most_w = here.far_w;
     for (const OnAir* other : here.close) {
         if (other->transmission.radio != receiver) {

@@ -18,6 +18,7 @@ namespace netsim {
 
 struct Frame;  // mac/frame.hpp
 struct Mode;   // phy/modes.hpp
+struct OnAir;  // airwaves.hpp
 
 // The slice of spectrum of a transmission, or the one that a receiver listens to.
 struct Band {
@@ -74,6 +75,7 @@ struct Arrival {
     double power_w = 0;
     Position place{};       // of the receiver, when the transmission started
     bool lockable = false;  // strong enough for the receiver, on its channel and in a format that it knows
+    const OnAir* on_air = nullptr;  // what the medium notes of the transmission: handed through
 };
 
 }  // namespace netsim

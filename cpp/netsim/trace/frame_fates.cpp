@@ -1,7 +1,5 @@
 #include "netsim/trace/frame_fates.hpp"
 
-#include <algorithm>
-
 #include "netsim/error.hpp"
 
 namespace netsim {
@@ -11,26 +9,14 @@ void FrameFates::book(NodeId receiver, FrameLabel label, FrameFate fate) {
     ++sums[index(label.kind)].counts[index(fate)];
     Column& column = at_nodes_[index(label.kind)][index(fate)];
     if (column.size() <= static_cast<std::size_t>(receiver)) {
-        column.resize(interferers_.size());
+        column.resize(interferers_.node_count());
     }
     ++column[receiver];
 }
 
 void FrameFates::book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers) {
     book(receiver, label, FrameFate::interference);
-    std::vector<Interferer>& known = interferers_[receiver];
-    for (const NodeId node : interferers) {
-        auto place = std::ranges::lower_bound(known, node, {}, &Interferer::node);
-        if (place == known.end() || place->node != node) {
-            if (known.size() == known.capacity()) {
-                const auto offset = place - known.begin();
-                known.reserve(known.size() + known.size() / 4 + 2);
-                place = known.begin() + offset;
-            }
-            place = known.insert(place, Interferer{node});
-        }
-        ++place->copies;
-    }
+    interferers_.note(receiver, interferers);
 }
 
 void FrameFates::book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard) {
@@ -62,14 +48,6 @@ FrameFates::Counts FrameFates::counts_at(NodeId receiver, FrameKind kind) const 
         counts[fate] = static_cast<std::size_t>(receiver) < column.size() ? column[receiver] : 0;
     }
     return counts;
-}
-
-std::map<NodeId, std::uint64_t> FrameFates::interferers_at(NodeId receiver) const {
-    std::map<NodeId, std::uint64_t> copies;
-    for (const Interferer& interferer : interferers_[receiver]) {
-        copies.emplace_hint(copies.end(), interferer.node, interferer.copies);
-    }
-    return copies;
 }
 
 }  // namespace netsim

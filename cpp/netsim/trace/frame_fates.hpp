@@ -15,6 +15,7 @@
 #include "netsim/kernel/fetch.hpp"
 #include "netsim/node_id.hpp"
 #include "netsim/trace/frame_label.hpp"
+#include "netsim/trace/interferers.hpp"
 
 namespace netsim {
 
@@ -46,7 +47,7 @@ public:
     // counts[fate] of the copies of one kind, at their addressees or overheard by others.
     using Counts = std::array<std::uint64_t, frame_fate_count>;
 
-    void add_node() { interferers_.emplace_back(); }
+    void add_node() { interferers_.add_node(); }
 
     // One copy of `label`'s frame ended at `receiver`.
     void book(NodeId receiver, FrameLabel label, FrameFate fate);
@@ -73,17 +74,12 @@ public:
     // Of the copies that could be received at one receiver (below_sensitivity is not kept for each node).
     Counts counts_at(NodeId receiver, FrameKind kind) const;
     // {interfering node: copies lost at `receiver` with its help}
-    std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const;
+    std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const { return interferers_.at(receiver); }
 
 private:
     struct Book {
         std::uint64_t copies = 0;
         Counts counts{};
-    };
-    struct Interferer {
-        NodeId node = 0;
-        // In 32 bits, as there are many pairs of nodes: so many copies of one take years of frames.
-        std::uint32_t copies = 0;
     };
 
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
@@ -94,8 +90,7 @@ private:
     // [kind][fate]: each copy of a frame adds to one number, mostly among those delivered; side by side, eight of them are in
     // one cache line. What never happens has none.
     std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
-    // [receiver], by node: maps would take four times as much.
-    std::vector<std::vector<Interferer>> interferers_;
+    Interferers interferers_;
     std::array<std::uint64_t, frame_kind_count> frames_{};
     std::array<Book, frame_kind_count> addressed_{};
     std::array<Book, frame_kind_count> overheard_{};
