@@ -73,11 +73,12 @@ class ModuleLoader:
         With `also_stdlib`, files with names of the standard library, too, as for a script of that folder.
         """
         siblings = self._siblings.setdefault(folder, {})
+        shadowed = _shadowed_by(folder)
         # Lists, since to look at a module may import others, and so may other threads.
         hidden = {
             name: module
             for name, module in list(sys.modules.items())
-            if _is_shadowed(name.partition(".")[0], folder) and not _is_of(name, module, folder)
+            if name.partition(".")[0] in shadowed and not _is_of(name, module, folder)
         }
         before = set(sys.modules) - hidden.keys()
         for name in hidden:
@@ -183,11 +184,15 @@ def _loaded_once(file: Path) -> Iterator[None]:
         _being_loaded.remove(file)
 
 
-def _is_shadowed(top_level: str, folder: Path) -> bool:
-    """Whether the folder has a module of that name which should be found in its place."""
-    if _is_stdlib(top_level) or top_level in ("__main__", "gradysim"):
-        return False
-    return (folder / f"{top_level}.py").is_file() or (folder / top_level / "__init__.py").is_file()
+def _shadowed_by(folder: Path) -> set[str]:
+    """The names of the modules in a folder that should be found in the place of others."""
+    try:
+        entries = list(os.scandir(folder))
+    except OSError:  # the folder is gone, or was never there: nothing in it can be imported
+        return set()
+    files = {entry.name.removesuffix(".py") for entry in entries if entry.name.endswith(".py") and entry.is_file()}
+    packages = {entry.name for entry in entries if os.path.isfile(os.path.join(entry.path, "__init__.py"))}
+    return (files | packages) - sys.stdlib_module_names - {"__main__", "gradysim"}
 
 
 def _is_of(name: str, module: ModuleType, folder: Path) -> bool:
