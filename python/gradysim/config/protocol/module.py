@@ -190,7 +190,9 @@ def _shadowed_by(folder: Path) -> set[str]:
         entries = list(os.scandir(folder))
     except OSError:  # the folder is gone, or was never there: nothing in it can be imported
         return set()
-    files = {entry.name.removesuffix(".py") for entry in entries if entry.name.endswith(".py") and entry.is_file()}
+    files = {
+        entry.name.removesuffix(".py") for entry in entries if entry.name.endswith(".py") and entry.is_file()
+    }
     packages = {entry.name for entry in entries if os.path.isfile(os.path.join(entry.path, "__init__.py"))}
     return (files | packages) - sys.stdlib_module_names - {"__main__", "gradysim"}
 
