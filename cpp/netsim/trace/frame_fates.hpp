@@ -74,7 +74,9 @@ public:
     // Of the copies that could be received at one receiver (below_sensitivity is not kept for each node).
     Counts counts_at(NodeId receiver, FrameKind kind) const;
     // {interfering node: copies lost at `receiver` with its help}
-    std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const { return interferers_.at(receiver); }
+    std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const {
+        return interferers_.at(receiver);
+    }
 
 private:
     struct Book {
