@@ -71,6 +71,7 @@ def _check(spec: NodeSpec, autopilot: AutopilotSpec, reference: Position) -> Non
     with _errors_at(autopilot.source):
         load_dialect()
         check_start(spec.name, spec.initial_position, reference)
+    with _errors_at(autopilot.parameters_source):
         wind_mps(spec.name, autopilot.parameters)
     with _errors_at(autopilot.program_source):
         find_arducopter(autopilot.program)

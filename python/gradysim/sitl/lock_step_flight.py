@@ -50,7 +50,7 @@ class LockStepFlight:
         self._link.on_message = self._note
         self.autopilot = LockStepAutopilot(self._link, Quadcopter(wind_mps(node.name, node.parameters)))
         self.vehicle = Vehicle(self._link)
-        self.pilot = Pilot(self.vehicle, self._place_of, node.speed_mps)
+        self.pilot = Pilot(self.vehicle, self._place_of, node.start, node.speed_mps)
 
     @property
     def position(self) -> Position:

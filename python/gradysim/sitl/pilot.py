@@ -1,14 +1,51 @@
-"""Has one vehicle do what is wanted of it last."""
+"""Has one vehicle do what is wanted of it last.
+
+ArduCopter neither takes off nor lands for a target: on the ground it ignores one in the air, and what stands
+on the ground with a target there flies, as it believes, until after some minutes it does not know any more
+where it is. So the way to a target on the ground ends with a velocity downwards, by which it notices that it
+has landed, and a way from the ground begins with one upwards:
+
+    RISING --in the air, and clear of the ground--> FLYING --low over a target on the ground--> STANDING
+       ^--------- it has landed somewhere else ---------+
+"""
 
 import asyncio
+import math
 from collections.abc import Callable
+from enum import Enum, auto
 
-from gradysim.protocol.position import Position
+from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
+from gradysim.sitl.link import Message
 from gradysim.sitl.vehicle import Vehicle
 
 _RENEWAL_S = 1.0
 """Of the autopilot's time: it drops a velocity that is 3 s old."""
+
+_ON_GROUND_M = 0.1
+"""Up to this height a target is on the ground."""
+
+_APPROACH_M = 0.5
+"""So high it flies to a target on the ground: to be dragged over the ground is more than its senses bear."""
+
+_OVER_M = 0.3
+"""From so near to that it goes straight down."""
+
+_NEAR_M = 1.0
+"""One that has landed so near to it has arrived, too."""
+
+_CLEAR_M = 0.5
+"""One that takes off flies on from this height."""
+
+_UPWARDS_MPS, _DOWNWARDS_MPS = (0.0, 0.0, 1.0), (0.0, 0.0, -0.5)
+
+
+class _Phase(Enum):
+    """Of the way to a target."""
+
+    RISING = auto()
+    FLYING = auto()
+    STANDING = auto()
 
 
 class Pilot:
@@ -22,6 +59,7 @@ class Pilot:
         self,
         vehicle: Vehicle,
         place_of: Callable[[Position], Position],
+        start: Position,
         speed_mps: float,
         pace: float = 1.0,
     ) -> None:
@@ -31,13 +69,16 @@ class Pilot:
             vehicle: What it is to fly.
             place_of: Returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in
                 metres; ValueError if there is no such place.
+            start: (x, y, z) in metres: the position that the vehicle holds.
             speed_mps: Ground speed, >= `LOWEST_SPEED_MPS`.
             pace: Seconds of the autopilot's time for each second of the asyncio loop's.
         """
         self.vehicle = vehicle
         self._place_of = place_of
         self._renewal_s = _RENEWAL_S / pace
-        self._target: Position | None = None
+        self._target = start
+        self._place: Position | None = place_of(start)  # None while it is to hold a velocity
+        self._phase = _Phase.FLYING
         self._speed_mps = speed_mps
         self._velocity: Position | None = None
         self._speed_is_new = asyncio.Event()
@@ -58,15 +99,16 @@ class Pilot:
         if self._speed_mps == 0:
             self._stop()
             return
-        if self._velocity is not None:
-            self._velocity = None
-            self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
-        self.vehicle.go_to(*place)
+        self._place = place
+        if self.vehicle.is_on_ground:
+            self._go_on_from_ground()
+        else:
+            self._fly()
 
     def set_velocity(self, velocity_mps: Position) -> None:
         """Hold a velocity (North, East, up)."""
-        self._velocity = velocity_mps
-        self.vehicle.set_velocity(*velocity_mps)
+        self._place = None
+        self._hold(velocity_mps)
 
     def set_speed(self, speed_mps: float) -> None:
         """Fly at this ground speed from now on; the autopilot has to confirm it, in `attend`.
@@ -84,12 +126,13 @@ class Pilot:
             self._stop()
             return
         self._speed_is_new.set()
-        if before == 0 and self._target is not None:
+        if before == 0:
             self.go_to(self._target)
 
     def _stop(self) -> None:
         """Stand: by a velocity, as ArduCopter refuses a speed of 0."""
-        self.set_velocity((0.0, 0.0, 0.0))
+        if self._place is None or self._phase is not _Phase.STANDING:  # that it does
+            self.set_velocity((0.0, 0.0, 0.0))
 
     @property
     def has_news(self) -> bool:
@@ -97,8 +140,13 @@ class Pilot:
         return self._speed_is_new.is_set()
 
     async def attend(self) -> None:
-        """Do what takes time, for ever: have speeds confirmed, renew velocities. SitlError if that fails."""
-        await asyncio.gather(self._have_speeds_confirmed(), self._renew_velocities())
+        """Do what takes time, for ever: have speeds confirmed, renew velocities, take off and land.
+
+        SitlError if that fails.
+        """
+        await asyncio.gather(
+            self._have_speeds_confirmed(), self._renew_velocities(), self._take_off_and_land()
+        )
 
     async def watch(self) -> None:
         """Wait for ever. SitlError as soon as the vehicle is gone or does not obey any more."""
@@ -119,3 +167,58 @@ class Pilot:
             await asyncio.sleep(self._renewal_s)
             if self._velocity is not None:
                 self.vehicle.set_velocity(*self._velocity)
+
+    async def _take_off_and_land(self) -> None:
+        while True:
+            await self.vehicle.link.wait_for(_tells_of_its_place, None)
+            if self._place is None or self.vehicle.position is None:
+                continue
+            over_m, height_m = _apart_m(self._place, self.vehicle.position)
+            if self._phase is _Phase.RISING:
+                if self.vehicle.is_in_air and height_m >= _CLEAR_M:
+                    self._fly()
+            elif self._phase is _Phase.FLYING:
+                if self.vehicle.is_on_ground:
+                    self._go_on_from_ground()
+                elif _is_on_ground(self._place) and height_m <= _APPROACH_M + _OVER_M and over_m <= _OVER_M:
+                    self._stand()
+
+    def _go_on_from_ground(self) -> None:
+        assert self._place is not None
+        position = self.vehicle.position
+        if _is_on_ground(self._place) and position and _apart_m(self._place, position)[0] <= _NEAR_M:
+            self._stand()
+        else:
+            self._phase = _Phase.RISING
+            self._hold(_UPWARDS_MPS)
+
+    def _fly(self) -> None:
+        assert self._place is not None
+        self._phase = _Phase.FLYING
+        if self._velocity is not None:
+            self._velocity = None
+            self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
+        latitude, longitude, height_m = self._place
+        self.vehicle.go_to(latitude, longitude, _APPROACH_M if _is_on_ground(self._place) else height_m)
+
+    def _stand(self) -> None:
+        self._phase = _Phase.STANDING
+        self._hold(_DOWNWARDS_MPS)
+
+    def _hold(self, velocity_mps: Position) -> None:
+        self._velocity = velocity_mps
+        self.vehicle.set_velocity(*velocity_mps)
+
+
+def _tells_of_its_place(message: Message) -> bool:
+    return message.get_type() in ("GLOBAL_POSITION_INT", "EXTENDED_SYS_STATE")
+
+
+def _is_on_ground(place: Position) -> bool:
+    return place[2] <= _ON_GROUND_M
+
+
+def _apart_m(place: Position, position: Position) -> tuple[float, float]:
+    """Return how far a vehicle is from a place, along the ground, and its height above home, in m."""
+    north_m, east_m, _ = geo_to_cartesian(place, position)
+    return math.hypot(north_m, east_m), position[2]

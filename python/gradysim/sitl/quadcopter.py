@@ -34,6 +34,9 @@ DRAG_KGPS = 0.3
 ROTATION_DRAG_NMS = 0.05
 """Torque against each radian per second."""
 
+FRICTION = 0.5
+"""Of its feet on the ground: force against its motion, for each newton of its weight."""
+
 _GREATEST_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
 _LEVER_M = ARM_M * math.sqrt(0.5)
 
@@ -110,25 +113,36 @@ class Quadcopter:
         east += a_east * duration_s
         sink += (a_down + GRAVITY_MPS2) * duration_s
         x, y, z = self.position_m
+        if z + sink * duration_s >= 0 and sink >= 0:
+            self._slide(north, east, duration_s)
+            return
         self.velocity_mps = (north, east, sink)
         self.position_m = (x + north * duration_s, y + east * duration_s, z + sink * duration_s)
-        if self.position_m[2] >= 0 and sink >= 0:
-            self._stand()
-            return
         self.specific_force_mps2 = (
             forward[0] * a_north + forward[1] * a_east + forward[2] * a_down,
             right[0] * a_north + right[1] * a_east + right[2] * a_down,
             down[0] * a_north + down[1] * a_east + down[2] * a_down,
         )
 
-    def _stand(self) -> None:
-        """Be at rest on the ground, level, with the heading that it had."""
+    def _slide(self, north: float, east: float, duration_s: float) -> None:
+        """Be on the ground, level, with the heading that it had; lose speed by friction, or stand."""
         w, x, y, z = self.attitude
-        half_heading = math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z)) / 2
-        self.attitude = (math.cos(half_heading), 0.0, 0.0, math.sin(half_heading))
-        self.rates_radps = self.velocity_mps = (0.0, 0.0, 0.0)
-        self.position_m = (self.position_m[0], self.position_m[1], 0.0)
-        self.specific_force_mps2 = (0.0, 0.0, -GRAVITY_MPS2)
+        heading = math.atan2(2 * (x * y + w * z), 1 - 2 * (y * y + z * z))
+        self.attitude = (math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2))
+        self.rates_radps = (0.0, 0.0, 0.0)
+        speed, lost = math.hypot(north, east), FRICTION * GRAVITY_MPS2 * duration_s
+        kept = 1 - lost / speed if speed > lost else 0.0
+        a_north = (kept * north - self.velocity_mps[0]) / duration_s
+        a_east = (kept * east - self.velocity_mps[1]) / duration_s
+        self.velocity_mps = (kept * north, kept * east, 0.0)
+        x, y, _ = self.position_m
+        self.position_m = (x + kept * north * duration_s, y + kept * east * duration_s, 0.0)
+        cos, sin = math.cos(heading), math.sin(heading)
+        self.specific_force_mps2 = (
+            cos * a_north + sin * a_east,
+            cos * a_east - sin * a_north,
+            -GRAVITY_MPS2,
+        )
 
     def _axes(self) -> tuple[Vector, Vector, Vector]:
         """Forward, right and down of the vehicle, in the world's frame."""

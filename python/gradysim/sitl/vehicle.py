@@ -83,8 +83,17 @@ class Vehicle:
     @property
     def is_in_air(self) -> bool:
         """Whether it says that it flies; False if it does not say."""
+        return bool(self._landed_state == self._dialect.MAV_LANDED_STATE_IN_AIR)
+
+    @property
+    def is_on_ground(self) -> bool:
+        """Whether it says that it has landed, or has not taken off yet; False if it does not say."""
+        return bool(self._landed_state == self._dialect.MAV_LANDED_STATE_ON_GROUND)
+
+    @property
+    def _landed_state(self) -> int | None:
         message = self.link.latest.get("EXTENDED_SYS_STATE")
-        return message is not None and message.landed_state == self._dialect.MAV_LANDED_STATE_IN_AIR
+        return None if message is None else int(message.landed_state)
 
     async def meet(self, timeout_s: float) -> None:
         """Wait for the first HEARTBEAT."""

@@ -38,6 +38,15 @@ def test_what_cannot_be_flown_is_refused_before_anything_runs(flown_scenario, se
     assert said in str(caught.value)
 
 
+def test_a_wrong_parameter_is_told_with_the_line_that_has_it(flown_scenario):
+    scenario = flown_scenario(TESTED, '*.uavs[0].mobility.autopilotParameters = "SIM_WIND_TURB=1"')
+    autopilot = scenario.nodes[0].autopilot
+    assert autopilot.parameters_source != autopilot.source
+    with pytest.raises(ConfigError) as caught:
+        check_autopilots(scenario)
+    assert str(caught.value).startswith(str(autopilot.parameters_source))
+
+
 def test_a_protocol_of_the_engine_obeys_no_autopilot(flown_scenario):
     with pytest.raises(ConfigError, match="an autopilot obeys protocols in Python only"):
         check_autopilots(flown_scenario(TESTED, '*.uavs[*].protocol.typename = "BeaconProtocol"'))

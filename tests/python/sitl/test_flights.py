@@ -43,6 +43,25 @@ def test_a_velocity_is_held(toy_copter, flights_of):
     assert moved == pytest.approx([0, 6, 2], abs=0.4)
 
 
+@pytest.mark.parametrize("height_m", [0.0, -5.0])
+def test_one_lands_where_it_is_sent_stands_there_and_flies_on(toy_copter, flights_of, height_m):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 5.0))
+    flights.pilot(0).go_to((10.0, -5.0, height_m))
+    track = flown(flights, 20)
+    assert track[-1] == pytest.approx((10, -5, 0), abs=0.5)
+    assert track[-200:] == [track[-1]] * 200
+    flights.pilot(0).go_to((10.0, 5.0, 4.0))
+    assert flown(flights, 20, begin=20.0)[-1] == pytest.approx((10, 5, 4), abs=0.5)
+
+
+def test_who_has_landed_by_a_velocity_obeys_a_target_in_the_air(toy_copter, flights_of):
+    flights = flights_of(toy_copter(), (0.0, 0.0, 5.0))
+    flights.pilot(0).set_velocity((0.0, 0.0, -1.0))
+    assert flown(flights, 10)[-1][2] == 0
+    flights.pilot(0).go_to((10.0, 0.0, 5.0))
+    assert flown(flights, 15, begin=10.0)[-1] == pytest.approx((10, 0, 5), abs=0.5)
+
+
 def test_two_flights_are_the_same_to_the_last_bit(toy_copter, flights_of):
     def flight():
         flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), (0.0, 20.0, 10.0))

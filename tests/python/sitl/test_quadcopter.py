@@ -57,13 +57,45 @@ def test_a_fall_ends_on_the_ground():
     assert body.specific_force_mps2 == (0, 0, -GRAVITY_MPS2)
 
 
-def test_who_brakes_as_it_touches_down_stands_on_the_ground():
+def test_who_lifts_off_as_it_touches_down_is_never_below_the_ground():
     body = Quadcopter()
     body.position_m, body.velocity_mps = (0.0, 0.0, -0.01), (3.0, 0.0, 2.0)
     for _ in range(10):
         body.step([HOVER * 1.05] * 4, STEP_S)
         assert body.position_m[2] <= 0
-    assert abs(body.velocity_mps[0]) < 0.1
+
+
+def sliding(heading=0.0):
+    body = Quadcopter()
+    body.attitude = (math.cos(heading / 2), 0.0, 0.0, math.sin(heading / 2))
+    body.velocity_mps = (3.0, 0.0, 0.0)
+    return body
+
+
+def test_friction_stops_who_touches_down_in_flight():
+    body = sliding()
+    for _ in range(1000):
+        body.step([0.0] * 4, STEP_S)
+    assert body.velocity_mps == (0, 0, 0)
+    way_m = 3.0**2 / (2 * quadcopter.FRICTION * GRAVITY_MPS2)
+    assert body.position_m == pytest.approx((way_m, 0, 0), rel=0.1)  # drag stops it, too
+
+
+@pytest.mark.parametrize(
+    ("heading", "forward", "right"),
+    [(0.0, -1, 0), (math.pi / 2, 0, 1), (-math.pi / 4, -(0.5**0.5), -(0.5**0.5))],
+)
+def test_it_feels_friction_along_its_own_axes(heading, forward, right):
+    body = sliding(heading)
+    body.step([0.0] * 4, STEP_S)
+    brake = quadcopter.FRICTION * GRAVITY_MPS2 + 3.0 * quadcopter.DRAG_KGPS / quadcopter.MASS_KG
+    assert body.specific_force_mps2 == pytest.approx((forward * brake, right * brake, -GRAVITY_MPS2))
+
+
+def test_on_the_ground_no_wind_moves_it():
+    body = flown([HOVER * 0.9] * 4, 5, height=0.0, wind=(8.0, -3.0, 0.0))
+    assert (body.position_m, body.velocity_mps) == ((0, 0, 0), (0, 0, 0))
+    assert body.specific_force_mps2 == (0, 0, -GRAVITY_MPS2)
 
 
 MORE, LESS = HOVER * 1.02, HOVER * 0.98

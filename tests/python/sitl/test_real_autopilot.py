@@ -9,7 +9,7 @@ import os
 import pytest
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.mobility import SetVelocityMobilityCommand
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetVelocityMobilityCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
 from gradysim.simulator.handler.ardupilot_mobility import (
     ArdupilotMobilityConfiguration,
@@ -84,9 +84,10 @@ def test_a_mission_a_drift_and_a_node_on_the_ground(reference, tmp_path):
     assert moved == pytest.approx([0, -60, 10], abs=12)
     assert ground.at(20) == pytest.approx((0, 0, 0), abs=1)
     with (tmp_path / "ardupilot_mobility_report.csv").open() as file:
-        for row in csv.DictReader(file):
-            assert int(row["telemetry_requests"]) == 401
-            assert float(row["battery_wasted"]) > 0
+        rows = list(csv.DictReader(file))
+    assert [int(row["telemetry_requests"]) for row in rows] == [401, 401, 401]
+    *in_the_air, on_the_ground = (float(row["battery_wasted"]) for row in rows)
+    assert min(in_the_air) > on_the_ground
 
 
 def on_simulated_time(**parameters):
@@ -110,3 +111,34 @@ def test_on_simulated_time_flights_are_exact_and_repeatable():
 def test_on_simulated_time_it_stands_in_the_wind():
     mission, _, _ = on_simulated_time(SIM_WIND_SPD=6, SIM_WIND_DIR=90)
     assert mission.at(40) == pytest.approx((40, 20, 15), abs=1)
+
+
+class OnOrder(Quiet):
+    """Goes from place to place, by times."""
+
+    targets = ((0.0, (20, 0, -1)), (300.0, (20, 15, 0)), (900.0, (0, 0, 10)))
+
+    def initialize(self):
+        super().initialize()
+        for number, (time, _) in enumerate(self.targets):
+            self.provider.schedule_timer(str(number), time)
+
+    def handle_timer(self, timer):
+        _, target = self.targets[int(timer)]
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(*target))
+
+
+def test_on_simulated_time_it_stands_on_the_ground_for_long_and_flies_on():
+    """Told only of targets, ArduCopter loses its way after ten minutes there, and does not take off."""
+    configuration = ArdupilotMobilityConfiguration(reference_coordinates=(0, 0, 0))
+    builder = SimulationBuilder(SimulationConfiguration(duration=940))
+    builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
+    builder.add_node(OnOrder, (0, 0, 10))
+    builder.add_node(Quiet, (0, 50, 0))
+    simulator = builder.build()
+    simulator.start_simulation()
+    visitor, ground = (node.protocol_encapsulator.protocol for node in simulator.nodes)
+    assert visitor.at(290) == pytest.approx((20, 0, 0), abs=1)
+    assert visitor.at(890) == pytest.approx((20, 15, 0), abs=1)
+    assert visitor.at(940) == pytest.approx((0, 0, 10), abs=0.5)
+    assert ground.at(940) == pytest.approx((0, 50, 0), abs=0.3)

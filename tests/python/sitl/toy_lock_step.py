@@ -62,7 +62,7 @@ class LockStepCopter(Copter):
 
     def pulses(self):
         """Microseconds: the throttles that turn it to where it is to accelerate to."""
-        if not self.armed or (self.target is None and self.now >= self.until):
+        if not self.armed or self.landed or (self.target is None and self.now >= self.until):
             return [1000 + 450 * self.armed * (self.position[2] > 0.5)] * 4
         wanted, drag = self.wanted_velocity(), body.DRAG_KGPS / body.MASS_KG
         north, east, down = self.felt["velocity"]

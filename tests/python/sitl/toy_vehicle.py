@@ -57,6 +57,7 @@ class Copter:
         self.velocity = [0.0, 0.0, 0.0]
         self.target = None
         self.until = 0.0  # when a velocity is dropped
+        self.landed = True  # as it believes; then it obeys nothing but take-off and velocities upwards
         self.speed = 5.0
         self.mode = 0
         self.armed = False
@@ -90,7 +91,9 @@ class Copter:
         if self.is_time_to("leaves_at") and self.mode == GUIDED:
             self.mode = LAND
             self.say("Battery failsafe")
-        self.move(dt)
+        self.notice_ground()
+        if not self.landed:
+            self.move(dt)
         for name, interval in self.intervals.items():
             if self.now >= self.sent.get(name, -math.inf) + interval:
                 self.sent[name] = self.now
@@ -113,6 +116,11 @@ class Copter:
             "parameters": self.parameters,
         }
 
+    def notice_ground(self):
+        if self.target is None and self.now < self.until:
+            rise = self.velocity[2]
+            self.landed = self.position[2] <= 0.01 and rise < 0 if not self.landed else rise <= 0
+
     def move(self, dt):
         if self.target is not None:
             difference = [b - a for a, b in zip(self.position, self.target, strict=True)]
@@ -126,6 +134,7 @@ class Copter:
                 ]
         elif self.now < self.until:
             self.position = [a + v * dt for a, v in zip(self.position, self.velocity, strict=True)]
+            self.position[2] = max(0.0, self.position[2])
 
     def telemetry(self, name):
         if name == "HEARTBEAT":
@@ -146,8 +155,7 @@ class Copter:
             flags = mavlink.EKF_POS_HORIZ_ABS if self.now > FIX_S and not self.wrongs.get("no_fix") else 0
             return mavlink.MAVLink_ekf_status_report_message(flags, *([0.0] * 5))
         if name == "EXTENDED_SYS_STATE":
-            landed = 2 if self.position[2] > 0.5 else 1
-            return mavlink.MAVLink_extended_sys_state_message(0, landed)
+            return mavlink.MAVLink_extended_sys_state_message(0, 1 if self.landed else 2)
         assert name == "SYS_STATUS"
         battery = 100 - int(self.now // 10)
         return mavlink.MAVLink_sys_status_message(0, 0, 0, 0, 12000, 0, battery, *([0] * 6))
@@ -231,6 +239,7 @@ class Copter:
             if self.wrongs.get("dies_at") == "take-off":
                 self.die()
             self.target = [*self.position[:2], message.param7]
+            self.landed = False
             return accepted
         if message.command == mavlink.MAV_CMD_DO_CHANGE_SPEED:
             if message.param2 <= 0:

@@ -21,6 +21,7 @@ class AutopilotSpec:
         source: Where it was chosen.
         program_source: Where the program was named, or it was chosen.
         user_source: Where the user was named, or it was chosen.
+        parameters_source: Where its parameters were written, or it was chosen.
         program: An arducopter for SITL, or an ArduPilot checkout; None for the environment's.
         user: Whom it belongs to if root runs the simulation; None for root.
         speed_mps: Ground speed until the protocol sets another, >= `LOWEST_SPEED_MPS`.
@@ -30,6 +31,7 @@ class AutopilotSpec:
     source: Source
     program_source: Source
     user_source: Source
+    parameters_source: Source
     program: str | None = None
     user: str | None = DEFAULT_USER
     speed_mps: float = SPEED_MPS
@@ -57,6 +59,7 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
         source=typename.source,
         program_source=program.source if program else typename.source,
         user_source=user.source if user else typename.source,
+        parameters_source=parameters.source if parameters else typename.source,
         program=str(program.value) or None if program else None,
         user=str(user.value) or None if user else DEFAULT_USER,
         speed_mps=float(speed.value) if speed else SPEED_MPS,

@@ -68,7 +68,9 @@ class Flight:
         self._link = MavlinkLink(f"node {node.id} ({label_node(node)})")
         self._link.on_message = self._note
         self._vehicle = Vehicle(self._link)
-        self._pilot = Pilot(self._vehicle, self._place_of, configuration.default_speed, real_time)
+        self._pilot = Pilot(
+            self._vehicle, self._place_of, node.position, configuration.default_speed, real_time
+        )
         self._connection: Connection | None = None
         self._ground_station: GroundStationPort | None = None
         self._hello: asyncio.Task[None] | None = None
