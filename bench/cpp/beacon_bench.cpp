@@ -58,8 +58,12 @@ std::string distances_to_goals(double ns_of_100_nodes, double ns_per_frame, doub
 // first second for ever, and in one of 100 nodes it is chance whether any two frames overlap.
 class BeaconNetworks {
 public:
-    BeaconNetworks(std::int64_t nodes, double speed_mps, double bitrate_bps) {
-        const std::int64_t count = std::max<std::int64_t>(1, 2'000 / nodes);
+    BeaconNetworks(std::int64_t nodes, double speed_mps, double bitrate_bps)
+        : BeaconNetworks(std::max<std::int64_t>(1, 2'000 / nodes), nodes, speed_mps, bitrate_bps, 20) {}
+    // So many of them, each for so many seconds in turn.
+    BeaconNetworks(std::int64_t count, std::int64_t nodes, double speed_mps, double bitrate_bps,
+                   std::size_t seconds_in_turn)
+        : seconds_in_turn_(seconds_in_turn) {
         for (std::int64_t i = 0; i < count; ++i) {
             networks_.push_back(
                 make_beacon_network(nodes, speed_mps, bitrate_bps, 1, static_cast<std::uint64_t>(i + 1)));
@@ -69,7 +73,7 @@ public:
 
     // One of them, so long that what the one before left in the caches makes no difference; then the next one.
     void run_a_second() {
-        netsim::Network& network = *networks_[(seconds_++ / seconds_in_turn) % networks_.size()];
+        netsim::Network& network = *networks_[(seconds_++ / seconds_in_turn_) % networks_.size()];
         network.run_until(network.now() + one_second);
     }
     std::size_t size() const { return networks_.size(); }
@@ -85,54 +89,83 @@ public:
 
 private:
     static constexpr SimTime one_second = SimTime::from_us(1'000'000);
-    static constexpr std::size_t seconds_in_turn = 20;
 
+    std::size_t seconds_in_turn_;
     std::vector<std::unique_ptr<netsim::Network>> networks_;
     std::size_t seconds_ = 0;
 };
 
-// `ns_of_100_nodes` is kept from one size of network to the next.
-void run_beacons(benchmark::State& state, double speed_mps, double bitrate_bps, double& ns_of_100_nodes) {
-    const std::int64_t count = state.range(0);
-    const std::size_t before = heap_bytes();
-    BeaconNetworks networks(count, speed_mps, bitrate_bps);
+// Returns the CPU time.
+double run_seconds(benchmark::State& state, BeaconNetworks& networks) {
     const double delivered_before = networks.delivered();
     const std::clock_t clock_before = std::clock();
     for (auto _ : state) {
         networks.run_a_second();
     }
     const double cpu_s = static_cast<double>(std::clock() - clock_before) / CLOCKS_PER_SEC;
-    const double ns_per_frame = cpu_s / (networks.delivered() - delivered_before) * 1e9;
+    state.counters["ns_per_frame"] = cpu_s / (networks.delivered() - delivered_before) * 1e9;
+    return cpu_s;
+}
+
+// Of each size, the last ones that were run.
+struct Found {
+    double ns_of_100_nodes = 0;
+    double ns_of_10_000_nodes = 0;
+};
+
+void run_beacons(benchmark::State& state, double speed_mps, double bitrate_bps, Found& found) {
+    const std::int64_t count = state.range(0);
+    const std::size_t before = heap_bytes();
+    BeaconNetworks networks(count, speed_mps, bitrate_bps);
+    const double cpu_s = run_seconds(state, networks);
+    const double ns_per_frame = state.counters["ns_per_frame"];
     const double x_real_time = networks.seconds() / cpu_s;
     const double bytes_per_node = static_cast<double>(heap_bytes() - before) / static_cast<double>(count) /
                                   static_cast<double>(networks.size());
-    state.counters["ns_per_frame"] = ns_per_frame;
     state.counters["x_real_time"] = x_real_time;
     state.counters["bytes_per_node"] = bytes_per_node;
     if (count == 100) {
-        ns_of_100_nodes = ns_per_frame;
+        found.ns_of_100_nodes = ns_per_frame;
     }
     if (count == 10'000) {
-        state.SetLabel(distances_to_goals(ns_of_100_nodes, ns_per_frame, x_real_time, bytes_per_node));
+        found.ns_of_10_000_nodes = ns_per_frame;
+        state.SetLabel(distances_to_goals(found.ns_of_100_nodes, ns_per_frame, x_real_time, bytes_per_node));
     }
 }
 
+Found of_standing;
+
 void standing(benchmark::State& state) {
-    static double ns_of_100_nodes = 0;
-    run_beacons(state, 0, -1, ns_of_100_nodes);
+    run_beacons(state, 0, -1, of_standing);
 }
 BENCHMARK(standing)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
+// As many nodes as in the largest network, in small ones that know nothing of each other: what a frame costs there and not in one
+// small network is not that many nodes share a channel, but that the memory of all of them is more than the caches hold.
+void standing_in_100_networks(benchmark::State& state) {
+    constexpr std::int64_t count = 100;
+    BeaconNetworks networks(count, state.range(0), 0, -1, 1);
+    run_seconds(state, networks);
+    if (of_standing.ns_of_10_000_nodes > 0) {
+        std::array<char, 160> text{};
+        std::snprintf(text.data(), text.size(),
+                      "one network of all these nodes: %.4g times as much (no goal)",
+                      of_standing.ns_of_10_000_nodes / state.counters["ns_per_frame"]);
+        state.SetLabel(text.data());
+    }
+}
+BENCHMARK(standing_in_100_networks)->Arg(100)->Unit(benchmark::kMillisecond)->MinTime(2);
+
 void flying(benchmark::State& state) {
-    static double ns_of_100_nodes = 0;
-    run_beacons(state, 20, -1, ns_of_100_nodes);
+    static Found found;
+    run_beacons(state, 20, -1, found);
 }
 BENCHMARK(flying)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
 // Slow frames: of 10,000 nodes, fifteen are on the air at once.
 void at_1_mbps(benchmark::State& state) {
-    static double ns_of_100_nodes = 0;
-    run_beacons(state, 0, 1e6, ns_of_100_nodes);
+    static Found found;
+    run_beacons(state, 0, 1e6, found);
 }
 BENCHMARK(at_1_mbps)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
