@@ -309,10 +309,13 @@ void Dcf::watch_channel(SimTime since) {
 }
 
 void Dcf::stop_watching_channel() {
-    if (outbox_.empty() && !contention_.in_progress()) {
-        watches_channel_ = false;
+    // While it does not, there is nothing to send: that need not be looked up.
+    if (!watches_channel_ || (outbox_.empty() && !contention_.in_progress())) {
         radio_.stop_watching_channel();
-        simulator_.cancel(nav_event_);
+        if (watches_channel_) {
+            watches_channel_ = false;
+            simulator_.cancel(nav_event_);
+        }
         if (contention_.awaits_end_of_broken_frame()) {
             radio_.tell_of_channel();
         }

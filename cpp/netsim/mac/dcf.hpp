@@ -78,6 +78,7 @@ private:
     void frame_received(const Transmission& transmission) override;
     void frame_corrupted() override;
     void transmission_ended() override;
+    void fetch_for_corrupted_frame() const override { netsim::fetch(contention_); }
     void channel_granted() override;
 
     bool is_long(const Frame& frame) const {

@@ -171,7 +171,7 @@ void Medium::book_copies(const OnAir& entry, CopyCount copies) {
 // The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
 void Medium::fetch(RadioId radio, FrameKind kind) const {
     links_.fetch_touched(radio);
-    fates_.fetch(links_.interface(radio).node, kind);
+    fates_.fetch(links_.interface(radio).node, kind, FrameFate::delivered);
 }
 
 // The events of an arrival have their turns in the order of equal times since its transmission began: the

@@ -229,6 +229,8 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId
         draw < kind_.reception.least_success(arrival, medium().most_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
+    listener_->fetch_for_corrupted_frame();  // all this is seldom needed, and takes a while
+    medium().fates().fetch(node(), arrival.transmission->label.kind, FrameFate::interference);
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
     const double interference_w = interference.worst_w();
     if (kind_.reception.survives(draw, arrival, interference_w)) {

@@ -47,6 +47,8 @@ public:
     virtual void frame_corrupted() = 0;
     // The next transmission cannot begin within it.
     virtual void transmission_ended() = 0;
+    // frame_corrupted may well be next: has what that touches brought into the cache (kernel/fetch.hpp).
+    virtual void fetch_for_corrupted_frame() const {}
 
 protected:
     ~RadioListener() = default;
@@ -89,10 +91,10 @@ public:
     }
     void stop_watching_channel() {
         tells_of_channel_ = false;
-        watches_energy_ = false;
-        if (may_ignore_energy()) {
+        if (watches_energy_ && may_ignore_energy()) {
             medium().stop_watching_energy(id_);
         }
+        watches_energy_ = false;
     }
     // Tells of its channel again, but only what it hears of anyway: what frames do to it one by one.
     void tell_of_channel() { tells_of_channel_ = true; }

@@ -57,10 +57,10 @@ public:
     void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
 
     // Something is going to be booked there soon: has it brought into the cache.
-    void fetch(NodeId receiver, FrameKind kind) const {
-        const Column& delivered = at_nodes_[index(kind)][index(FrameFate::delivered)];
-        if (static_cast<std::size_t>(receiver) < delivered.size()) {
-            netsim::fetch(delivered[receiver]);
+    void fetch(NodeId receiver, FrameKind kind, FrameFate fate) const {
+        const Column& column = at_nodes_[index(kind)][index(fate)];
+        if (static_cast<std::size_t>(receiver) < column.size()) {
+            netsim::fetch(column[receiver]);
         }
     }
 
