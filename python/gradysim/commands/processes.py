@@ -62,6 +62,8 @@ class _PassedOn(StopOnInterrupt):
         self._pressed_twice = False
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        if self._pressed_twice:
+            signal.signal(number, signal.SIG_IGN)  # or one more would interrupt the end
         for run in self.running:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(run.process.pid or os.getpid(), signal.SIGINT)
@@ -123,6 +125,8 @@ def in_processes(work: Work, names: Sequence[str], jobs: int, output: TextIO) ->
         finally:
             for run in interrupt.running:
                 run.process.kill()
+            for run in interrupt.running:
+                run.process.join()
 
 
 def _begin(work: Work, index: int, output: TextIO) -> _Running:
