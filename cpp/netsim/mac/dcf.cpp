@@ -309,16 +309,16 @@ void Dcf::watch_channel(SimTime since) {
 }
 
 void Dcf::stop_watching_channel() {
-    // While it does not, there is nothing to send: that need not be looked up.
-    if (!watches_channel_ || (outbox_.empty() && !contention_.in_progress())) {
-        radio_.stop_watching_channel();
-        if (watches_channel_) {
-            watches_channel_ = false;
-            simulator_.cancel(nav_event_);
+    if (watches_channel_) {  // or there is nothing to send, which need not be looked up
+        if (!outbox_.empty() || contention_.in_progress()) {
+            return;
         }
-        if (contention_.awaits_end_of_broken_frame()) {
-            radio_.tell_of_channel();
-        }
+        watches_channel_ = false;
+        simulator_.cancel(nav_event_);
+    }
+    radio_.stop_watching_channel();
+    if (contention_.awaits_end_of_broken_frame()) {
+        radio_.tell_of_channel();
     }
 }
 
