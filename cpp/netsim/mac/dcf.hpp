@@ -120,6 +120,7 @@ private:
     bool last_frame_was_broken_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
+    int attempts_ = 0;  // of those of the frame in progress on the air, the ones that failed
 
     // Then what a broadcast frame touches, when it is sent.
     const DcfParameters& parameters_;
@@ -137,7 +138,6 @@ private:
 
     std::shared_ptr<const Frame> rts_;  // on the air
     const Mode* data_mode_;             // of the frame in progress, a unicast; before the first: of none
-    int attempts_ = 0;                  // of those of the frame in progress on the air, the ones that failed
     EventHandle answer_timeout_;
 
     std::shared_ptr<const Frame> response_frame_;
