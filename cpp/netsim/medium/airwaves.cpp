@@ -43,20 +43,24 @@ void Airwaves::forget_the_past(SimTime now, SimTime remembered) {
                                      [now](const auto& entry) { return entry->last_end >= now; });
     const SimTime needed_from =
         std::min(now - remembered, active == entries_.end() ? now : (*active)->transmission.start);
-    while (!entries_.empty() && entries_.front()->last_end < needed_from) {
-        entries_.front()->transmission.frame.reset();
-        spare_.push_back(std::move(entries_.front()));
-        entries_.pop_front();
+    auto first = entries_.begin();
+    for (; first != entries_.end() && (*first)->last_end < needed_from; ++first) {
+        (*first)->transmission.frame.reset();
+        spare_.push_back(std::move(*first));
     }
+    entries_.erase(entries_.begin(), first);
 }
 
 void Airwaves::find_those_beside(const OnAir& newest, std::vector<OnAir*>& beside) const {
-    beside.clear();
+    // Without a branch, as a processor cannot guess which of them are over.
+    beside.resize(entries_.size());
+    std::size_t count = 0;
     for (const std::unique_ptr<OnAir>& other : entries_) {
-        if (other->transmission.id < newest.transmission.id && other->last_end > newest.transmission.start) {
-            beside.push_back(other.get());
-        }
+        beside[count] = other.get();
+        count += static_cast<std::size_t>(other->transmission.id < newest.transmission.id) &
+                 static_cast<std::size_t>(other->last_end > newest.transmission.start);
     }
+    beside.resize(count);
 }
 
 }  // namespace netsim

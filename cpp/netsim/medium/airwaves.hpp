@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <vector>
 
@@ -70,7 +69,7 @@ public:
     bool empty() const { return entries_.empty(); }
     std::size_t size() const { return entries_.size(); }
     // By start.
-    const std::deque<std::unique_ptr<OnAir>>& entries() const { return entries_; }
+    const std::vector<std::unique_ptr<OnAir>>& entries() const { return entries_; }
     // The entries' ids are those in between: 0, 1, 2, … in the order of starting.
     std::uint64_t first_id() const { return entries_.front()->transmission.id; }
     std::uint64_t next_id() const { return next_id_; }
@@ -125,7 +124,7 @@ private:
     }
 
     const Links& links_;
-    std::deque<std::unique_ptr<OnAir>> entries_;
+    std::vector<std::unique_ptr<OnAir>> entries_;
     std::vector<std::unique_ptr<OnAir>> spare_;  // forgotten ones, of use again
     std::uint64_t next_id_ = 0;
 };

@@ -28,11 +28,15 @@ SimTime EnergyWatch::watch(RadioId radio, SimTime since) {
 // channel busy together.
 bool EnergyWatch::may_be_in_a_ring(const Position& place, SimTime since) const {
     const double odometer_m = links_.odometer().reading_m(simulator_.now());
-    return std::ranges::any_of(airwaves_.entries(), [&](const std::unique_ptr<OnAir>& on_air) {
+    // Without a branch, as a processor cannot guess which of them are over.
+    int ring_count = 0;
+    for (const std::unique_ptr<OnAir>& on_air : airwaves_.entries()) {
         const double within_m = (on_air->ring_m + (odometer_m - on_air->odometer_m)) * (1 + rounding_margin);
-        return on_air->last_end > since &&
-               squared_distance(on_air->transmission.origin, place) <= within_m * within_m;
-    });
+        const double squared_m2 = squared_distance(on_air->transmission.origin, place);
+        ring_count += static_cast<int>(on_air->last_end > since) &
+                      static_cast<int>(squared_m2 <= within_m * within_m);
+    }
+    return ring_count > 0;
 }
 
 // Fills `passing_`. Returns the most that they brought at one time, or more.
