@@ -33,8 +33,8 @@ bool EnergyWatch::may_be_in_a_ring(const Position& place, SimTime since) const {
     for (const std::unique_ptr<OnAir>& on_air : airwaves_.entries()) {
         const double within_m = (on_air->ring_m + (odometer_m - on_air->odometer_m)) * (1 + rounding_margin);
         const double squared_m2 = squared_distance(on_air->transmission.origin, place);
-        ring_count += static_cast<int>(on_air->last_end > since) &
-                      static_cast<int>(squared_m2 <= within_m * within_m);
+        ring_count +=
+            static_cast<int>(on_air->last_end > since) & static_cast<int>(squared_m2 <= within_m * within_m);
     }
     return ring_count > 0;
 }
