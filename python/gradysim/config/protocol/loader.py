@@ -15,6 +15,7 @@ from gradysim.config.errors.sibling_files import file_meant
 from gradysim.config.protocol.contract import check_contract
 from gradysim.config.protocol.imported_files import files_of_python, root_of_module
 from gradysim.config.protocol.module import BeingLoadedError, ModuleLoader
+from gradysim.config.protocol.native import is_native_name
 from gradysim.config.protocol.origin import Origin, remember_origin
 from gradysim.protocol.interface import IProtocol
 
@@ -124,7 +125,9 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
 
 
 def _class_meant(reference: str, folder: Path) -> str:
-    """A hint for one that has a dot in the place of its colon."""
+    """A hint for the name of a native protocol, and for one that has a dot in the place of its colon."""
+    if is_native_name(reference):
+        return "; did you mean `protocol.typename`?"
     module, _, class_name = reference.rpartition(".")
     file = f"{module.replace('.', '/')}.py"
     is_meant = module and class_name.isidentifier() and class_name != "py" and os.path.isfile(folder / file)

@@ -93,5 +93,14 @@ def native_protocol(name: str) -> type[NativeProtocol]:
     """Return the native protocol of that name. Raises BadValue, with the nearest name, if there is none."""
     table = native_protocols()
     if name not in table:
-        raise BadValue(f"there is no native protocol `{name}`", did_you_mean(name, table))
+        hint = "; did you mean `protocol.class`?" if ":" in name else did_you_mean(name, table)
+        raise BadValue(f"there is no native protocol `{name}`", hint)
     return table[name]
+
+
+def is_native_name(name: str) -> bool:
+    """Whether there is a native protocol of that name; none, if the engine has not been built."""
+    try:
+        return name in native_protocols()
+    except BadValue:
+        return False

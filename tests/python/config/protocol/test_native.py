@@ -57,6 +57,16 @@ def test_an_unknown_typename_is_an_error_with_the_nearest_name(folder: Any) -> N
     )
 
 
+def test_a_class_as_typename_is_an_error_that_names_the_key_for_it(folder: Any) -> None:
+    text = folder.error(BEACONS.replace("BeaconProtocol", "protocols.py:Mobile"), "X")
+    assert text.endswith("; did you mean `protocol.class`?")
+
+
+def test_a_typename_as_class_is_an_error_that_names_the_key_for_it(folder: Any) -> None:
+    text = folder.error(BEACONS.replace("typename", "class"), "X")
+    assert text.endswith("; did you mean `protocol.typename`?")
+
+
 def test_an_unknown_parameter_is_an_error_with_the_nearest_name(folder: Any) -> None:
     text = folder.error(BEACONS + "*.uavs[*].protocol.intervall = 1s\n", "X")
     assert text.startswith("test.ini:8: `intervall` is no parameter of BeaconProtocol; expected one of ")
