@@ -141,7 +141,7 @@ void standing(benchmark::State& state) {
 BENCHMARK(standing)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
 // As many nodes as in the largest network, in small ones that know nothing of each other: what a frame costs there and not in one
-// small network is not that many nodes share a channel, but that the memory of all of them is more than the caches hold.
+// small network is not that many nodes share a channel, but that their memory together is more than the caches hold.
 void standing_in_100_networks(benchmark::State& state) {
     constexpr std::int64_t count = 100;
     BeaconNetworks networks(count, state.range(0), 0, -1, 1);
