@@ -24,7 +24,7 @@ void Contention::start(int contention_window) {
     }
     state_ = State::waiting;
     schedule_grant(parameters_.config.backoff_optimization ? std::max(free_since_, idle_since_)
-                                                           : simulator_.now());
+                                                           : simulator().now());
 }
 
 void Contention::start_without_backoff_if_free(int contention_window) {
@@ -35,24 +35,24 @@ void Contention::start_without_backoff_if_free(int contention_window) {
     NETSIM_ASSERT(state_ == State::idle);
     slots_left_ = 0;
     state_ = State::waiting;
-    schedule_grant(simulator_.now());
+    schedule_grant(simulator().now());
 }
 
 void Contention::channel_busy_changed(bool busy) {
     busy_ = busy;
     if (!busy) {
-        free_since_ = simulator_.now();
+        free_since_ = simulator().now();
         if (state_ == State::deferring) {
             state_ = State::waiting;
             schedule_grant(free_since_);
         }
         return;
     }
-    if (state_ == State::waiting && grant_time_ - simulator_.now() > unnoticed) {
-        simulator_.cancel(grant_);
+    if (state_ == State::waiting && grant_time_ - simulator().now() > unnoticed) {
+        simulator().cancel(grant_);
         state_ = State::deferring;
         // Slots begun count as not waited; the interframe space does not count as slots.
-        const std::int64_t remaining_ps = (grant_time_ - simulator_.now()).ps();
+        const std::int64_t remaining_ps = (grant_time_ - simulator().now()).ps();
         const std::int64_t slot_ps = parameters_.timing.slot.ps();
         slots_left_ = std::min(slots_left_, static_cast<int>((remaining_ps + slot_ps - 1) / slot_ps));
     }
@@ -64,18 +64,18 @@ SimTime Contention::space_over(SimTime idle_since) const {
     if (!parameters_.config.inet_eifs) {
         return std::max(difs_over, eifs_until_);
     }
-    const bool is_within_eifs = eifs_until_ > simulator_.now() + parameters_.timing.difs;
+    const bool is_within_eifs = eifs_until_ > simulator().now() + parameters_.timing.difs;
     return is_within_eifs ? idle_since + parameters_.timing.eifs : difs_over;
 }
 
 void Contention::schedule_grant(SimTime idle_since) {
-    grant_time_ = std::max(space_over(idle_since) + parameters_.timing.slot * slots_left_, simulator_.now());
-    grant_ = simulator_.schedule_at(grant_time_, [this] { granted(); }, Priority::last);
+    grant_time_ = std::max(space_over(idle_since) + parameters_.timing.slot * slots_left_, simulator().now());
+    grant_ = simulator().schedule_at(grant_time_, [this] { granted(); }, Priority::last);
 }
 
 void Contention::granted() {
     state_ = State::idle;
-    idle_since_ = simulator_.now();
+    idle_since_ = simulator().now();
     listener_.channel_granted();
 }
 

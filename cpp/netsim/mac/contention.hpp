@@ -40,12 +40,11 @@ protected:
 class Contention {
 public:
     // The parameters must outlive it.
-    Contention(Simulator& simulator, const DcfParameters& parameters, RandomStream draws,
-               ContentionListener& listener)
-        : simulator_(simulator),
-          parameters_(parameters),
+    Contention(const DcfParameters& parameters, RandomStream draws, ContentionListener& listener)
+        : parameters_(parameters),
           listener_(listener),
-          free_since_(parameters.config.initial_channel_busy ? simulator.now() : SimTime::long_ago()),
+          free_since_(parameters.config.initial_channel_busy ? parameters.simulator.now()
+                                                             : SimTime::long_ago()),
           draws_(draws) {}
 
     // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
@@ -74,7 +73,7 @@ public:
         if (!parameters_.config.inet_eifs) {
             broken_frame_ = true;
         } else if (in_progress()) {
-            eifs_until_ = simulator_.now() + parameters_.timing.eifs;
+            eifs_until_ = simulator().now() + parameters_.timing.eifs;
         }
     }
     // The radio finds the channel free again. After a broken frame EIFS begins here, whatever the NAV says, and takes the
@@ -82,7 +81,7 @@ public:
     void radio_finds_it_free() {
         if (broken_frame_) {
             broken_frame_ = false;
-            eifs_until_ = simulator_.now() + parameters_.timing.eifs;
+            eifs_until_ = simulator().now() + parameters_.timing.eifs;
         }
     }
     // A frame was received well: that ends EIFS.
@@ -100,7 +99,8 @@ private:
     void schedule_grant(SimTime idle_since);
     void granted();
 
-    Simulator& simulator_;
+    Simulator& simulator() const { return parameters_.simulator; }
+
     const DcfParameters& parameters_;
     ContentionListener& listener_;
     State state_ = State::idle;

@@ -9,14 +9,11 @@
 
 namespace netsim {
 
-Dcf::Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-         std::uint64_t seed)
-    : simulator_(simulator),
+Dcf::Dcf(Radio& radio, std::shared_ptr<const DcfParameters> parameters, std::uint64_t seed)
+    : parameters_(*parameters),
       radio_(radio),
-      parameters_(*parameters),
-      retry_(parameters->retry_limits, parameters->contention_window, parameters->retry_rule),
-      contention_(simulator, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff),
-                  *this),
+      retry_(parameters->retry),
+      contention_(*parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
       outbox_(radio.node(), parameters->config.queue_capacity),
       owned_parameters_(std::move(parameters)),
       rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
@@ -35,14 +32,14 @@ void Dcf::send(NodeId destination, Payload payload) {
             std::to_string(parameters_.config.mtu_bytes) + " bytes less IPv4 and UDP headers)");
     }
     const int psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
-    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes, simulator_.now());
+    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes, simulator().now());
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }
     if (!outbox_.add(std::move(frame))) {
         return;
     }
-    watch_channel(simulator_.now() - parameters_.longest_wait);
+    watch_channel(simulator().now() - parameters_.longest_wait);
     if (exchange_ == Exchange::none) {
         if (parameters_.config.skip_backoff_if_idle && !contention_.in_progress()) {
             contention_.start_without_backoff_if_free(retry_.contention_window());
@@ -80,7 +77,7 @@ RateAttempt Dcf::attempt() const {
 }
 
 void Dcf::choose_data_mode() {
-    data_mode_ = &rate_control_->mode_for(attempt(), simulator_.now());
+    data_mode_ = &rate_control_->mode_for(attempt(), simulator().now());
     const SimTime duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     outbox_.set_duration_field(duration_field);
 }
@@ -131,8 +128,8 @@ void Dcf::transmission_ended() {
 
 void Dcf::await_answer(Exchange awaiting, const Mode& answer) {
     exchange_ = awaiting;
-    answer_timeout_ = simulator_.schedule_after(parameters_.timing.response_timeout(answer),
-                                                [this] { answer_timed_out(); });
+    answer_timeout_ = simulator().schedule_after(parameters_.timing.response_timeout(answer),
+                                                 [this] { answer_timed_out(); });
 }
 
 bool Dcf::is_awaiting_answer() const {
@@ -172,13 +169,13 @@ void Dcf::frame_received(const Transmission& transmission) {
 }
 
 void Dcf::answered() {
-    simulator_.cancel(answer_timeout_);
+    simulator().cancel(answer_timeout_);
     if (exchange_ == Exchange::awaiting_cts) {
         retry_.rts_answered();
         exchange_ = Exchange::waiting_sifs;
-        simulator_.schedule_after(parameters_.timing.sifs, [this] { send_in_progress(); });
+        simulator().schedule_after(parameters_.timing.sifs, [this] { send_in_progress(); });
     } else {
-        rate_control_->succeeded(attempt(), *data_mode_, simulator_.now());
+        rate_control_->succeeded(attempt(), *data_mode_, simulator().now());
         retry_.acknowledged(is_long(in_progress()));
         finish(MessageFate::acknowledged);
     }
@@ -200,7 +197,7 @@ void Dcf::frame_corrupted() {
     last_frame_was_broken_ = true;
     contention_.frame_corrupted();
     radio_.tell_of_channel();  // so that EIFS begins when it is free
-    if (is_awaiting_answer() && !simulator_.is_pending(answer_timeout_)) {
+    if (is_awaiting_answer() && !simulator().is_pending(answer_timeout_)) {
         attempt_failed();
     }
 }
@@ -210,17 +207,17 @@ void Dcf::respond_after_sifs(Frame response, const Mode& mode) {
     response_ = Response::waiting_sifs;
     response_frame_ = std::make_shared<const Frame>(std::move(response));
     response_mode_ = &mode;
-    simulator_.schedule_after(parameters_.timing.sifs, [this] {
+    simulator().schedule_after(parameters_.timing.sifs, [this] {
         response_ = Response::sending;
         transmit(response_frame_, *response_mode_);
     });
 }
 
 void Dcf::attempt_failed() {
-    simulator_.cancel(answer_timeout_);
+    simulator().cancel(answer_timeout_);
     const bool was_sent = exchange_ == Exchange::awaiting_ack;
     if (was_sent) {
-        rate_control_->failed(attempt(), *data_mode_, simulator_.now());
+        rate_control_->failed(attempt(), *data_mode_, simulator().now());
         ++attempts_;
     }
     const bool may_go_on = was_sent && is_long(in_progress()) ? retry_.long_failed() : retry_.short_failed();
@@ -263,13 +260,13 @@ void Dcf::own_frame_ended(const Frame& frame) {
 }
 
 void Dcf::set_nav(SimTime duration) {
-    const SimTime end = simulator_.now() + duration;
+    const SimTime end = simulator().now() + duration;
     if (duration <= SimTime{} || end <= nav_end_) {
         return;
     }
     nav_end_ = end;
-    nav_turn_ = simulator_.reserve_turns(1);
-    simulator_.cancel(nav_event_);
+    nav_turn_ = simulator().reserve_turns(1);
+    simulator().cancel(nav_event_);
     if (watches_channel_) {
         await_end_of_nav();
         update_contention();
@@ -277,13 +274,13 @@ void Dcf::set_nav(SimTime duration) {
 }
 
 void Dcf::await_end_of_nav() {
-    nav_event_ = simulator_.schedule_at_turn(nav_end_, nav_turn_, [this] { update_contention(); });
+    nav_event_ = simulator().schedule_at_turn(nav_end_, nav_turn_, [this] { update_contention(); });
 }
 
 void Dcf::channel_busy_changed(bool busy) {
     if (!busy) {
         if (contention_.awaits_end_of_broken_frame() && !watches_channel_ && !radio_.are_others_weak()) {
-            watch_channel(simulator_.now());
+            watch_channel(simulator().now());
             if (radio_.is_channel_busy()) {
                 return;
             }
@@ -314,7 +311,7 @@ void Dcf::stop_watching_channel() {
             return;
         }
         watches_channel_ = false;
-        simulator_.cancel(nav_event_);
+        simulator().cancel(nav_event_);
     }
     radio_.stop_watching_channel();
     if (contention_.awaits_end_of_broken_frame()) {

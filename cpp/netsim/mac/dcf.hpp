@@ -44,8 +44,7 @@ namespace netsim {
 
 class alignas(64) Dcf final : public NetworkInterface, private RadioListener, private ContentionListener {
 public:
-    Dcf(Simulator& simulator, Radio& radio, std::shared_ptr<const DcfParameters> parameters,
-        std::uint64_t seed);
+    Dcf(Radio& radio, std::shared_ptr<const DcfParameters> parameters, std::uint64_t seed);
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
@@ -81,6 +80,7 @@ private:
     void fetch_for_corrupted_frame() const override { netsim::fetch(contention_); }
     void channel_granted() override;
 
+    Simulator& simulator() const { return parameters_.simulator; }
     bool is_long(const Frame& frame) const {
         return frame.psdu_bytes >= parameters_.config.rts_threshold_bytes;
     }
@@ -99,7 +99,7 @@ private:
     void contend_for_next();
     void addressed_here(const Frame& frame, const Mode& mode);
     void respond_after_sifs(Frame response, const Mode& mode);
-    bool is_nav_set() const { return nav_end_ > simulator_.now(); }
+    bool is_nav_set() const { return nav_end_ > simulator().now(); }
     void own_frame_ended(const Frame& frame);
     void set_nav(SimTime duration);
     bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
@@ -112,7 +112,7 @@ private:
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 
     // First what every frame that is heard touches: one cache line, which the medium fetches ahead.
-    Simulator& simulator_;
+    const DcfParameters& parameters_;
     Radio& radio_;
     SimTime nav_end_ = SimTime::long_ago();
     bool watches_channel_ = false;  // and contention is told of it
@@ -122,8 +122,7 @@ private:
     Response response_ = Response::none;
     int attempts_ = 0;  // of those of the frame in progress on the air, the ones that failed
 
-    // Then what a broadcast frame touches, when it is sent.
-    const DcfParameters& parameters_;
+    // Then what a broadcast frame touches, when it is sent: three lines.
     EventHandle nav_event_;  // pending while the channel is watched
     Retry retry_;            // of the frame in progress
     Contention contention_;

@@ -36,21 +36,21 @@ const Mode& broadcast_mode(const MacConfig& config) {
                : modes.mode_for_bitrate(config.multicast_bitrate_bps, "mac.multicast_bitrate_bps");
 }
 
-DcfParameters::DcfParameters(MacConfig mac_config)
-    : config(std::move(mac_config)),
+DcfParameters::DcfParameters(Simulator& simulator_, MacConfig mac_config)
+    : simulator(simulator_),
+      config(std::move(mac_config)),
       modes(mode_set(config.op_mode)),
       timing(modes),
       initial_mode(checked_initial_mode(config, modes)),
       broadcast_mode(netsim::broadcast_mode(config)),
       rts_mode(modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps")),
-      retry_limits{config.short_retry_limit, config.long_retry_limit},
-      contention_window(contention_window_of(config, modes)),
-      retry_rule(config.inet_station_retry_counters ? Retry::Rule::station_counters
-                                                    : Retry::Rule::frame_counters),
+      retry{{config.short_retry_limit, config.long_retry_limit},
+            contention_window_of(config, modes),
+            config.inet_station_retry_counters ? Retry::Rule::station_counters : Retry::Rule::frame_counters},
       // A new message finds the window at its least, unless INET's counters have left it larger.
-      longest_wait(timing.difs + timing.slot * (retry_rule == Retry::Rule::station_counters
-                                                    ? contention_window.max
-                                                    : contention_window.min)),
+      longest_wait(timing.difs +
+                   timing.slot *
+                       (retry.rule == Retry::Rule::station_counters ? retry.window.max : retry.window.min)),
       has_adaptive_rate(!config.rate_control.empty()) {}
 
 }  // namespace netsim

@@ -21,7 +21,7 @@ namespace netsim {
 class Outbox {
 public:
     // Of the interface of `node`. So many frames can wait; the one in progress does not.
-    Outbox(NodeId node, int capacity) : queue_(capacity), node_(node) {}
+    Outbox(NodeId node, int capacity) : capacity_(capacity), node_(node) {}
 
     // A frame of a message from this node that is accepted now, with the next number; without a duration field.
     Frame frame_of(NodeId destination, Payload payload, int psdu_bytes, SimTime now) {
@@ -41,53 +41,53 @@ public:
     bool add(Frame frame) {
         const MessageKind kind = message_kind(frame);
         fates_.accept(kind);
-        const bool is_kept = queue_.push(std::make_shared<const Frame>(std::move(frame)));
-        if (!is_kept) {
+        if (waiting() >= static_cast<std::size_t>(capacity_)) {
             fates_.book(kind, MessageFate::queue_overflow);
+            return false;
         }
-        return is_kept;
+        queue_.push(std::make_shared<const Frame>(std::move(frame)));
+        return true;
     }
 
     // Of those that wait and the one in progress.
-    std::size_t size() const { return queue_.size() + (in_progress_ ? 1 : 0); }
-    bool empty() const { return !in_progress_ && queue_.empty(); }
+    std::size_t size() const { return queue_.size(); }
+    bool empty() const { return queue_.empty(); }
     const MessageFates& message_fates() const { return fates_; }
 
-    // Takes the first of those that wait, of which there must be one, unless a frame is in progress.
-    void begin_next() {
-        if (!in_progress_) {
-            in_progress_ = queue_.pop();
-        }
-    }
-    // Null if there is none.
-    const std::shared_ptr<const Frame>& in_progress() const { return in_progress_; }
+    // The first of those that wait, of which there must be one, is in progress from now on, unless a frame is already.
+    void begin_next() { is_in_progress_ = true; }
+    // Only while there is one.
+    const std::shared_ptr<const Frame>& in_progress() const { return queue_.front(); }
     // Frames never change: in progress from now on is one that differs in that.
     void set_retry() {
-        if (!in_progress_->retry) {
+        if (!in_progress()->retry) {
             change([](Frame& frame) { frame.retry = true; });
         }
     }
     void set_duration_field(SimTime duration) {
-        if (in_progress_->duration_field != duration) {
+        if (in_progress()->duration_field != duration) {
             change([duration](Frame& frame) { frame.duration_field = duration; });
         }
     }
     // The frame in progress is done with.
     void finish(MessageFate fate) {
-        fates_.book(message_kind(*in_progress_), fate);
-        in_progress_.reset();
+        fates_.book(message_kind(*in_progress()), fate);
+        queue_.pop();
+        is_in_progress_ = false;
     }
 
 private:
     template <typename Change>
     void change(const Change& change) {
-        Frame changed = *in_progress_;
+        Frame changed = *in_progress();
         change(changed);
-        in_progress_ = std::make_shared<const Frame>(std::move(changed));
+        queue_.front() = std::make_shared<const Frame>(std::move(changed));
     }
+    std::size_t waiting() const { return queue_.size() - (is_in_progress_ ? 1 : 0); }
 
     TxQueue queue_;
-    std::shared_ptr<const Frame> in_progress_;
+    int capacity_;
+    bool is_in_progress_ = false;  // the first
     NodeId node_;
     std::uint32_t next_sequence_ = 0;
     MessageFates fates_;

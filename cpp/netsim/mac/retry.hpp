@@ -29,17 +29,23 @@ public:
         int max;
     };
     enum class Rule : std::uint8_t { frame_counters, station_counters };
+    // Mostly all stations have the same.
+    struct Rules {
+        Limits limits;
+        Window window;
+        Rule rule = Rule::frame_counters;
+    };
 
-    Retry(Limits limits, Window window, Rule rule = Rule::frame_counters)
-        : limits_(limits), window_(window), rule_(rule), cw_(window.min) {}
+    // The rules must outlive it.
+    explicit Retry(const Rules& rules) : rules_(rules), cw_(rules.window.min) {}
 
     // The contention window of the next attempt, in slots.
     int contention_window() const { return cw_; }
 
     // An RTS or a frame below the RTS threshold was not answered. False if that was the last attempt.
-    bool short_failed() { return failed(short_, limits_.short_failures); }
+    bool short_failed() { return failed(short_, rules_.limits.short_failures); }
     // The same for a frame from the RTS threshold on.
-    bool long_failed() { return failed(long_, limits_.long_failures); }
+    bool long_failed() { return failed(long_, rules_.limits.long_failures); }
     // An RTS was answered: counts for the station only.
     void rts_answered() { short_.of_station = 0; }
     // The frame was acknowledged: the next one starts afresh.
@@ -49,7 +55,7 @@ public:
     }
     // The frame was given up, after its last attempt.
     void given_up() {
-        if (rule_ == Rule::frame_counters) {
+        if (rules_.rule == Rule::frame_counters) {
             start_afresh();
         } else {
             forget_frame();
@@ -68,22 +74,20 @@ private:
     bool failed(Failures& failures, int limit) {
         const bool may_go_on = ++failures.of_frame < limit;
         ++failures.of_station;
-        if (rule_ == Rule::station_counters && failures.of_station == limit) {
-            cw_ = window_.min;
-        } else if (rule_ == Rule::station_counters || may_go_on) {
-            cw_ = std::min(2 * cw_ + 1, window_.max);
+        if (rules_.rule == Rule::station_counters && failures.of_station == limit) {
+            cw_ = rules_.window.min;
+        } else if (rules_.rule == Rule::station_counters || may_go_on) {
+            cw_ = std::min(2 * cw_ + 1, rules_.window.max);
         }
         return may_go_on;
     }
     void forget_frame() { short_.of_frame = long_.of_frame = 0; }
     void start_afresh() {
         forget_frame();
-        cw_ = window_.min;
+        cw_ = rules_.window.min;
     }
 
-    Limits limits_;
-    Window window_;
-    Rule rule_;
+    const Rules& rules_;
     Failures short_;
     Failures long_;
     int cw_;

@@ -1,4 +1,4 @@
-// The frames that wait for the channel: first in, first out; a full queue drops the newcomer.
+// The frames that an interface has to send: first in, first out.
 #pragma once
 
 #include <cstddef>
@@ -13,42 +13,52 @@ namespace netsim {
 
 class TxQueue {
 public:
-    explicit TxQueue(int capacity) : capacity_(static_cast<std::uint32_t>(capacity)) {}
-
-    // False if it was full and the frame is dropped.
-    bool push(std::shared_ptr<const Frame> frame) {
-        if (size() >= capacity_) {
-            return false;
-        }
+    void push(std::shared_ptr<const Frame> frame) {
         if (!first_) {
             first_ = std::move(frame);
-        } else {
-            others_.push_back(std::move(frame));
+            return;
         }
-        return true;
+        if (!others_) {
+            others_ = std::make_unique<Others>();
+        }
+        others_->frames.push_back(std::move(frame));
     }
-    // Of at least one.
-    std::shared_ptr<const Frame> pop() {
-        std::shared_ptr<const Frame> frame = std::move(first_);
-        if (taken_ < others_.size()) {
-            first_ = std::move(others_[taken_++]);
-            if (2 * std::size_t{taken_} >= others_.size()) {  // so that a frame is moved once, on average
-                others_.erase(others_.begin(), others_.begin() + taken_);
-                taken_ = 0;
-            }
+    // Of at least one, here and below.
+    std::shared_ptr<const Frame>& front() { return first_; }
+    const std::shared_ptr<const Frame>& front() const { return first_; }
+    void pop() {
+        first_.reset();
+        if (others_) {
+            first_ = others_->take();
         }
-        return frame;
     }
     bool empty() const { return !first_; }
-    std::size_t size() const { return (first_ ? 1 : 0) + others_.size() - taken_; }
+    std::size_t size() const { return (first_ ? 1 : 0) + (others_ ? others_->size() : 0); }
 
 private:
-    std::uint32_t capacity_;
-    std::uint32_t taken_ = 0;  // of the others, at the front
+    // Not a deque, which takes half a kilobyte even while it is empty.
+    struct Others {
+        std::vector<std::shared_ptr<const Frame>> frames;
+        std::size_t taken = 0;  // at the front
+
+        std::size_t size() const { return frames.size() - taken; }
+        // Null if there is none.
+        std::shared_ptr<const Frame> take() {
+            if (size() == 0) {
+                return nullptr;
+            }
+            std::shared_ptr<const Frame> frame = std::move(frames[taken++]);
+            if (2 * taken >= frames.size()) {  // so that a frame is moved once, on average
+                frames.erase(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(taken));
+                taken = 0;
+            }
+            return frame;
+        }
+    };
+
     // Null only if there are no others. Mostly it is the only one, and has no place of its own in memory.
     std::shared_ptr<const Frame> first_;
-    // Not a deque, which takes half a kilobyte even while it is empty.
-    std::vector<std::shared_ptr<const Frame>> others_;
+    std::unique_ptr<Others> others_;  // null until there were two
 };
 
 }  // namespace netsim

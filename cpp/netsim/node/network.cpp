@@ -61,7 +61,7 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
         return std::make_unique<CsmaCa802154>(simulator_, radio, config.csma, seed_);
     }
     link_types_.push_back(LinkType::radiotap);
-    return std::make_unique<Dcf>(simulator_, radio, dcf_parameters(config.mac), seed_);
+    return std::make_unique<Dcf>(radio, dcf_parameters(config.mac), seed_);
 }
 
 std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
@@ -74,8 +74,9 @@ std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
 }
 
 std::shared_ptr<const DcfParameters> Network::dcf_parameters(const MacConfig& config) {
-    return dcf_parameters_.of(
-        config, [](const MacConfig& mac) { return std::make_shared<const DcfParameters>(mac); });
+    return dcf_parameters_.of(config, [this](const MacConfig& mac) {
+        return std::make_shared<const DcfParameters>(simulator_, mac);
+    });
 }
 
 void Network::check_with_medium(const NodeConfig& config) {

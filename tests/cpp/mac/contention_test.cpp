@@ -147,12 +147,12 @@ TEST_F(ContentionTest, IfItWasNotBusyInitiallyAFrameLeavesAtOnce) {
 }
 
 TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {
-    const DcfParameters parameters{MacConfig()};
     std::set<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         Simulator own;
+        const DcfParameters parameters(own, MacConfig());
         GrantLog log(own);
-        Contention own_contention(own, parameters, RandomStream(seed, 0, Purpose::backoff), log);
+        Contention own_contention(parameters, RandomStream(seed, 0, Purpose::backoff), log);
         own_contention.start(15);
         own.run_until(us(10'000));
         const SimTime backoff = log.times.at(0) - difs;

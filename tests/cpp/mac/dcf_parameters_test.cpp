@@ -13,41 +13,46 @@ namespace {
 
 using test::mac_of;
 
+DcfParameters of(const MacConfig& mac) {
+    static Simulator simulator;
+    return {simulator, mac};
+}
+
 TEST(DcfParameters, TheDefaultsArePossibleInEveryMode) {
     for (const std::string_view op_mode : op_mode_names) {
-        EXPECT_NO_THROW(DcfParameters(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
+        EXPECT_NO_THROW(of(mac_of(std::string(op_mode).c_str(), -1))) << op_mode;
     }
 }
 
 TEST(DcfParameters, ABitrateThatTheModeHasNotIsAnError) {
-    EXPECT_THROW(DcfParameters(mac_of("b", 24e6)), ConfigError);
+    EXPECT_THROW(of(mac_of("b", 24e6)), ConfigError);
     MacConfig mac;
     mac.multicast_bitrate_bps = 7e6;
-    EXPECT_THROW(DcfParameters{mac}, ConfigError);
+    EXPECT_THROW(of(mac), ConfigError);
     mac.multicast_bitrate_bps = -1;
     mac.control_bitrate_bps = 7e6;
-    EXPECT_THROW(DcfParameters{mac}, ConfigError);
+    EXPECT_THROW(of(mac), ConfigError);
 }
 
 TEST(DcfParameters, ABitrateThatTheModeHasNotIsAnErrorBesideOthersThatItHas) {
     MacConfig mac = mac_of("b", 24e6);
     mac.multicast_bitrate_bps = mac.initial_rate_bps = 2e6;
-    EXPECT_THROW(DcfParameters{mac}, ConfigError);
+    EXPECT_THROW(of(mac), ConfigError);
 }
 
 TEST(DcfParameters, AWindowBeyondThatOfTheModeIsAnError) {
     MacConfig mac;
     mac.cw_min = 2000;  // the mode's largest is 1023
-    EXPECT_THROW(DcfParameters{mac}, ConfigError);
+    EXPECT_THROW(of(mac), ConfigError);
     mac.cw_max = 4000;
-    EXPECT_NO_THROW(DcfParameters{mac});
+    EXPECT_NO_THROW(of(mac));
 }
 
 TEST(DcfParameters, TheErrorNamesBothWindows) {
     MacConfig mac;
     mac.cw_max = 5;
     try {
-        const DcfParameters refused(mac);
+        of(mac);
         FAIL() << "no error";
     } catch (const ConfigError& error) {
         EXPECT_EQ(
@@ -63,9 +68,9 @@ TEST(DcfParameters, TheLongestWaitIsThatOfTheLargestWindowThatANewMessageMayFind
     MacConfig mac = mac_of("g(erp)", 24e6);  // DIFS 28 µs, slots of 9 µs
     mac.cw_min = 7;
     mac.cw_max = 255;
-    EXPECT_EQ(DcfParameters(mac).longest_wait, SimTime::from_us(28 + 7 * 9));
+    EXPECT_EQ(of(mac).longest_wait, SimTime::from_us(28 + 7 * 9));
     mac.inet_station_retry_counters = true;
-    EXPECT_EQ(DcfParameters(mac).longest_wait, SimTime::from_us(28 + 255 * 9));
+    EXPECT_EQ(of(mac).longest_wait, SimTime::from_us(28 + 255 * 9));
 }
 
 }  // namespace

@@ -7,12 +7,13 @@
 namespace netsim {
 namespace {
 
-Retry usual() {
-    return Retry({.short_failures = 7, .long_failures = 4}, {.min = 15, .max = 100});
-}
+constexpr Retry::Rules usual{{.short_failures = 7, .long_failures = 4}, {.min = 15, .max = 100}};
+constexpr Retry::Rules two_failures{{.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100}};
+constexpr Retry::Rules two_of_station{two_failures.limits, two_failures.window,
+                                      Retry::Rule::station_counters};
 
 TEST(Retry, TheSeventhShortFailureIsTheLast) {
-    Retry retry = usual();
+    Retry retry(usual);
     for (int failure = 1; failure < 7; ++failure) {
         EXPECT_TRUE(retry.short_failed()) << failure;
     }
@@ -20,7 +21,7 @@ TEST(Retry, TheSeventhShortFailureIsTheLast) {
 }
 
 TEST(Retry, TheFourthLongFailureIsTheLast) {
-    Retry retry = usual();
+    Retry retry(usual);
     for (int failure = 1; failure < 4; ++failure) {
         EXPECT_TRUE(retry.long_failed()) << failure;
     }
@@ -28,7 +29,7 @@ TEST(Retry, TheFourthLongFailureIsTheLast) {
 }
 
 TEST(Retry, TheCountersDoNotAddUp) {
-    Retry retry = usual();
+    Retry retry(usual);
     for (int failure = 1; failure < 7; ++failure) {
         EXPECT_TRUE(retry.short_failed()) << failure;
     }
@@ -38,7 +39,7 @@ TEST(Retry, TheCountersDoNotAddUp) {
 }
 
 TEST(Retry, EveryFailureDoublesTheWindowUpToItsMaximum) {
-    Retry retry = usual();
+    Retry retry(usual);
     std::vector<int> windows{retry.contention_window()};
     retry.short_failed();
     windows.push_back(retry.contention_window());
@@ -50,7 +51,7 @@ TEST(Retry, EveryFailureDoublesTheWindowUpToItsMaximum) {
 }
 
 TEST(Retry, AfterAnAckAFrameHasTheSmallestWindowAndAllAttempts) {
-    Retry retry({.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100});
+    Retry retry(two_failures);
     retry.short_failed();
     retry.long_failed();
     retry.acknowledged(true);
@@ -60,7 +61,7 @@ TEST(Retry, AfterAnAckAFrameHasTheSmallestWindowAndAllAttempts) {
 }
 
 TEST(Retry, AfterAFrameThatWasGivenUpTheNextHasTheSmallestWindowAndAllAttempts) {
-    Retry retry({.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100});
+    Retry retry(two_failures);
     retry.long_failed();
     retry.short_failed();
     EXPECT_FALSE(retry.short_failed());
@@ -84,8 +85,7 @@ protected:
         return windows;
     }
 
-    Retry retry_{
-        {.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100}, Retry::Rule::station_counters};
+    Retry retry_{two_of_station};
 };
 
 TEST_F(RetryOfStation, TheWindowIsSmallAfterTheFirstFrameGivenUpAndGrowsFromThereOn) {

@@ -118,7 +118,7 @@ struct Station final : NetworkInterfaceListener {
         : simulator(simulator_),
           trajectory(place),
           radio(interface, kind_of(radio_config, medium, seed), radio_config.tx_power_w, trajectory),
-          dcf(simulator_, radio, std::make_shared<const DcfParameters>(mac_config), seed) {
+          dcf(radio, std::make_shared<const DcfParameters>(simulator_, mac_config), seed) {
         dcf.set_listener(this);
     }
 

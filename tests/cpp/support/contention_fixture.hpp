@@ -31,9 +31,9 @@ protected:
     }
     Contention& contention(const MacConfig& config, std::uint64_t seed = 1) {
         if (!contention_) {
-            parameters_ = std::make_unique<DcfParameters>(config);
-            contention_ = std::make_unique<Contention>(simulator, *parameters_,
-                                                       RandomStream(seed, 0, Purpose::backoff), log_);
+            parameters_ = std::make_unique<DcfParameters>(simulator, config);
+            contention_ =
+                std::make_unique<Contention>(*parameters_, RandomStream(seed, 0, Purpose::backoff), log_);
         }
         return *contention_;
     }
