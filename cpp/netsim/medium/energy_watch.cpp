@@ -149,7 +149,7 @@ void EnergyWatch::widen_ring(OnAir& here, const OnAir& newest, const std::vector
     const double share = here.shares[index];
     const double moved_m = links_.odometer().reading_m(simulator_.now()) - here.odometer_m;
     const double loud_to_all_m = std::max(links_.loud_to_all_m(sent, audience) - moved_m, 0.0);
-    for (const auto& [radio, place] : audience.members.near(sent.origin, radius_m + moved_m)) {
+    for (const auto& [place, radio] : audience.members.near(sent.origin, radius_m + moved_m)) {
         if (!links_.watches_energy(radio) ||
             squared_distance(sent.origin, place) < loud_to_all_m * loud_to_all_m || radio == sent.radio) {
             continue;

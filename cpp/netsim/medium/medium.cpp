@@ -114,17 +114,17 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
     constexpr double at_once_m = 1e-3;
     const double search_m = std::max({within_m, ring.radius_m(), at_once_m});
     const double least_w = std::min(audience.noticed_w(sent), ring.least_power_w());
-    const std::vector<Neighbours::Near>& near = audience.members.near(sent.origin, search_m);
-    for (const auto& [radio, place] : near) {
-        links_.fetch(radio);
-    }
-    std::uint64_t noticed = 0;
-    for (const auto& [radio, place] : near) {
-        const double squared_m2 = squared_distance(sent.origin, place);
-        const double heard_m = links_.watches_energy(radio) ? search_m : within_m;
-        if (squared_m2 > heard_m * heard_m || radio == sent.radio) {
-            continue;
+    const auto watch = [&](RadioId radio, const Position& place, double received_w) {
+        const ReceiverKind& there = links_.kind(radio);
+        if (received_w >= ring.least_power_w() && !there.is_surely_loud(received_w)) {
+            ring.watched().push_back({radio, place, there.missing_beside_w(received_w)});
         }
+    };
+    part(audience.members.near(sent.origin, search_m), sent, std::max(within_m, at_once_m));
+    std::uint64_t noticed = 0;
+    for (const Neighbours::Near* near : within_) {
+        const auto& [place, radio] = *near;
+        const double squared_m2 = squared_distance(sent.origin, place);
         entry.arrives_at_once |= squared_m2 <= at_once_m * at_once_m;
         const ReceiverKind& there = links_.kind(radio);
         const double distance_m = std::sqrt(squared_m2);
@@ -138,9 +138,15 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
                 {sent.start + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
             entry.places.push_back(place);
         }
-        if (links_.watches_energy(radio) && received_w >= ring.least_power_w() &&
-            !there.is_surely_loud(received_w)) {
-            ring.watched().push_back({radio, place, there.missing_beside_w(received_w)});
+        if (links_.watches_energy(radio)) {
+            watch(radio, place, received_w);
+        }
+    }
+    for (const Neighbours::Near* near : beyond_) {
+        const auto& [place, radio] = *near;
+        if (links_.watches_energy(radio)) {
+            watch(radio, place,
+                  links_.power_w(sent, share, radio, place, distance(sent.origin, place), least_w));
         }
     }
     if (!is_decodable) {
@@ -149,6 +155,24 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
     const std::uint64_t copies =
         audience.members.size() - (links_.audience_of(sent.radio) == index ? 1 : 0);  // none for the sender
     return {copies, copies - noticed};
+}
+
+void Medium::part(std::span<const Neighbours::Near> near, const Transmission& sent, double noticed_m) {
+    within_.resize(near.size());
+    beyond_.resize(near.size());
+    std::size_t within = 0;
+    std::size_t beyond = 0;
+    // Without a branch, as a processor cannot guess who is where.
+    for (const Neighbours::Near& there : near) {
+        links_.fetch(there.radio);
+        const bool is_within = squared_distance(sent.origin, there.place) <= noticed_m * noticed_m;
+        within_[within] = &there;
+        within += static_cast<std::size_t>(is_within) & static_cast<std::size_t>(there.radio != sent.radio);
+        beyond_[beyond] = &there;
+        beyond += static_cast<std::size_t>(!is_within);
+    }
+    within_.resize(within);
+    beyond_.resize(beyond);
 }
 
 void Medium::book_copies(const OnAir& entry, CopyCount copies) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "netsim/config/medium_config.hpp"
@@ -93,6 +94,9 @@ private:
     void tell_those_it_matters_to(OnAir& entry);
     // Of one audience: who can notice it, in `heard`, and whom its ring watches. Returns the copies that it makes there.
     CopyCount find_those_it_matters_to(OnAir& entry, std::size_t index);
+    // Those `near` the sender, without it, by whether they are within that distance of it: those in `within_` may notice
+    // the transmission, those in `beyond_` not without others beside it.
+    void part(std::span<const Neighbours::Near> near, const Transmission& sent, double noticed_m);
     void book_copies(const OnAir& entry, CopyCount copies);
     void fetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(OnAir& entry);
@@ -119,6 +123,9 @@ private:
     InterferenceSum interference_;  // the answer of interference_with, reused
     std::vector<OnAir*> beside_;
     std::vector<Heard> spare_;  // to put others in order
+    // The answer of part, reused.
+    std::vector<const Neighbours::Near*> within_;
+    std::vector<const Neighbours::Near*> beyond_;
 };
 
 }  // namespace netsim

@@ -69,11 +69,13 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
         first_entry_[i] += first_entry_[i - 1];
     }
     std::vector<std::uint32_t> next = first_entry_;
-    entries_.resize(radios_.size());
+    entries_.resize(radios_.size() + bunch - 1);  // the last bunch, too, is read to its end
+    // Whole ones, one in part for each of the two runs of a row, and what is written and overwritten beyond the last.
+    bunches_.resize(radios_.size() / bunch + 2 * columns_ + usual_bunches + 1);
     trajectories_.resize(radios_.size());
     for (std::size_t i = 0; i < radios_.size(); ++i) {
         const std::uint32_t entry = next[table_places[i]]++;
-        entries_[entry] = Entry{places[i], radios_[i].id};
+        entries_[entry] = {places[i], radios_[i].id};
         trajectories_[entry] = radios_[i].trajectory;
     }
     const Position largest{std::max(-lowest_.x, highest_.x), std::max(-lowest_.y, highest_.y),
@@ -81,62 +83,77 @@ void Neighbours::lay_out(SimTime now, double reach_m) {
     rounding_m_ = 1e-12 * std::max({largest.x, largest.y, largest.z, 0.0});
 }
 
-void Neighbours::find_runs(const Position& centre, double radius_m) {
-    runs_.clear();
+// Runs of entries are short, and no two of one length: for all of the usual ones the loop goes round as often.
+Neighbours::Bunch* Neighbours::add_bunches(Bunch* next, std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t i = 0; i < usual_bunches; ++i) {
+        *next = {first + i * bunch, end};
+        next += first + i * bunch < end ? 1 : 0;
+    }
+    for (std::uint32_t more = first + usual_bunches * bunch; more < end; more += bunch) {
+        *next++ = {more, end};
+    }
+    return next;
+}
+
+std::span<const Neighbours::Bunch> Neighbours::bunches_within(const Position& centre, double radius_m) {
+    Bunch* const begin = bunches_.data();
     const auto rows = static_cast<std::int64_t>(columns_);
     const std::int64_t first_row = cell_of(centre.y - radius_m);
     const std::int64_t last_row = cell_of(centre.y + radius_m);
     // Also if the radius is infinite or no number.
     if (!(radius_m < 1e150) || last_row - first_row >= rows) {
-        runs_.push_back({0, static_cast<std::uint32_t>(entries_.size())});
-        return;
+        return {begin, add_bunches(begin, 0, static_cast<std::uint32_t>(radios_.size()))};
     }
     const std::int64_t first = cell_of(centre.x - radius_m);
     const std::int64_t last = cell_of(centre.x + radius_m);
     const bool is_all = last - first >= rows;
-    const std::size_t begin = is_all ? 0 : column_of(first);
-    const std::size_t end = is_all ? columns_ : begin + static_cast<std::size_t>(last - first) + 1;
+    const std::size_t from = is_all ? 0 : column_of(first);
+    const std::size_t to = is_all ? columns_ : from + static_cast<std::size_t>(last - first) + 1;
+    Bunch* next = begin;
     for (std::int64_t row = first_row; row <= last_row; ++row) {
         const std::uint32_t* const first_entry = first_entry_.data() + column_of(row) * columns_;
-        runs_.push_back({first_entry[begin], first_entry[std::min(end, columns_)]});
-        if (end > columns_) {
-            runs_.push_back({first_entry[0], first_entry[end - columns_]});
+        next = add_bunches(next, first_entry[from], first_entry[std::min(to, columns_)]);
+        if (to > columns_) {
+            next = add_bunches(next, first_entry[0], first_entry[to - columns_]);
         }
     }
+    return {begin, next};
 }
 
-const std::vector<Neighbours::Near>& Neighbours::near(const Position& centre, double radius_m) {
+std::span<const Neighbours::Near> Neighbours::near(const Position& centre, double radius_m) {
     const double far_m = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
     const double search_m = (radius_m + moved_m_) * (1 + 1e-9) + rounding_m_ + 1e-12 * far_m;
-    find_runs(centre, search_m);
-    std::size_t count = 0;
-    for (const Run& run : runs_) {
-        fetch_bytes(entries_.data() + run.first, (run.end - run.first) * sizeof(Entry));
-        count += run.end - run.first;
-    }
-    if (found_.size() <= count) {
-        found_.resize(count + 1);
+    const std::span<const Bunch> bunches = bunches_within(centre, search_m);
+    const std::size_t most =
+        bunches.size() * bunch + 1;  // with the one that is noted last and does not count
+    if (near_.size() < most) {
+        near_.resize(most);
+        found_.resize(most);
     }
     // Half of the entries are too far away, in no order: without a branch, as a processor cannot guess which.
     const double squared_m2 = search_m * search_m;
     std::size_t found = 0;
-    for (const Run& run : runs_) {
-        for (std::uint32_t entry = run.first; entry < run.end; ++entry) {
-            found_[found] = entry;
-            found += squared_distance(centre, entries_[entry].place) > squared_m2 ? 0U : 1U;
+    const auto look_at_all = [&](const auto& note) {
+        for (const Bunch& each : bunches) {
+            for (std::uint32_t entry = each.first; entry < each.first + bunch; ++entry) {
+                note(entry);
+                const bool is_too_far = squared_distance(centre, entries_[entry].place) > squared_m2;
+                found += static_cast<std::size_t>(!is_too_far) & static_cast<std::size_t>(entry < each.end);
+            }
         }
+    };
+    if (all_stand_) {
+        look_at_all([&](std::uint32_t entry) { near_[found] = entries_[entry]; });
+        return {near_.data(), found};
     }
-    if (!all_stand_) {
-        for (std::size_t i = 0; i < found; ++i) {
-            fetch_bytes(trajectories_[found_[i]], cache_line_bytes);
-        }
-    }
-    near_.clear();
+    look_at_all([&](std::uint32_t entry) { found_[found] = entry; });
     for (std::size_t i = 0; i < found; ++i) {
-        const Entry& entry = entries_[found_[i]];
-        near_.push_back({entry.id, all_stand_ ? entry.place : trajectories_[found_[i]]->position_at(now_)});
+        fetch_bytes(trajectories_[found_[i]], cache_line_bytes);
     }
-    return near_;
+    for (std::size_t i = 0; i < found; ++i) {
+        near_[i] = {trajectories_[found_[i]]->position_at(now_), entries_[found_[i]].radio};
+    }
+    return {near_.data(), found};
 }
 
 double Neighbours::farthest_m(const Position& from) const {

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "netsim/geometry/position.hpp"
@@ -29,13 +31,13 @@ public:
     // the cells follows those that are usual.
     void prepare(SimTime now, Odometer& odometer, double reach_m);
 
-    struct Near {
-        RadioId radio = 0;
+    struct Near {        // half a cache line: of all that is read for a transmission, this is read most often
         Position place;  // now
+        RadioId radio = 0;
     };
     // All within `radius_m` of `centre`, and some others near by, in an order that depends on nothing but the nodes'
     // positions; everybody, if the radius is infinite. Valid until the next call.
-    const std::vector<Near>& near(const Position& centre, double radius_m);
+    std::span<const Near> near(const Position& centre, double radius_m);
 
     // No node is farther away from there.
     double farthest_m(const Position& from) const;
@@ -44,10 +46,6 @@ private:
     struct Radio {
         RadioId id;
         const Trajectory* trajectory;
-    };
-    struct Entry {       // half a cache line: of all that is read for a transmission, this is read most often
-        Position place;  // where it was when the grid was laid out
-        RadioId id = 0;
     };
 
     void lay_out(SimTime now, double reach_m);
@@ -61,16 +59,20 @@ private:
     std::size_t column_of(std::int64_t cell) const {
         return static_cast<std::size_t>(cell) & (columns_ - 1);  // a power of two
     }
-    // Of entries that lie side by side.
-    struct Run {
+    // So many entries that lie side by side, or those of them before `end`.
+    static constexpr std::uint32_t bunch = 4;
+    static constexpr std::uint32_t usual_bunches = 4;  // no more for most runs of entries in a row
+    struct Bunch {
         std::uint32_t first = 0;
         std::uint32_t end = 0;
     };
-    // Collects in `runs_` those of the cells that are within the radius, row by row.
-    void find_runs(const Position& centre, double radius_m);
+    // The entries of the cells that are within the radius, row by row. Valid until the next call.
+    std::span<const Bunch> bunches_within(const Position& centre, double radius_m);
+    // Those from `first` until before `end`, at `next` and after it; returns where they end.
+    static Bunch* add_bunches(Bunch* next, std::uint32_t first, std::uint32_t end);
 
     std::vector<Radio> radios_;
-    std::vector<Entry> entries_;                   // by place in the table
+    std::vector<Near> entries_;  // where they were when the grid was laid out, by place in the table
     std::vector<const Trajectory*> trajectories_;  // of theirs
     std::vector<std::uint32_t> first_entry_;       // of each place in the table, and the end
     std::size_t columns_ = 1;                      // and as many rows
@@ -90,7 +92,7 @@ private:
     double reaches_m_ = 0;    // sum of those asked for
     std::uint64_t asked_ = 0;
 
-    std::vector<Run> runs_;
+    std::vector<Bunch> bunches_;        // the answer of bunches_within, reused
     std::vector<std::uint32_t> found_;  // entries
     std::vector<Near> near_;            // the answer of near, reused
 };

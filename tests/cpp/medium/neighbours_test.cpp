@@ -29,7 +29,7 @@ struct Crowd {
         neighbours.prepare(now, odometer, reach_m);
         std::set<NodeId> near;
         std::set<NodeId> visited;
-        for (const auto& [node, place] : neighbours.near(centre, radius_m)) {
+        for (const auto& [place, node] : neighbours.near(centre, radius_m)) {
             EXPECT_TRUE(visited.insert(node).second) << node;
             EXPECT_EQ(place, trajectories[node].position_at(now)) << node;
             if (distance(centre, place) <= radius_m) {
