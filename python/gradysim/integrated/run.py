@@ -13,6 +13,7 @@ from gradysim.config.protocol.parametrize import parametrize
 from gradysim.config.protocol.siblings import siblings_importable
 from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.failure import add_protocol_note
+from gradysim.encapsulator.garbage_collection import garbage_left_alone
 from gradysim.encapsulator.global_random import global_random_of
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.capture import (
@@ -90,7 +91,8 @@ class IntegratedRun:
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         files = checked_captures(captures or {}, scenario)
-        self._network, self._nodes = build_network(scenario)
+        with garbage_left_alone():
+            self._network, self._nodes = build_network(scenario)
         start_captures(self._network, scenario, files)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
@@ -98,7 +100,7 @@ class IntegratedRun:
         self._flown = FlownNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
         siblings = siblings_importable(spec.protocol for spec in scenario.nodes)
-        with siblings, global_random_of(scenario.seed):
+        with garbage_left_alone(), siblings, global_random_of(scenario.seed):
             self._make_protocols()
         self._flown.take_off()
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterable
 
 from gradysim.config.protocol.siblings import siblings_importable
 from gradysim.config.scenario import Scenario
+from gradysim.encapsulator.garbage_collection import garbage_left_alone
 from gradysim.encapsulator.global_random import global_random_of
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.delays import constant_delays
@@ -48,7 +49,7 @@ class PrototypeRun:
         self._scenario = scenario
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         siblings = siblings_importable(node.protocol for node in scenario.nodes)
-        with siblings, global_random_of(scenario.seed):
+        with garbage_left_alone(), siblings, global_random_of(scenario.seed):
             self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
 
     def execute(

@@ -79,6 +79,18 @@ def test_parameters_are_in_force_when_the_protocol_is_made(result_of):
     assert {node.protocol for node in result.nodes} == {"Tested"}
 
 
+def test_python_looks_for_garbage_during_a_run_but_not_while_it_is_built(result_of):
+    result = result_of(
+        "import gc\n"
+        "class Tested(Quiet):\n"
+        "    def __init__(self): self.seen = [gc.isenabled()]\n"
+        "    def initialize(self):\n"
+        "        self.seen.append(gc.isenabled())\n"
+        '        self.provider.tracked_variables["seen"] = self.seen'
+    )
+    assert [node.tracked_variables["seen"] for node in result.nodes] == [[False, True]] * 2
+
+
 def test_pythons_global_random_is_the_scripts_again(make_run):
     drawing = (
         "import random\n"
