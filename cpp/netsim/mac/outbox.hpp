@@ -56,6 +56,7 @@ public:
 
     // The first of those that wait, of which there must be one, is in progress from now on, unless a frame is already.
     void begin_next() { is_in_progress_ = true; }
+    bool is_in_progress() const { return is_in_progress_; }
     // Only while there is one.
     const std::shared_ptr<const Frame>& in_progress() const { return queue_.front(); }
     // Frames never change: in progress from now on is one that differs in that.

@@ -26,12 +26,7 @@ public:
     // Of at least one, here and below.
     std::shared_ptr<const Frame>& front() { return first_; }
     const std::shared_ptr<const Frame>& front() const { return first_; }
-    void pop() {
-        first_.reset();
-        if (others_) {
-            first_ = others_->take();
-        }
-    }
+    void pop() { first_ = others_ ? others_->take() : nullptr; }
     bool empty() const { return !first_; }
     std::size_t size() const { return (first_ ? 1 : 0) + (others_ ? others_->size() : 0); }
 

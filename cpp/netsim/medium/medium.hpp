@@ -95,7 +95,7 @@ private:
     // Of one audience: who can notice it, in `heard`, and whom its ring watches. Returns the copies that it makes there.
     CopyCount find_those_it_matters_to(OnAir& entry, std::size_t index);
     // Those `near` the sender, without it, by whether they are within that distance of it: those in `within_` may notice
-    // the transmission, those in `beyond_` not without others beside it.
+    // the transmission, those in `beyond_` not without others beside it. Has what is known of each fetched.
     void part(std::span<const Neighbours::Near> near, const Transmission& sent, double noticed_m);
     void book_copies(const OnAir& entry, CopyCount copies);
     void fetch(RadioId radio, FrameKind kind) const;

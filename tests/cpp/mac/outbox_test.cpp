@@ -1,9 +1,13 @@
 #include "netsim/mac/outbox.hpp"
 
+#include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "netsim/kernel/random.hpp"
 
 namespace netsim {
 namespace {
@@ -53,6 +57,7 @@ TEST_F(OutboxTest, AFrameInProgressStaysSoUntilItIsFinished) {
     outbox.begin_next();
     EXPECT_EQ(outbox.in_progress()->receiver, 3);
     outbox.finish(MessageFate::acknowledged);
+    EXPECT_FALSE(outbox.is_in_progress());
     EXPECT_FALSE(outbox.empty());
     outbox.begin_next();
     EXPECT_EQ(outbox.in_progress()->receiver, 4);
@@ -74,6 +79,57 @@ TEST_F(OutboxTest, WhatDoesNotFitIsBooked) {
     EXPECT_EQ(outbox.size(), 2U);
     EXPECT_EQ(outbox.message_fates().accepted(MessageKind::broadcast), 3U);
     EXPECT_EQ(booked(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
+}
+
+TEST_F(OutboxTest, ThoseThatWaitStayWhenANewcomerIsDropped) {
+    add(3);
+    add(4);
+    EXPECT_FALSE(add(5));
+    outbox.begin_next();
+    EXPECT_EQ(outbox.in_progress()->receiver, 3);
+}
+
+TEST_F(OutboxTest, HasRoomAgainWhenOneOfThoseThatWaitIsInProgress) {
+    add(3);
+    add(4);
+    outbox.begin_next();
+    EXPECT_TRUE(add(5));
+    EXPECT_FALSE(add(6));
+    outbox.finish(MessageFate::acknowledged);
+    EXPECT_FALSE(add(7));  // two wait, and none is in progress
+    outbox.begin_next();
+    EXPECT_TRUE(add(8));
+}
+
+// Beside a plain queue, through all lengths and back.
+TEST(Outbox, IsTheSameAsAPlainQueueOfThatCapacity) {
+    constexpr std::size_t most = 20;
+    Outbox outbox(7, most);
+    std::deque<NodeId> waiting;
+    std::optional<NodeId> in_progress;
+    const Payload text = std::make_shared<const std::string>("text");
+    RandomStream draws(1, 0, Purpose::protocol);
+    for (NodeId receiver = 0; receiver < 5'000; ++receiver) {
+        const bool grows = receiver / 100 % 2 == 0;
+        if (draws.uniform() < (grows ? 0.6 : 0.4)) {
+            ASSERT_EQ(outbox.add(outbox.frame_of(receiver, text, 164, SimTime{})), waiting.size() < most);
+            if (waiting.size() < most) {
+                waiting.push_back(receiver);
+            }
+        } else if (in_progress) {
+            outbox.finish(MessageFate::acknowledged);
+            in_progress.reset();
+        } else if (!waiting.empty()) {
+            outbox.begin_next();
+            in_progress = waiting.front();
+            waiting.pop_front();
+        }
+        ASSERT_EQ(outbox.size(), waiting.size() + (in_progress ? 1 : 0));
+        ASSERT_EQ(outbox.is_in_progress(), in_progress.has_value());
+        if (in_progress) {
+            ASSERT_EQ(outbox.in_progress()->receiver, *in_progress);
+        }
+    }
 }
 
 TEST_F(OutboxTest, AFrameOnTheAirIsNotTouchedByWhatChanges) {
