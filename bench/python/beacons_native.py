@@ -17,9 +17,9 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "configs" / "reference" / "beacons.ini"

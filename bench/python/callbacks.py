@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 from statistics import median
 
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"
 GOAL = 1e6

@@ -10,8 +10,8 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import IntegratedRun
+from gradysim.scenario import load_scenarios
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"
 PER_NODE_GOAL_BYTES = 4096

@@ -19,8 +19,6 @@ from time import process_time
 from typing import Any
 
 from gradysim import _netsim
-from gradysim.config import Scenario, load_scenarios
-from gradysim.config.protocol.parametrize import parametrize
 from gradysim.encapsulator.netsim import NetsimProvider
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.integrated.network import build_network
@@ -29,6 +27,8 @@ from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.scenario import Scenario, load_scenarios
+from gradysim.scenario.protocol.parametrize import parametrize
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "zigzag.ini"
 Call = tuple[int, str, float, Any]  # node, method, simulated time in seconds, argument

@@ -10,8 +10,8 @@ from statistics import median
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config import load_scenarios
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import load_scenarios
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "zigzag.ini"
 GOAL = 5.0

@@ -16,8 +16,8 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from gradysim.config import load_scenarios
 from gradysim.results.student import mean_with_half_width
+from gradysim.scenario import load_scenarios
 from observed_run import MODES, SCENARIOS, ObservedRun, Sample, observed_run
 
 SIZES = {"ZigZag5": "#1b6ca8", "ZigZag15": "#d1495b", "ZigZag25": "#2e933c"}

@@ -13,8 +13,8 @@ from typing import Any
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config import Scenario
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import Scenario
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.node import Node

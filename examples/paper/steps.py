@@ -13,7 +13,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from gradysim.config import load_scenarios
+from gradysim.scenario import load_scenarios
 from observed_run import MODES, SCENARIOS, ObservedRun, observed_run
 
 

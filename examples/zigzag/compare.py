@@ -14,8 +14,8 @@ from rich.table import Table
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config import Scenario, load_scenarios
 from gradysim.results.run_result import Fates, RunResult
+from gradysim.scenario import Scenario, load_scenarios
 
 SCENARIOS = Path(__file__).parents[2] / "configs" / "zigzag.ini"
 CONFIGS = ("ZigZag5", "ZigZag15", "ZigZag25", "ZigZag5Synchronised")

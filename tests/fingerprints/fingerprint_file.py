@@ -5,10 +5,10 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from gradysim.config import load_scenarios
-from gradysim.config.file.reader import read_ini
-from gradysim.config.file.sections import config_names
 from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
+from gradysim.scenario.file.reader import read_ini
+from gradysim.scenario.file.sections import config_names
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = Path(__file__).with_name("fingerprints.csv")

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
-from gradysim.config import Scenario, load_scenarios
+from gradysim.scenario import Scenario, load_scenarios
 from gradysim.simulator import real_time
 from python.quiet_protocol import QUIET
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import gradysim.integrated.run
 from gradysim import _netsim
-from gradysim.config import Scenario, load_scenarios
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.protocol.native import native_protocol
-from gradysim.config.protocol.origin import origin_of
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import Scenario, load_scenarios
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.protocol.native import native_protocol
+from gradysim.scenario.protocol.origin import origin_of
 
 _ROOT = Path(__file__).parents[2]
 FOLDER = _ROOT / "configs" / "reference"

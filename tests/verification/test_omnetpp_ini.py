@@ -5,17 +5,17 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from gradysim.config.file.reader import read_ini
-from gradysim.config.file.sections import Ranked, search_order
-from gradysim.config.matching.lookup import is_option
-from gradysim.config.runs.iterations import name_iterations, text_of_iterations
-from gradysim.config.runs.numbered_runs import numbered_runs
-from gradysim.config.runs.variables import run_variables, substitute
-from gradysim.config.value.expression import parse_value
-from gradysim.config.value.operators import Value
-from gradysim.config.value.parameter_context import ParameterContext
-from gradysim.config.value.pattern import compile_pattern
-from gradysim.config.value.quantity import Quantity
+from gradysim.scenario.file.reader import read_ini
+from gradysim.scenario.file.sections import Ranked, search_order
+from gradysim.scenario.matching.lookup import is_option
+from gradysim.scenario.runs.iterations import name_iterations, text_of_iterations
+from gradysim.scenario.runs.numbered_runs import numbered_runs
+from gradysim.scenario.runs.variables import run_variables, substitute
+from gradysim.scenario.value.expression import parse_value
+from gradysim.scenario.value.operators import Value
+from gradysim.scenario.value.parameter_context import ParameterContext
+from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.value.quantity import Quantity
 from verification.finding import Finding
 from verification.reference_data import rows
 

@@ -13,7 +13,7 @@ namespace netsim {
 class SimTime {
 public:
     // The end of the longest run. int64 picoseconds end at 9.223e6 s: what begins before this ends before that.
-    // `sim-time-limit` in python/gradysim/config/keys/options.py has the same bound.
+    // `sim-time-limit` in python/gradysim/scenario/keys/options.py has the same bound.
     static constexpr double longest_run_s = 9.2e6;
 
     constexpr SimTime() = default;

@@ -4,13 +4,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.source import Source
-from gradysim.config.node.autopilot_spec import AutopilotSpec
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.protocol.native import NativeProtocol
-from gradysim.config.scenario import Scenario
 from gradysim.protocol.position import Position
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.node.autopilot_spec import AutopilotSpec
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.protocol.native import NativeProtocol
+from gradysim.scenario.scenario import Scenario
 from gradysim.sitl.arducopter import find_arducopter
 from gradysim.sitl.dialect import load_dialect
 from gradysim.sitl.error import SitlError

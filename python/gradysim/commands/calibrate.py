@@ -11,7 +11,7 @@ from gradysim.commands.exit_code import OK, say_mistake
 from gradysim.commands.scenarios import check
 
 if TYPE_CHECKING:
-    from gradysim.config.value.kinds import Kind, Scalar
+    from gradysim.scenario.value.kinds import Kind, Scalar
 
 
 def calibrate_power(
@@ -40,12 +40,12 @@ def calibrate_power(
     settings: SetOption = (),
 ) -> int:
     """Find the transmitter power for a wanted range under the models of a configuration."""
-    from gradysim.config.errors.config_error import ConfigError
-    from gradysim.config.runs.iterations import text_of_iterations
-    from gradysim.config.value.kinds import quantity, whole_bytes
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report import calibration
+    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.runs.iterations import text_of_iterations
+    from gradysim.scenario.value.kinds import quantity, whole_bytes
 
     try:
         scenario = check(file, config, "0", settings).scenarios[0]
@@ -77,8 +77,8 @@ def calibrate_power(
 
 def option_value(option: str, text: str, kind: "Kind") -> "Scalar":
     """Return the value that an option says. Raises ConfigError, which names the option."""
-    from gradysim.config.errors.config_error import BadValue, ConfigError
-    from gradysim.config.value.expression import parse_value
+    from gradysim.scenario.errors.config_error import BadValue, ConfigError
+    from gradysim.scenario.value.expression import parse_value
 
     try:
         return kind.convert(parse_value(text))

@@ -8,7 +8,7 @@ from gradysim.commands.asked import Asked
 from gradysim.commands.simulators import capture_files_of
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
+    from gradysim.scenario.scenario import Scenario
 
 
 def omnetpp_file(scenario: "Scenario", mode: Mode, asked: Asked, suffix: str) -> Path:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
+    from gradysim.scenario.scenario import Scenario
 
 
 def with_fresh_protocols(scenario: "Scenario") -> "Scenario":
@@ -13,7 +13,7 @@ def with_fresh_protocols(scenario: "Scenario") -> "Scenario":
     What runs before it have left in the bodies of classes, or in modules beside them, makes no difference
     then: a run is the same as in a process of its own.
     """
-    from gradysim.config.protocol.anew import loaded_anew
+    from gradysim.scenario.protocol.anew import loaded_anew
 
     anew = loaded_anew({node.protocol for node in scenario.nodes})
     if not anew:

@@ -17,11 +17,11 @@ def list_keys(
     markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
 ) -> int:
     """List the keys of .ini files: unit, default, meaning."""
-    from gradysim.config.key_list import key_meant, key_sections, matching
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.integrated.engine_defaults import engine_defaults
     from gradysim.integrated.native_protocols import native_protocols
     from gradysim.report import key_table
+    from gradysim.scenario.key_list import key_meant, key_sections, matching
 
     try:
         structs, natives = engine_defaults(), list(native_protocols().values())

@@ -26,8 +26,6 @@ def print_means(
     ] = False,
 ) -> int:
     """Print means over runs, of the last values of tracked variables and of fates, with 95 % intervals."""
-    from gradysim.config.errors.config_error import ConfigError
-    from gradysim.config.errors.nearest import did_you_mean
     from gradysim.report.console import console
     from gradysim.report.means_table import means_table, write_csv
     from gradysim.results.means import (
@@ -39,6 +37,8 @@ def print_means(
         repeated,
     )
     from gradysim.results.wanted_names import wanted
+    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors.nearest import did_you_mean
 
     quoted = shlex.quote(str(directory))
     try:

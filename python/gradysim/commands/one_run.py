@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TextIO
 from gradysim.commands.exit_code import FAILED, INTERRUPTED, OK
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
     from gradysim.report.interrupt import StopOnInterrupt
     from gradysim.report.supervised_run import Outcome, Run
     from gradysim.results.run_result import RunResult
+    from gradysim.scenario.scenario import Scenario
 
 
 def run_one(

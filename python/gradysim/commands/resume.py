@@ -11,7 +11,7 @@ from gradysim.commands.files_of_run import files_beside_result, files_for_omnetp
 from gradysim.commands.simulators import ids_of_fates, nodes_of_vectors
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
+    from gradysim.scenario.scenario import Scenario
 
 
 def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "list[Scenario]":
@@ -19,10 +19,10 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
 
     Raises ConfigError without a folder.
     """
-    from gradysim.config.errors.config_error import ConfigError
-    from gradysim.config.runs.file_hashes import text_of_files
-    from gradysim.config.runs.run_numbers import text_of_runs
     from gradysim.results.run_file import files_changed_since
+    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.runs.file_hashes import text_of_files
+    from gradysim.scenario.runs.run_numbers import text_of_runs
 
     result_dir = asked.result_dir
     if result_dir is None:

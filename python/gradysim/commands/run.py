@@ -39,8 +39,8 @@ from gradysim.commands.warnings import tell, warnings_of_lines, warnings_of_netw
 from gradysim.commands.written_files import write_files
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
     from gradysim.report.interrupt import StopOnInterrupt
+    from gradysim.scenario.scenario import Scenario
 
 
 def run(
@@ -63,9 +63,9 @@ def run(
     quiet: QuietOption = False,
 ) -> int:
     """Run the runs of a configuration and say what came out."""
-    from gradysim.config.errors.config_error import ConfigError
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.report.waiting import waiting
+    from gradysim.scenario.errors.config_error import ConfigError
 
     asked = Asked(result_dir, pcap, fates_at, scalars, vectors)
     output = sys.stdout

@@ -8,9 +8,9 @@ from gradysim.commands.warnings import tell
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
-    from gradysim.config.doubts.unread_variables import unread_variables
-    from gradysim.config.errors.config_error import ConfigError
-    from gradysim.config.runs.iterations import text_of_iterations
+    from gradysim.scenario.doubts.unread_variables import unread_variables
+    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.runs.iterations import text_of_iterations
 
     try:
         scenarios = check(file, config, None, settings).scenarios

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from gradysim.commands.current_folder import back_afterwards
 
 if TYPE_CHECKING:
-    from gradysim.config.load import CheckedScenarios
-    from gradysim.config.scenario import Scenario
+    from gradysim.scenario.load import CheckedScenarios
+    from gradysim.scenario.scenario import Scenario
 
 
 def check(
@@ -19,8 +19,8 @@ def check(
 
     Says on the error output which of `settings` have no effect, because others before them have their keys.
     """
-    from gradysim.config.errors.argument_names import ArgumentNames
-    from gradysim.config.load import CheckedScenarios
+    from gradysim.scenario.errors.argument_names import ArgumentNames
+    from gradysim.scenario.load import CheckedScenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
@@ -35,7 +35,7 @@ def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "lis
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
-    from gradysim.config.file.reader import Entry, read_overrides
+    from gradysim.scenario.file.reader import Entry, read_overrides
 
     first: dict[str, Entry] = {}
     for entry in read_overrides(file, settings, option):

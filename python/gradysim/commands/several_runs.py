@@ -11,8 +11,8 @@ from gradysim.commands.fresh_protocols import with_fresh_protocols
 from gradysim.commands.sudden_end import tell_of_crashes, told_of_exit
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
     from gradysim.report.interrupt import StopOnInterrupt
+    from gradysim.scenario.scenario import Scenario
 
     CarryOut = Callable[[Scenario, StopOnInterrupt, TextIO], int]
     """Carries out a run, prints to the output it is given, and returns an exit code."""
@@ -41,7 +41,7 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
 
 def check_jobs(jobs: int) -> None:
     """Raise ConfigError for a number of runs at once that cannot be, before anything is read."""
-    from gradysim.config.errors.config_error import ConfigError
+    from gradysim.scenario.errors.config_error import ConfigError
 
     if jobs < 1:
         raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
@@ -52,8 +52,8 @@ def check_jobs(jobs: int) -> None:
 def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", output: TextIO, jobs: int) -> int:
     """Carry out runs in `jobs` processes; return the exit code of the command."""
     from gradysim.commands.processes import in_processes
-    from gradysim.config.errors.config_error import ConfigError
     from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.scenario.errors.config_error import ConfigError
 
     def work(index: int, interrupt: "StopOnInterrupt", output: TextIO) -> int:
         try:

@@ -8,9 +8,9 @@ from gradysim.commands.arguments import Mode
 from gradysim.commands.asked import Asked
 
 if TYPE_CHECKING:
-    from gradysim.config.node.node_spec import NodeSpec
-    from gradysim.config.scenario import Scenario
     from gradysim.report.supervised_run import Run
+    from gradysim.scenario.node.node_spec import NodeSpec
+    from gradysim.scenario.scenario import Scenario
 
 
 class Check(Protocol):
@@ -60,7 +60,7 @@ def simulator(mode: Mode, asked: Asked) -> "tuple[Check, Callable[[Scenario], Ru
 
 def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
     """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
-    from gradysim.config.errors.config_error import ConfigError
+    from gradysim.scenario.errors.config_error import ConfigError
 
     for name in names:
         raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")
@@ -68,7 +68,7 @@ def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
 
 def check_names(scenarios: "Sequence[Scenario]", asked: Asked) -> None:
     """Raise ConfigError for a name that an option was given, and that no node has in any of these runs."""
-    from gradysim.config.node_names import check_node_names
+    from gradysim.scenario.node_names import check_node_names
 
     for option, names in (
         ("--pcap", asked.pcap),
@@ -80,14 +80,14 @@ def check_names(scenarios: "Sequence[Scenario]", asked: Asked) -> None:
 
 def ids_of_fates(scenario: "Scenario", asked: Asked) -> list[int]:
     """Return the ids of the nodes that --fates-at names."""
-    from gradysim.config.node_names import nodes_named
+    from gradysim.scenario.node_names import nodes_named
 
     return _ids(nodes_named(scenario, asked.fates_at))
 
 
 def nodes_of_vectors(scenario: "Scenario", asked: Asked) -> "list[NodeSpec]":
     """Return the nodes that --vectors names."""
-    from gradysim.config.node_names import nodes_named
+    from gradysim.scenario.node_names import nodes_named
 
     return nodes_named(scenario, asked.vectors)
 

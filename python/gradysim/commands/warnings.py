@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
+    from gradysim.scenario.scenario import Scenario
 
 
 def tell(warnings: Iterable[str]) -> None:
@@ -28,15 +28,15 @@ def warnings_of_seeds(scenarios: "Sequence[Scenario]") -> Iterator[str]:
 
 def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     """Yield a line for each line of the file that is probably not meant so, once for all runs."""
-    from gradysim.config.doubts.bands_beside_frequencies import bands_beside_frequencies
-    from gradysim.config.doubts.doubtful_times import doubtful_times
-    from gradysim.config.doubts.mission_speeds import mission_speeds
-    from gradysim.config.doubts.overwritten_parameters import overwritten_parameters
-    from gradysim.config.doubts.plugins_without_telemetry import plugins_without_telemetry
-    from gradysim.config.doubts.shadowed_lines import shadowed_lines
-    from gradysim.config.doubts.shared_containers import shared_containers
-    from gradysim.config.doubts.unread_variables import unread_variables
-    from gradysim.config.keys.radio_media import has_radios
+    from gradysim.scenario.doubts.bands_beside_frequencies import bands_beside_frequencies
+    from gradysim.scenario.doubts.doubtful_times import doubtful_times
+    from gradysim.scenario.doubts.mission_speeds import mission_speeds
+    from gradysim.scenario.doubts.overwritten_parameters import overwritten_parameters
+    from gradysim.scenario.doubts.plugins_without_telemetry import plugins_without_telemetry
+    from gradysim.scenario.doubts.shadowed_lines import shadowed_lines
+    from gradysim.scenario.doubts.shared_containers import shared_containers
+    from gradysim.scenario.doubts.unread_variables import unread_variables
+    from gradysim.scenario.keys.radio_media import has_radios
 
     first = scenarios[0]
     medium = first.medium.get("typename")

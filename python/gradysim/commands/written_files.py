@@ -9,8 +9,8 @@ from gradysim.commands.files_of_run import files_beside_result, omnetpp_file
 from gradysim.commands.simulators import capture_files_of
 
 if TYPE_CHECKING:
-    from gradysim.config.scenario import Scenario
     from gradysim.results.run_result import RunResult
+    from gradysim.scenario.scenario import Scenario
 
 
 def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:

@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.nearest import did_you_mean
-from gradysim.config.keys.radio import CENTER_FREQUENCY
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.ini_terms import in_ini_terms
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.keys.radio import CENTER_FREQUENCY
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget

@@ -6,12 +6,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.node_names import nodes_named
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.results.node_ids import checked_ids
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.node_names import nodes_named
+from gradysim.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network

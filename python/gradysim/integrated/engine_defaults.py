@@ -1,9 +1,9 @@
 """The defaults of the engine's configurations, for lists of keys."""
 
-from gradysim.config.key_list import Structs
-from gradysim.config.keys.interface import IEEE802154
-from gradysim.config.keys.radio_media import IEEE802154_MEDIUM
 from gradysim.integrated.compiled_part import load_netsim
+from gradysim.scenario.key_list import Structs
+from gradysim.scenario.keys.interface import IEEE802154
+from gradysim.scenario.keys.radio_media import IEEE802154_MEDIUM
 
 
 def engine_defaults() -> Structs:

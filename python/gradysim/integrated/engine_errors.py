@@ -6,14 +6,14 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.says_in_full import says_in_full
-from gradysim.config.errors.sibling_files import file_meant
-from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.config.keys.key import HAS_TO_BE_GIVEN
-from gradysim.config.value.setting import Setting
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.says_in_full import says_in_full
+from gradysim.scenario.errors.sibling_files import file_meant
+from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN
+from gradysim.scenario.value.setting import Setting
 
 _COMPARED_WITH = {
     "antenna.length_m": ("radio.carrier_hz",),

@@ -7,7 +7,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from gradysim.autopilots.scenario_flights import flights_of
-from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.flight_orders import give_order
 from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.messages.mobility import (
@@ -16,6 +15,7 @@ from gradysim.protocol.messages.mobility import (
     SetSpeedMobilityCommand,
 )
 from gradysim.protocol.position import Position
+from gradysim.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node

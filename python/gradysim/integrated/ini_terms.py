@@ -8,10 +8,10 @@ import re
 from collections.abc import Mapping
 from functools import cache
 
-from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.config.keys.interface import written_for
-from gradysim.config.keys.key import Key
-from gradysim.config.value.units import UNITS
+from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.scenario.keys.interface import written_for
+from gradysim.scenario.keys.key import Key
+from gradysim.scenario.value.units import UNITS
 
 FIELD = re.compile(
     r"(?P<interface>\bwlan\[\d+\]\.)?\b(?P<target>"

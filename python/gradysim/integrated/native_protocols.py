@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any, cast
 
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.protocol.native import NativeParameter, NativeProtocol
-from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.value.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.protocol.native import NativeParameter, NativeProtocol
+from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.value.setting import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim

@@ -10,17 +10,17 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gradysim.autopilots.scenario_flights import check_autopilots
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.keys.interface import DEFAULT_INTERFACE
-from gradysim.config.node.interface_spec import InterfaceSpec
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.obstacle.obstacle_spec import ObstacleSpec
-from gradysim.config.scenario import Scenario
-from gradysim.config.value.setting import Setting
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
+from gradysim.scenario.node.interface_spec import InterfaceSpec
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.obstacle.obstacle_spec import ObstacleSpec
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.value.setting import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig

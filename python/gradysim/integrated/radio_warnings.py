@@ -5,14 +5,14 @@ from collections.abc import Iterable, Iterator
 from itertools import chain, takewhile
 from typing import TYPE_CHECKING, NamedTuple
 
-from gradysim.config.errors.source import Source
-from gradysim.config.keys.interface import IEEE802154
-from gradysim.config.keys.radio_media import has_radios
-from gradysim.config.node.interface_spec import InterfaceSpec
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.network import node_config
 from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.keys.interface import IEEE802154
+from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.node.interface_spec import InterfaceSpec
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig

@@ -9,9 +9,6 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.config.protocol.parametrize import parametrize
-from gradysim.config.protocol.siblings import siblings_importable
-from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.garbage_collection import garbage_left_alone
 from gradysim.encapsulator.global_random import global_random_of
@@ -39,6 +36,9 @@ from gradysim.results.run_account import RunAccount
 from gradysim.results.run_file import run_name
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
+from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.protocol.siblings import siblings_importable
+from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor
 

@@ -4,14 +4,14 @@ import math
 from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from gradysim.config.doubts.unread_lines import Chosen, UnreadLines
-from gradysim.config.errors.source import Source
-from gradysim.config.scenario import Scenario
-from gradysim.config.value.setting import Setting
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.node_kinds import one_of_each_kind
 from gradysim.integrated.radio_warnings import radio_warnings
 from gradysim.integrated.two_ray_ground import ground_hint
+from gradysim.scenario.doubts.unread_lines import Chosen, UnreadLines
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.value.setting import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig

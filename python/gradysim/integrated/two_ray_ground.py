@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from gradysim.config.keys.radio_media import has_radios
-from gradysim.config.node.node_spec import NodeSpec
+from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.node.node_spec import NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig

@@ -6,8 +6,6 @@ object: `execute` may raise, `result` tells at any time how far the run came.
 
 from collections.abc import Callable, Iterable
 
-from gradysim.config.protocol.siblings import siblings_importable
-from gradysim.config.scenario import Scenario
 from gradysim.encapsulator.garbage_collection import garbage_left_alone
 from gradysim.encapsulator.global_random import global_random_of
 from gradysim.prototype.simulation import build_simulation
@@ -17,6 +15,8 @@ from gradysim.results.node_results import node_results
 from gradysim.results.run_account import RunAccount
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
+from gradysim.scenario.protocol.siblings import siblings_importable
+from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from gradysim.config.value.decibels import db_from_ratio, dbm_from_w
 from gradysim.integrated.calibration import Calibration
+from gradysim.scenario.value.decibels import db_from_ratio, dbm_from_w
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,7 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from gradysim.config.key_list import KeySection
+from gradysim.scenario.key_list import KeySection
 
 HEADINGS = ("key", "unit or value", "default", "meaning")
 

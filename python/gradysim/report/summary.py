@@ -8,7 +8,6 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from gradysim.config.runs.iterations import text_of_iterations
 from gradysim.protocol.plain_value import plain_value
 from gradysim.protocol.readable_number import readable_number
 from gradysim.report.count_tables import CountTables
@@ -20,6 +19,7 @@ from gradysim.report.fates_at_nodes import (
 )
 from gradysim.results.delays import Delays
 from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.scenario.runs.iterations import text_of_iterations
 
 MAX_VALUE_LENGTH = 200
 """Characters shown of one tracked variable; all of it is in the JSON."""

@@ -6,11 +6,11 @@ from typing import Protocol
 
 from rich.console import Console
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.report.progress import RunProgress
 from gradysim.results.run_result import RunResult
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.scenario import Scenario
 
 
 class Run(Protocol):

@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping
 from itertools import repeat
 
-from gradysim.config.scenario import Scenario
 from gradysim.protocol.position import Position
 from gradysim.results.node_recorder import NodeRecorder
 from gradysim.results.run_result import NodeResult
+from gradysim.scenario.scenario import Scenario
 
 
 def node_results(

@@ -4,9 +4,9 @@ import contextlib
 from collections.abc import Iterator, Mapping
 from time import perf_counter, process_time
 
-from gradysim.config.scenario import Scenario, require_scenario
 from gradysim.results.delays import Delays
 from gradysim.results.run_result import Fates, Mode, NodeResult, RunResult
+from gradysim.scenario.scenario import Scenario, require_scenario
 
 
 class RunAccount:

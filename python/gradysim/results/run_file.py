@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from gradysim.config.runs.file_hashes import hash_of
-from gradysim.config.scenario import Scenario
 from gradysim.results.run_result import Mode, RunResult, plain_iterations
+from gradysim.scenario.runs.file_hashes import hash_of
+from gradysim.scenario.scenario import Scenario
 
 
 def run_file(directory: Path, config: str, run: int, mode: Mode, suffix: str = ".json") -> Path:

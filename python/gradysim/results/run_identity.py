@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from pathlib import Path
 
-from gradysim.config.runs.iterations import PREDEFINED
-from gradysim.config.scenario import Scenario
 from gradysim.results.run_result import Mode, RunResult
+from gradysim.scenario.runs.iterations import PREDEFINED
+from gradysim.scenario.scenario import Scenario
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 from gradysim.cli import main
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
 
 INI = """[General]
 *.sender.protocol.typename = "BeaconProtocol"

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.cli import main
-from gradysim.config import Scenario
+from gradysim.scenario import Scenario
 from python.cli.command import both_modes
 
 SIGMA = "*.radioMedium.pathLoss.sigma=3"

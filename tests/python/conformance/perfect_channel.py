@@ -6,14 +6,14 @@ from pathlib import Path
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config.errors.source import Source
-from gradysim.config.node.interface_spec import InterfaceSpec
-from gradysim.config.node.node_spec import NodeSpec
-from gradysim.config.scenario import CommunicationMediumSpec, Scenario
-from gradysim.config.value.setting import Setting
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.results.run_result import RunResult
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.node.interface_spec import InterfaceSpec
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
+from gradysim.scenario.value.setting import Setting
 
 MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
     "integrated": gradysim.integrated.run.run,

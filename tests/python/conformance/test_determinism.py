@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.run import IntegratedRun
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).parents[3]
 FILE = ROOT / "configs" / "zigzag.ini"

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from watched_run import Trace, assert_same, trace_scenario
 
-from gradysim.config import Scenario, load_scenarios
+from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"

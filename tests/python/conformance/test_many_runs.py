@@ -10,11 +10,11 @@ from contextlib import suppress
 import pytest
 from perfect_channel import Case
 
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.assertion import (
     AssertionHandler,

@@ -13,9 +13,9 @@ pytest.importorskip("scapy")
 from scapy.layers.dot15d4 import Dot15d4FCS
 from scapy.utils import PcapReader
 
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import IntegratedRun
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import load_scenarios
 
 INI = Path(__file__).parents[3] / "configs" / "sensor_field.ini"
 DATA, ACK = 1, 2

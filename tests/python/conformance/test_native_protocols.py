@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.native_protocols import is_native, native_protocols
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).parents[3]
 ZIGZAG = "configs/zigzag.ini"

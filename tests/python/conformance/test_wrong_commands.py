@@ -12,8 +12,6 @@ from typing import Any, cast
 import pytest
 from perfect_channel import MODES, Case
 
-from gradysim.config.errors.source import Source
-from gradysim.config.value.setting import Setting
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
 from gradysim.protocol.interface import IProvider
 from gradysim.protocol.messages.communication import (
@@ -30,6 +28,8 @@ from gradysim.protocol.messages.mobility import (
     SetVelocityMobilityCommand,
 )
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.value.setting import Setting
 from python.quiet_protocol import Quiet
 
 CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)])

@@ -25,8 +25,6 @@ from typing import Any, cast
 
 import pytest
 
-from gradysim.config import Scenario, load_scenarios
-from gradysim.config.protocol.parametrize import parametrize
 from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
@@ -34,6 +32,8 @@ from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration
 from gradysim.protocol.position import Position
 from gradysim.prototype.simulation import configure_mobility
+from gradysim.scenario import Scenario, load_scenarios
+from gradysim.scenario.protocol.parametrize import parametrize
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler

@@ -23,9 +23,9 @@ from typing import Any, ClassVar, NamedTuple, cast
 import pytest
 from perfect_channel import MODES, Case
 
-from gradysim.config.scenario import Scenario
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.position import Position
+from gradysim.scenario.scenario import Scenario
 
 UPDATE_S = 0.01
 """Time between two updates of the prototype's positions, and so the telemetry interval of nodes that move."""

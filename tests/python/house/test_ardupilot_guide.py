@@ -10,7 +10,7 @@ import pytest
 import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.cli import main
-from gradysim.config import load_scenarios
+from gradysim.scenario import load_scenarios
 from gradysim.simulator.handler.ardupilot_mobility import ArdupilotMobilityException
 
 PAGE = "docs/guides/ardupilot.md"

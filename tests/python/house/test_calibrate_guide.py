@@ -10,8 +10,8 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli import main
-from gradysim.config import Scenario, load_scenarios
 from gradysim.integrated.calibration import calibrate
+from gradysim.scenario import Scenario, load_scenarios
 
 
 @pytest.fixture

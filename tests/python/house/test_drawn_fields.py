@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
 from gradysim.integrated.engine_defaults import engine_defaults
+from gradysim.scenario.keys.path_loss import PATH_LOSS_KEYS
 
 SUPPORT = Path("tests/cpp/support")
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.config import load_scenarios
+from gradysim.scenario import load_scenarios
 from gradysim.simulator.handler.assertion import FailedAssertionException
 
 pytest.importorskip("gradysim._netsim")

@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 from gradysim.cli import main
-from gradysim.config import ConfigError, load_scenarios
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.scenario import ConfigError, load_scenarios
 
 PAGE = "docs/migration.md"
 

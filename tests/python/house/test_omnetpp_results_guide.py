@@ -9,11 +9,11 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config import load_scenarios
 from gradysim.results import read_scalars, read_vectors
 from gradysim.results.run_identity import RunIdentity
 from gradysim.results.scalar_file import write_scalar_file
 from gradysim.results.scalars import Scalar
+from gradysim.scenario import load_scenarios
 
 GUIDE = "docs/guides/omnetpp-results.md"
 

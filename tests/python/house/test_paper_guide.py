@@ -14,10 +14,10 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config import load_scenarios
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.run import run
 from gradysim.results.student import mean_with_half_width
+from gradysim.scenario import load_scenarios
 
 GUIDE = "docs/guides/paper.md"
 

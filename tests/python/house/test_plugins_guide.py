@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from gradysim.config import load_scenarios
 from gradysim.protocol.plugin.random_mobility import RandomMobilityConfig
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import load_scenarios
 
 Run = Callable[[str], RunResult]
 

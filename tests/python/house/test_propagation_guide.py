@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.keys.antenna import ANTENNA_KEYS
-from gradysim.config.keys.environment import MATERIALS, OBSTACLE_LOSS_KEYS
-from gradysim.config.keys.key import Key
-from gradysim.config.keys.path_loss import PATH_LOSS_KEYS
-from gradysim.config.scenario import Scenario
+from gradysim.scenario.keys.antenna import ANTENNA_KEYS
+from gradysim.scenario.keys.environment import MATERIALS, OBSTACLE_LOSS_KEYS
+from gradysim.scenario.keys.key import Key
+from gradysim.scenario.keys.path_loss import PATH_LOSS_KEYS
+from gradysim.scenario.scenario import Scenario
 
 
 def test_its_lines_run(

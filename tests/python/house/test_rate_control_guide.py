@@ -11,9 +11,9 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config import load_scenarios
-from gradysim.config.keys.rate_control import RATE_CONTROL_KEYS
 from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
+from gradysim.scenario.keys.rate_control import RATE_CONTROL_KEYS
 
 
 @pytest.fixture

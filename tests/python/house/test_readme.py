@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from gradysim.config import load_scenarios
-from gradysim.config.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
+from gradysim.scenario import load_scenarios
+from gradysim.scenario.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
 
 README = Path(__file__).parents[3] / "README.md"
 

@@ -8,8 +8,8 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
-from gradysim.config import load_scenarios
 from gradysim.integrated.scenario_warnings import scenario_warnings
+from gradysim.scenario import load_scenarios
 
 
 @pytest.fixture

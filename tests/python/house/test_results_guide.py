@@ -12,10 +12,10 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
-from gradysim.config import Scenario, load_scenarios
 from gradysim.prototype.run import run
 from gradysim.results import read_means
 from gradysim.results.run_result import NodeResult
+from gradysim.scenario import Scenario, load_scenarios
 
 GUIDE = "docs/guides/results.md"
 

@@ -10,10 +10,10 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
-from gradysim.config import Scenario, load_scenarios
-from gradysim.config.value.drawing_functions import DRAWING_FUNCTIONS
-from gradysim.config.value.functions import FUNCTIONS, SELECT_WRITTEN
-from gradysim.config.value.operators import OPERATORS
+from gradysim.scenario import Scenario, load_scenarios
+from gradysim.scenario.value.drawing_functions import DRAWING_FUNCTIONS
+from gradysim.scenario.value.functions import FUNCTIONS, SELECT_WRITTEN
+from gradysim.scenario.value.operators import OPERATORS
 
 GUIDE = "docs/guides/values.md"
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from gradysim.config import Scenario, load_scenarios
+from gradysim.scenario import Scenario, load_scenarios
 
 _FILE = Path(__file__).parents[3] / "configs/fading.ini"
 

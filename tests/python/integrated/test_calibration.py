@@ -5,9 +5,9 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config.errors.config_error import ConfigError
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.run import run
+from gradysim.scenario.errors.config_error import ConfigError
 from python.integrated.fading_link import link
 
 

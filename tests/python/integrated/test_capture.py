@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.errors.config_error import ConfigError
 from gradysim.integrated.capture import CaptureError, capture_files, checked_captures, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
+from gradysim.scenario.errors.config_error import ConfigError
 
 UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
 FAILING = 'class Tested(Talker):\n    def handle_packet(self, message): raise RuntimeError("spoilt")'

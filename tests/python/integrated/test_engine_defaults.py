@@ -4,12 +4,12 @@ import re
 import pytest
 
 from gradysim import _netsim
-from gradysim.config.key_list import OWN_STRUCTS, UNKNOWN, key_sections
-from gradysim.config.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.config.keys.mobility import ARDUPILOT, STATIC_GRID
-from gradysim.config.value.expression import parse_value
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, SPEED_MPS, UPDATE_S
+from gradysim.scenario.key_list import OWN_STRUCTS, UNKNOWN, key_sections
+from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.scenario.keys.mobility import ARDUPILOT, STATIC_GRID
+from gradysim.scenario.value.expression import parse_value
 
 MADE_WITH = {
     "medium.typename": _netsim.MediumConfig,

@@ -2,12 +2,12 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import load_scenarios
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.source import Source
-from gradysim.config.value.setting import Setting
 from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.network import check_scenario
+from gradysim.scenario import load_scenarios
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.value.setting import Setting
 
 WLAN = "*.uavs[*].wlan[*]"
 ANTENNA = f"{WLAN}.radio.antenna"

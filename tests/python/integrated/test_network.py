@@ -2,9 +2,6 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.source import Source
-from gradysim.config.value.setting import Setting
 from gradysim.integrated.network import (
     build_network,
     check_scenario,
@@ -12,6 +9,9 @@ from gradysim.integrated.network import (
     node_config,
     set_fields,
 )
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.value.setting import Setting
 
 
 def setting(value, key="key"):

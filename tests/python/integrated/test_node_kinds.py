@@ -4,8 +4,8 @@ from collections.abc import Callable
 
 import pytest
 
-from gradysim.config import Scenario
 from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
+from gradysim.scenario import Scenario
 
 FOUR = "*.numUavs = 4"
 

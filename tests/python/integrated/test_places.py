@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
 
 SATURATION = Path(__file__).resolve().parents[3] / "configs" / "reference" / "saturation.ini"
 

@@ -5,13 +5,13 @@ from inspect import signature
 import pytest
 
 from gradysim.cli import calibrate_power
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.keys.radio import RADIO_KEYS
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
 from gradysim.integrated.run import run
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.keys.radio import RADIO_KEYS
+from gradysim.scenario.scenario import Scenario
 from python.integrated.fading_link import link
 
 RANGE = "**.wlan[*].radio.transmitter.communicationRange = 150m"

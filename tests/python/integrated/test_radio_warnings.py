@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from gradysim.config import Scenario
 from gradysim.integrated.network import medium_config
 from gradysim.integrated.radio_warnings import radio_warnings
+from gradysim.scenario import Scenario
 
 UAVS = "*.uavs[*]"
 

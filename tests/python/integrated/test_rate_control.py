@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.scenario import Scenario
 from gradysim.integrated.run import run
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.scenario import Scenario
 
 SENDER = """
 class Tested(Quiet):

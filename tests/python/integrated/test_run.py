@@ -3,11 +3,11 @@ import weakref
 
 import pytest
 
-from gradysim.config.errors.config_error import BadValue
-from gradysim.config.keys.options import OPTIONS
-from gradysim.config.value.expression import parse_value
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
+from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.keys.options import OPTIONS
+from gradysim.scenario.value.expression import parse_value
 
 PACKETS = '    def handle_packet(self, message): raise RuntimeError("spoilt")'
 

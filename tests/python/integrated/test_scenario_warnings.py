@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import Scenario, load_scenarios
-from gradysim.config.file.reader import read_ini
-from gradysim.config.file.sections import config_names
 from gradysim.integrated.scenario_warnings import scenario_warnings
+from gradysim.scenario import Scenario, load_scenarios
+from gradysim.scenario.file.reader import read_ini
+from gradysim.scenario.file.sections import config_names
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 EXAMPLES = [

@@ -7,9 +7,9 @@ import pytest
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
-from gradysim.config import ConfigError, load_scenarios
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.run import run
+from gradysim.scenario import ConfigError, load_scenarios
 
 TOWN = Path(__file__).parents[3] / "configs" / "town" / "town.ini"
 SENT = 200

@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 import pytest
 
-from gradysim.config import Scenario
 from gradysim.integrated.network import medium_config
 from gradysim.integrated.two_ray_ground import ground_hint
+from gradysim.scenario import Scenario
 
 
 @pytest.fixture

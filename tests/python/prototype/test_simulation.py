@@ -3,12 +3,12 @@ from dataclasses import replace
 
 import pytest
 
-from gradysim.config.errors.config_error import ConfigError
-from gradysim.config.errors.source import Source
-from gradysim.config.keys.mobility import ARDUPILOT, MOBILITY_KEYS
-from gradysim.config.scenario import CommunicationMediumSpec
-from gradysim.config.value.setting import Setting
 from gradysim.prototype.simulation import build_simulation, communication_medium, mobility_handler
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.keys.mobility import ARDUPILOT, MOBILITY_KEYS
+from gradysim.scenario.scenario import CommunicationMediumSpec
+from gradysim.scenario.value.setting import Setting
 
 TYPENAME = next(key for key in MOBILITY_KEYS if key.path == "mobility.typename")
 

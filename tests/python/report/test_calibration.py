@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.config.value.expression import parse_value
-from gradysim.config.value.kinds import quantity
 from gradysim.integrated.calibration import Calibration
 from gradysim.report.calibration import check_picture, draw, text
+from gradysim.scenario.value.expression import parse_value
+from gradysim.scenario.value.kinds import quantity
 
 
 def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None) -> Calibration:

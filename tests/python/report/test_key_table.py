@@ -2,8 +2,8 @@ from io import StringIO
 
 from rich.console import Console
 
-from gradysim.config.key_list import KeyRow, KeySection
 from gradysim.report.key_table import markdown, plain_text, rich_tables
+from gradysim.scenario.key_list import KeyRow, KeySection
 
 SECTIONS = [KeySection("Of nodes", (KeyRow("*.nodes[*].a", "m", "1m", "Length"),))]
 

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import load_scenarios
 from gradysim.prototype.run import run
 from gradysim.results.run_identity import identity_of, lasting_attributes
+from gradysim.scenario import load_scenarios
 
 STUDY = ("repeat = 2", "**.heard = ${y=5, 6}", "**.mobility.speed = ${x=1, 2}mps", "sim-time-limit = ${0.5s}")
 

@@ -9,7 +9,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 pytest.importorskip("matplotlib", reason="the pictures need it")
 
 from figures import SIZES, curve, main
-from gradysim.config import load_scenarios
+from gradysim.scenario import load_scenarios
 from observed_run import SCENARIOS, ObservedRun, Sample, observed_run
 
 

@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
-from gradysim.config import load_scenarios
+from gradysim.scenario import load_scenarios
 from observed_run import MODES, SCENARIOS, ObservedRun, observed_run
 
 

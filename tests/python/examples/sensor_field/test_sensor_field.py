@@ -7,9 +7,9 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.prototype.run
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "sensor_field.ini"
 SENSORS = 20

@@ -9,8 +9,8 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.config import load_scenarios
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
 SIZES = ["ZigZag5", "ZigZag15", "ZigZag25"]

@@ -7,7 +7,7 @@ import pytest
 from rich.console import Console
 
 from compare import FATES, MODES, SCENARIOS, collected, comparison, frames_with
-from gradysim.config import Scenario, load_scenarios
+from gradysim.scenario import Scenario, load_scenarios
 
 
 @pytest.fixture(scope="module")

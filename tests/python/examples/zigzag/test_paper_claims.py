@@ -16,9 +16,9 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 import gradysim.prototype.run
-from gradysim.config import load_scenarios
 from gradysim.integrated.run import run
 from gradysim.results.run_result import RunResult
+from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
 SIZES = ["ZigZag5", "ZigZag15", "ZigZag25"]

@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 import pytest
 
-from gradysim.config import load_scenarios
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.interface import IProvider
 from gradysim.protocol.messages.mobility import MobilityCommandType
+from gradysim.scenario import load_scenarios
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MobilityConfiguration, MobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.config import load_scenarios
+from gradysim.scenario import load_scenarios
 
 GUIDE = Path(__file__).parents[5] / "docs/guides/raft.md"
 

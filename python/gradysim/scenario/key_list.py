@@ -1,0 +1,157 @@
+"""The list of all keys for people: unit, default and meaning, from the tables that files are read with."""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+
+from gradysim.scenario.errors.nearest import misspelt
+from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
+from gradysim.scenario.keys.key import Key
+from gradysim.scenario.keys.node import GROUP_SIZE, GROUP_SIZE_OF_NODES, PROTOCOL_KEYS, PROTOCOL_PARAMETER
+from gradysim.scenario.keys.options import OPTION_KEYS
+from gradysim.scenario.protocol.native import NativeProtocol
+from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.scenario import CommunicationMediumSpec
+
+Structs = Mapping[str, Mapping[str, object]]
+"""{struct: {variant: the struct with its defaults}}; the variant that is the default is called ""."""
+
+UNKNOWN = "?"
+"""Default of a key whose struct is not at hand."""
+
+_INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
+
+_GROUP = re.compile(r"\*\.(\w+)(?:\[[^\]]*\])?\.", re.ASCII)
+"""The beginning of a key of a group of nodes, or of a part of the network."""
+
+_GROUP_SIZE = re.compile(r"(?:\*\*?\.)?num[A-Z]\w*", re.ASCII)
+"""What gives the number of nodes of a group, or some other number."""
+
+_PREFIXES = {GROUP_SIZE_OF_NODES: "*.", GROUP_SIZE: "*.nodes."}
+"""What those of the keys of a group begin with that are not of its nodes."""
+
+OWN_STRUCTS: Structs = {"communication_medium": {"": CommunicationMediumSpec()}}
+
+
+@dataclass(frozen=True)
+class KeyRow:
+    """One key: all texts as they are shown."""
+
+    key: str
+    unit: str
+    default: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class KeySection:
+    """Keys that are written below the same thing."""
+
+    title: str
+    rows: tuple[KeyRow, ...]
+
+
+def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ()) -> list[KeySection]:
+    """All keys. `structs` has the defaults of the engine's configurations; a struct may be missing.
+
+    `natives` are the engine's protocols.
+    """
+    known = {**structs, **OWN_STRUCTS}
+    node_keys = (GROUP_SIZE_OF_NODES, GROUP_SIZE, *PROTOCOL_KEYS, PROTOCOL_PARAMETER)
+    node_keys += NODE_KEYS[len(PROTOCOL_KEYS) :]
+    native_rows = tuple(row for protocol in natives for row in _native_rows(protocol))
+    sections = [
+        KeySection("Options of a run", _rows("", OPTION_KEYS, known)),
+        KeySection("Of a group of nodes, or of one node", _rows("*.nodes[*].", node_keys, known)),
+        KeySection("Of the network", _rows("*.", NETWORK_KEYS, known)),
+    ]
+    return (
+        [*sections, KeySection("Of a node with a native protocol", native_rows)] if native_rows else sections
+    )
+
+
+def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
+    """The keys that match `pattern`, if it has a `*` or `?`; otherwise those of whose texts one contains it.
+
+    So a key is found by its values and its meaning, too. Case does not matter. Keys are listed for `nodes`
+    and any index, `wlan[*]`: what is asked for one index or a range is found there, and what is asked for
+    another group, `*.uavs[0].mobility.speed`, `*.numUavs`. If no key matches, those that begin so are listed.
+    """
+    everything = list(sections)
+    wanted = (pattern, _group_as_nodes(pattern, key_meant(everything, pattern)))
+    found = (_matching(everything, name + end) for end in ("", "*") for name in wanted)
+    return next(filter(None, found), [])
+
+
+def key_meant(sections: Iterable[KeySection], pattern: str) -> str:
+    """The end of a message about a pattern that matches none, "; did you mean ...?"; "" if it is no slip."""
+    keys = [row.key.partition(" ")[0].split(".") for section in sections for row in section.rows]
+    meant = misspelt(pattern, (".".join(key[-length:]) for length in (1, 2) for key in keys))
+    return f"; did you mean `{meant}`?" if meant else ""
+
+
+def _matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
+    wanted = _INDEX.sub("[*]", pattern.lower())
+    is_pattern = bool(set("*?") & set(wanted.replace("[*]", "")))
+    glob = wanted.replace("[", "[[]")
+
+    def fits(row: KeyRow) -> bool:
+        if is_pattern:
+            return fnmatchcase(row.key.lower(), glob)
+        return any(wanted in text.lower() for text in (row.key, row.unit, row.default, row.meaning))
+
+    found = [replace(section, rows=tuple(filter(fits, section.rows))) for section in sections]
+    return [section for section in found if section.rows]
+
+
+def _group_as_nodes(pattern: str, meant: str) -> str:
+    """The pattern for the group `nodes`; `meant` is what `key_meant` says of it."""
+    if _GROUP_SIZE.fullmatch(pattern) and (not meant or GROUP_SIZE_OF_NODES.path in meant):
+        return f"{_PREFIXES[GROUP_SIZE_OF_NODES]}{GROUP_SIZE_OF_NODES.path}"
+    group = _GROUP.match(pattern)
+    if group is None or group[1] in NETWORK_MODULES:
+        return pattern
+    rest = pattern[group.end() :]
+    return f"{_PREFIXES[GROUP_SIZE]}{rest}" if rest == GROUP_SIZE.path else f"*.nodes[*].{rest}"
+
+
+def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, ...]:
+    return tuple(
+        KeyRow(
+            f"{_PREFIXES.get(key, prefix)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key)
+        )
+        for key in keys
+    )
+
+
+def _native_rows(protocol: type[NativeProtocol]) -> Iterator[KeyRow]:
+    """The protocol itself, and its parameters."""
+    same = f"the same as {protocol._python_class}" if protocol._python_class else ""
+    yield KeyRow(f'*.nodes[*].protocol.typename = "{protocol.__name__}"', same, "", protocol._meaning)
+    for name, kind in parameters_of(protocol).items():
+        unit, meaning = protocol._parameters[name].unit, protocol._parameters[name].meaning
+        value = getattr(protocol, name)
+        is_quantity = isinstance(value, float)
+        default = f"{value:g}{unit}" if is_quantity else kind.show(value)
+        shown = unit or "number" if is_quantity else f"{kind.unit} of {unit}" if unit else kind.unit
+        yield KeyRow(f"*.nodes[*].protocol.{name}", shown, default, meaning)
+
+
+def _meaning(key: Key) -> str:
+    """What a key means, after the models that read it."""
+    models = key.read_by.shown if key.read_by else ""
+    return f"{models}: {key.meaning}" if models else key.meaning
+
+
+def _default(key: Key, structs: Structs) -> str:
+    if key.default:
+        return key.default
+    variants = structs.get(key.struct)
+    if not variants:
+        return UNKNOWN
+    texts = {name: key.kind.show(getattr(struct, key.field)) for name, struct in variants.items()}
+    default = texts.pop("")
+    if key.field == "typename":
+        return default
+    return "; ".join([default, *(f"{name}: {text}" for name, text in texts.items() if text != default)])

@@ -1,0 +1,128 @@
+"""Finds the groups of nodes that a configuration names, and how many nodes each has.
+
+`*.numUavs = 2` or `*.uavs.count = 2` makes uavs[0] and uavs[1]. A name without a count is a single node
+without an index, if its protocol is given by that name: `*.groundStation.protocol.class = ...`. Groups
+come in the order in which they are first named, [General] first, then the bases from the last to the first,
+the own section and the command line; that is the order of node ids.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from gradysim.scenario.keys import NETWORK_MODULES
+from gradysim.scenario.keys.interface import NUM_WLAN_INTERFACES
+from gradysim.scenario.keys.node import GROUP_SIZE, PROTOCOL_KEYS
+from gradysim.scenario.keys.omnetpp_options import IGNORED_MODULES
+from gradysim.scenario.matching.lookup import Found, Lookup
+from gradysim.scenario.value.pattern import Pattern, compile_pattern
+from gradysim.scenario.value.setting import SettingReader
+
+_PROTOCOL_PATHS = frozenset(key.path for key in PROTOCOL_KEYS)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Nodes of one name.
+
+    Attributes:
+        name: The name without an index.
+        size: The number of nodes, or None for a single node without an index.
+        size_found: The entry that gives the number; None for a single node.
+        size_key: The key below the network by which the size can be given: "numUavs".
+    """
+
+    name: str
+    size: int | None
+    size_found: Found | None
+    size_key: str
+
+    def node_names(self) -> list[str]:
+        """Names of the nodes in the order of their indices."""
+        return [self.name] if self.size is None else [f"{self.name}[{index}]" for index in range(self.size)]
+
+    @property
+    def written(self) -> str:
+        """The name as people write it in a pattern for all nodes of the group."""
+        return self.name if self.size is None else f"{self.name}[*]"
+
+
+def find_groups(lookup: Lookup, settings: SettingReader) -> list[Group]:
+    """All groups, in the order of their node ids. Raises ConfigError if a number of nodes is none."""
+    mentions = _Mentions(sorted(lookup.found, key=lambda found: (-found.rank, found.order)))
+    groups = []
+    for name, size_key in mentions.size_keys().items():
+        entries = [lookup.first(size_key), lookup.first(name, GROUP_SIZE.path)]
+        given = sorted((found for found in entries if found), key=lambda found: found.order)
+        if given and not given[0].is_default:
+            size = int(settings.scalar(given[0].entry, GROUP_SIZE.kind, f"{name}.{GROUP_SIZE.path}"))
+            groups.append(Group(name, size, given[0], size_key))
+        elif name in mentions.with_class:
+            groups.append(Group(name, None, None, size_key))
+    return groups
+
+
+class _Mentions:
+    """The names that entries mention literally, in the order of the entries."""
+
+    def __init__(self, entries: Iterable[Found]) -> None:
+        self.with_class: set[str] = set()
+        self._with_protocol: set[str] = set()  # with an index, too
+        self._names: dict[str, None] = {}  # a set that keeps its order; holds "num..." keys as well
+        for found in entries:
+            name, rest = _name_and_rest(found)
+            if name is None or name in NETWORK_MODULES or name in IGNORED_MODULES:
+                continue
+            if rest is None and not _is_size_key(name):
+                continue
+            self._names.setdefault(name)
+            if rest in _PROTOCOL_PATHS:
+                self._with_protocol.add(name)
+                if _names_single(found):
+                    self.with_class.add(name)
+
+    def size_keys(self) -> dict[str, str]:
+        """Names of groups, each with the key that gives its size.
+
+        `*.numUavs` is for one group: of several that differ in case only, the first that is given a protocol.
+        """
+        groups = [name for name in self._names if not _is_size_key(name)]
+        groups.sort(key=lambda name: name not in self._with_protocol)
+        by_folded = {name.casefold(): name for name in reversed(groups)}
+        taken = {name[3:].casefold() for name in self._names if _is_size_key(name)}
+        result: dict[str, str] = {}
+        for name in self._names:
+            folded = name.casefold()
+            if _is_size_key(name):
+                group = by_folded.get(folded[3:], name[3].lower() + name[4:])
+                result[group] = name
+            elif folded in taken and by_folded[folded] != name:
+                result[name] = f"{name}.{GROUP_SIZE.path}"
+            else:
+                result.setdefault(name, f"num{name[0].upper()}{name[1:]}")
+        return result
+
+
+def _names_single(found: Found) -> bool:
+    """Whether the entry's name below the network has no index."""
+    return "[" not in _below_network(found)[0].text
+
+
+def _is_size_key(name: str) -> bool:
+    return name.startswith("num") and name[3:4].isupper() and name != NUM_WLAN_INTERFACES.path
+
+
+def _name_and_rest(found: Found) -> tuple[str | None, str | None]:
+    """The group that an entry names (None if not literally), and its literal rest (None if it has none)."""
+    name, *rest = _below_network(found)
+    group, bracket, _ = name.literal_prefix().partition("[")
+    if not group or not (bracket or name.literal):
+        return None, None
+    return group, (rest[0].literal or rest[0].text) if rest else None
+
+
+def _below_network(found: Found) -> list[Pattern]:
+    """The parts below the network; `**.` at the start stands for the network here."""
+    if found.parts is None and found.entry.key.startswith("**."):
+        below = compile_pattern(f"*.{found.entry.key[3:]}").split()
+        return below[1:] if below else [Pattern(())]
+    return found.parts[1:] if found.parts and len(found.parts) > 1 else [Pattern(())]

@@ -1,0 +1,154 @@
+"""The network interfaces of nodes: how many each has, and what the entries in force say of each.
+
+Interfaces with the same entries in force share one InterfaceSpec, also those of one node: `wlan[*]` stands
+for all of them.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.keys import WLAN_KEYS
+from gradysim.scenario.keys.bands import BAND, CHANNELS
+from gradysim.scenario.keys.interface import (
+    IEEE802154,
+    INTERFACE_TYPENAME,
+    NUM_WLAN_INTERFACES,
+    at_interface,
+)
+from gradysim.scenario.keys.key import Key
+from gradysim.scenario.keys.radio import (
+    BAND_BESIDE_FREQUENCY,
+    BAND_NAME,
+    BAND_OF_CHANNEL,
+    CENTER_FREQUENCY,
+    CHANNEL_NUMBER,
+    OF_802154,
+)
+from gradysim.scenario.matching.groups import Group
+from gradysim.scenario.matching.lookup import Candidates, Found, Lookup
+from gradysim.scenario.matching.struct_reader import read_struct
+from gradysim.scenario.node.interface_spec import STRUCTS, InterfaceSpec
+from gradysim.scenario.value.setting import SettingReader
+
+
+def interface_counts(lookup: Lookup, groups: list[Group], settings: SettingReader) -> dict[str, int]:
+    """The number of interfaces of each node, by name. Raises ConfigError for what is no such number."""
+    given = lookup.candidates(NUM_WLAN_INTERFACES.path)
+    counts: dict[str, int] = {}
+    for group in groups:
+        for name in group.node_names():
+            found = given.first(name)
+            if found is None or found.is_default:
+                counts[name] = 1
+            else:
+                path = f"{name}.{NUM_WLAN_INTERFACES.path}"
+                counts[name] = int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind, path))
+    return counts
+
+
+class InterfaceBuilder:
+    """Makes the interfaces of nodes."""
+
+    def __init__(self, lookup: Lookup, settings: SettingReader) -> None:
+        """For the nodes that the entries in `lookup` are about."""
+        self._lookup = lookup
+        self._settings = settings
+        self._keys: list[list[tuple[Key, Candidates]]] = []  # of each interface: those that some entry sets
+        self._known: dict[object, InterfaceSpec] = {}
+
+    def interfaces(self, node: str, count: int) -> tuple[InterfaceSpec, ...]:
+        """Return the `count` interfaces of that node."""
+        return tuple(self._interface(node, index, count) for index in range(count))
+
+    def _interface(self, node: str, index: int, count: int) -> InterfaceSpec:
+        while len(self._keys) <= index:
+            paths = ((key, at_interface(key.path, len(self._keys))) for key in WLAN_KEYS)
+            self._keys.append(
+                [(key, candidates) for key, path in paths if (candidates := self._lookup.candidates(path))]
+            )
+        in_force = [(key, candidates.first(node)) for key, candidates in self._keys[index]]
+        found = {key: entry for key, entry in in_force if entry is not None}
+        its_own = (node, index) if any(entry.differs for entry in found.values()) else None
+        known = (its_own, *((key.path, entry) for key, entry in found.items()))
+        spec = self._known.get(known)
+        if spec is None:
+            is_802154 = self._is_802154(found)
+
+            def path_of(key: Key) -> str:
+                return f"{node}.{at_interface(key.path, index)}"
+
+            in_band = _of_802154(found) if is_802154 else self._in_its_band(found, path_of)
+            try:
+                structs = {
+                    struct: read_struct(struct, in_band, self._settings, path_of) for struct in STRUCTS
+                }
+            except ConfigError as error:
+                channel = found.get(CHANNEL_NUMBER)
+                if channel is None or channel.entry.source != error.source or not self._has_typenames():
+                    raise
+                if _is_about_this_alone(channel.entry.key, node, index, count):
+                    raise
+                hint = _of_one_kind_only(node, index, is_802154)
+                raise ConfigError(error.message + hint, error.source) from error
+            spec = self._known[known] = InterfaceSpec(**structs, range_sets_power=_range_comes_first(found))
+        return spec
+
+    def _has_typenames(self) -> bool:
+        """Whether there may be interfaces of both kinds."""
+        return bool(self._lookup.candidates(INTERFACE_TYPENAME.path))
+
+    def _is_802154(self, found: Mapping[Key, Found]) -> bool:
+        chosen = found.get(INTERFACE_TYPENAME)
+        if chosen is None or chosen.is_default:
+            return False
+        return self._settings.scalar(chosen.entry, INTERFACE_TYPENAME.kind) in IEEE802154.names
+
+    def _in_its_band(self, found: Mapping[Key, Found], path_of: Callable[[Key], str]) -> Mapping[Key, Found]:
+        """Read a channel's number as one of the band beside it.
+
+        The band says nothing of its own if a channel or its centre is given.
+        """
+        written = {key: entry for key, entry in found.items() if not entry.is_default}
+        band = written.get(BAND_NAME)
+        channel, centre = written.get(CHANNEL_NUMBER), written.get(CENTER_FREQUENCY)
+        if band is None or (channel is None and centre is None):
+            return found
+        name = str(self._settings.scalar(band.entry, BAND, path_of(BAND_NAME)))
+        in_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
+        if channel is not None:
+            in_band[replace(CHANNEL_NUMBER, kind=CHANNELS[name])] = channel
+        if centre is None or (channel is not None and channel.order < centre.order):
+            in_band[BAND_OF_CHANNEL] = band
+        elif not centre.overrides(band):
+            in_band[BAND_BESIDE_FREQUENCY] = band
+        return in_band
+
+
+def _of_802154(found: Mapping[Key, Found]) -> Mapping[Key, Found]:
+    """Read a channel's number as 802.15.4 counts, in its only band."""
+    return {OF_802154.get(key, key): entry for key, entry in found.items()}
+
+
+def _is_about_this_alone(key: str, node: str, index: int, count: int) -> bool:
+    """Whether a key names a node's group and, of several interfaces, this one."""
+    group = node.partition("[")[0]
+    return key.startswith((f"*.{group}.", f"*.{group}[")) and (count == 1 or f".wlan[{index}]." in key)
+
+
+def _of_one_kind_only(node: str, index: int, is_802154: bool) -> str:
+    """The end of an error in a channel's number: the two standards count apart, and `**` meets both."""
+    kind, other = ("802.15.4", "802.11") if is_802154 else ("802.11", "802.15.4")
+    group, bracket, _ = node.partition("[")
+    line = f"*.{group}{bracket and '[*]'}.{at_interface(CHANNEL_NUMBER.path, index)} = default"
+    return (
+        f", since wlan[{index}] of {node} is of {kind}; a line before it, `{line}`, leaves it to those of"
+        f" {other}"
+    )
+
+
+def _range_comes_first(found: Mapping[Key, Found]) -> bool:
+    """Whether a range was given, and not after a power."""
+    orders = {key.field: entry.order for key, entry in found.items() if not entry.is_default}
+    at = orders.get("communication_range_m")
+    return at is not None and at <= orders.get("tx_power_w", at)

@@ -1,0 +1,53 @@
+"""The nodes that options of the command line name: `uavs[0]`, `uavs`, `all`."""
+
+from collections.abc import Iterable, Sequence
+
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.scenario import Scenario
+
+ALL = "all"
+"""Stands for every node, unless a node or a group has that name."""
+
+
+def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
+    """Return the nodes of these names, each once, in the order of ids; none for names that it has not.
+
+    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `ALL`.
+    """
+    chosen = {node.id: node for name in names for node in _nodes_of(scenario, name)}
+    return [chosen[node_id] for node_id in sorted(chosen)]
+
+
+def check_node_names(scenarios: Sequence[Scenario], names: Iterable[str], option: str) -> None:
+    """Raise ConfigError for the first name that none of these runs of a configuration has.
+
+    `option` is what the names were given to, `--pcap`.
+    """
+    networks = list({id(scenario.nodes): scenario for scenario in scenarios}.values())
+    for name in names:
+        if not any(_nodes_of(scenario, name) for scenario in networks):
+            raise ConfigError(f"{option} {name}: {_no_such_node(scenarios, name)}")
+
+
+def _nodes_of(scenario: Scenario, name: str) -> Sequence[NodeSpec]:
+    found = [node for node in scenario.nodes if name in (node.name, node.group)]
+    return scenario.nodes if name == ALL and not found else found
+
+
+def _no_such_node(scenarios: Sequence[Scenario], name: str) -> str:
+    nodes = {node.name: node for scenario in scenarios for node in scenario.nodes}
+    if not nodes:
+        return "no such node; the scenario has none"
+    groups = list(dict.fromkeys(node.group for node in nodes.values()))
+    suggestion = did_you_mean(name, [*groups, *nodes, ALL])
+    where = ""
+    if len(scenarios) > 1:
+        where = " in any of the runs"
+    elif scenarios[0].run_count > 1:  # others may have it
+        where = f" in run {scenarios[0].run_number}"
+    return (
+        f"no such node{where}; expected a node such as {next(iter(nodes))},"
+        f" a group ({', '.join(groups)}) or {ALL}{suggestion}"
+    )

@@ -1,0 +1,127 @@
+"""What a configuration says, run by run: the plain data that both modes are built from."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gradysim.protocol.checked_values import checked_number
+from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
+from gradysim.scenario.file.reader import Entry, Section
+from gradysim.scenario.keys.options import LONGEST_RUN_S
+from gradysim.scenario.matching.lookup import is_ignored, options_in_force
+from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.obstacle.obstacle_spec import ObstacleSpec
+from gradysim.scenario.runs.labels import with_labels
+from gradysim.scenario.runs.seed import checked_seed
+from gradysim.scenario.runs.unread_variables import UnreadVariables
+from gradysim.scenario.runs.variables import run_variables, substitute
+from gradysim.scenario.value.setting import Setting
+
+
+@dataclass(frozen=True)
+class CommunicationMediumSpec:
+    """Prototype mode's medium.
+
+    Attributes:
+        transmission_range_m: Distance up to which a message arrives, >= 0.
+        delay_s: Time from sending to arrival, >= 0.
+        failure_rate: Part of the messages that is lost, 0 to 1.
+    """
+
+    transmission_range_m: float = TRANSMISSION_RANGE_M
+    delay_s: float = 0.0
+    failure_rate: float = 0.0
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """One run of one configuration.
+
+    Attributes:
+        file: The .ini file.
+        config: Name of the configuration.
+        run_number: From 0, over all combinations of values that the configuration iterates over, and their
+            repetitions.
+        seed: Of all random streams of the run, 0 to 2^63 - 1. Those of values that the file draws are
+            included: they are drawn when it is read, so that `replace(scenario, seed=...)` leaves them.
+        description: What the configuration says of itself, or "".
+        sim_time_limit_s: Simulated time at which the run ends, > 0 and at most 9,200,000.
+        nodes: In the order of their ids.
+        medium: Fields of MediumConfig that were set; the others keep their defaults.
+        communication_medium: Prototype mode's medium.
+        reference_coordinates: Latitude in degrees, longitude in degrees and altitude in metres of the origin.
+        obstacles: What stands between the nodes.
+        sections: The sections of the file that the configuration consists of, in the order of the search.
+        repetition: 0 to repeat-1.
+        iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
+        settings_hash: Of all that the file and the overrides say of this run, a seed given with them apart.
+            It is the same for all repetitions, unless a variable is in lock-step with them.
+        file_hashes: {name, seen from the folder of the .ini file: hash} of the files that settings name:
+            protocols with what they import from their folder, obstacles, error rates.
+        run_count: How many runs the configuration has, this one and those that were not asked for included.
+        network: What paths of parameters and results begin with.
+        lines: The entries of the overrides and of these sections in their order, with names for the values
+            of this run.
+        unread_variables: Those that the configuration iterates over and that no run reads; none if not all
+            runs were asked for, as the others may.
+    """
+
+    file: Path
+    config: str
+    run_number: int
+    seed: int
+    description: str
+    sim_time_limit_s: float
+    nodes: tuple[NodeSpec, ...]
+    medium: Mapping[str, Setting]
+    communication_medium: CommunicationMediumSpec
+    reference_coordinates: tuple[float, float, float]
+    obstacles: tuple[ObstacleSpec, ...] = ()
+    sections: tuple[Section, ...] = field(default=(), repr=False)
+    repetition: int = 0
+    iterations: Mapping[str, str] = field(default_factory=dict)
+    settings_hash: str = ""
+    file_hashes: Mapping[str, str] = field(default_factory=dict)
+    run_count: int = 1
+    network: str = "Network"
+    lines: tuple[Entry, ...] = field(default=(), repr=False)
+    unread_variables: tuple[UnreadVariables, ...] = field(default=(), repr=False)
+
+    def __post_init__(self) -> None:
+        """Check what scripts replace. Raises TypeError and ValueError, which name the field."""
+        object.__setattr__(self, "seed", checked_seed(self.seed))
+        limit_s = checked_number(
+            "sim_time_limit_s",
+            self.sim_time_limit_s,
+            lambda time_s: 0 < time_s <= LONGEST_RUN_S,
+            f"a number of seconds, more than 0 and at most {LONGEST_RUN_S}",
+            ValueError,
+        )
+        object.__setattr__(self, "sim_time_limit_s", limit_s)
+        for place, node in enumerate(self.nodes):
+            if node.id != place:
+                raise ValueError(
+                    f"nodes: {node.name}, at place {place}, has the id {node.id}; expected 0, 1, ... in order"
+                )
+
+    @property
+    def variables(self) -> dict[str, str]:
+        """Value of each variable that `${...}` may name in this run, the predefined ones included."""
+        values = run_variables(
+            self.file, self.network, self.config, self.run_number, self.repetition, self.iterations
+        )
+        return with_labels(values, self.seed, options_in_force(self.lines))
+
+    @property
+    def entries(self) -> tuple[Entry, ...]:
+        """The lines with the values of this run."""
+        variables = self.variables
+        return tuple(line if is_ignored(line) else substitute(line, variables) for line in self.lines)
+
+
+def require_scenario(value: object) -> None:
+    """Raise TypeError if `value` is anything else, such as a file or the list of all runs."""
+    if not isinstance(value, Scenario):
+        raise TypeError(
+            f"expected a Scenario, one of the list that load_scenarios returns, got {value!r:.80}"
+        )

@@ -1,0 +1,274 @@
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.file.reader import OVERRIDES, IniFile, read_ini, read_overrides
+
+Write = Callable[..., Path]
+
+
+def entries(ini: IniFile, section: str = "General") -> list[tuple[str, str, int]]:
+    return [(entry.key, entry.text, entry.source.line) for entry in ini.sections[section].entries]
+
+
+def error_of(file: Path) -> str:
+    with pytest.raises(ConfigError) as caught:
+        read_ini(file)
+    return str(caught.value).replace(f"{file.parent}/", "")
+
+
+def test_entries_before_any_heading_are_general(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = 1\n[Config X]\nb = 2\n"))) == [("a", "1", 1)]
+
+
+@pytest.mark.parametrize("heading", ["[Config X]", "[X]", "[ Config  X ]", "[X] # comment"])
+def test_headings(write_ini: Write, heading: str) -> None:
+    assert entries(read_ini(write_ini(f"{heading}\nb = 2\n")), "X") == [("b", "2", 2)]
+
+
+def test_carriage_returns_and_byte_order_marks_are_stripped(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("\ufeffa = 1\r\nb = 2\r\n"))) == [
+        ("a", "1", 1),
+        ("b", "2", 2),
+    ]
+
+
+def test_a_backslash_joins_without_a_newline(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini('a = "on\\\ne" # c\nb = 2'))) == [
+        ("a", '"one"', 1),
+        ("b", "2", 3),
+    ]
+
+
+def test_a_backslash_at_the_end_of_the_file_joins_nothing(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = 1\nb = 2\\"))) == [("a", "1", 1), ("b", "2", 2)]
+
+
+def test_an_indented_line_continues_with_a_newline(write_ini: Write) -> None:
+    text = "a = 1h # one\n\n# comment\n  # another\n  5min # two\nb = 2\n"
+    assert entries(read_ini(write_ini(text))) == [("a", "1h\n5min", 1), ("b", "2", 6)]
+
+
+def test_a_tab_indents_too(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = 1h\n\t5min\n"))) == [("a", "1h\n5min", 1)]
+
+
+def test_a_continuation_may_have_quotes_comparisons_and_words_with_an_equals_sign(write_ini: Write) -> None:
+    text = 'a = 1\n  "*.b.c = 2"\n  d.e == 3\n  where x.y is = 4\n'
+    assert entries(read_ini(write_ini(text))) == [("a", '1\n"*.b.c = 2"\nd.e == 3\nwhere x.y is = 4', 1)]
+
+
+def test_errors_show_a_continued_value_in_one_line(write_ini: Write) -> None:
+    (entry,) = read_ini(write_ini("a = 1h\n  5min\n")).sections["General"].entries
+    assert entry.source.value == "1h 5min"
+
+
+def test_a_backslash_outside_of_quotes_hides_no_comment(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini("a = x \\# comment\n"))) == [("a", "x \\", 1)]
+
+
+def test_a_hash_between_quotes_is_no_comment(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini('a = "x # \\" # y" # comment'))) == [("a", '"x # \\" # y"', 1)]
+
+
+def test_the_first_equals_sign_splits(write_ini: Write) -> None:
+    assert entries(read_ini(write_ini('a="x=y"'))) == [("a", '"x=y"', 1)]
+
+
+def test_order_is_kept_and_keys_may_come_twice(write_ini: Write) -> None:
+    assert [key for key, _, _ in entries(read_ini(write_ini("b = 1\na = 2\nb = 3\n")))] == ["b", "a", "b"]
+
+
+def test_include_is_relative_and_goes_to_the_current_section(write_ini: Write, tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    write_ini("include more.ini\nb = 2\n", "sub/inc.ini")
+    write_ini("c = 3\n", "sub/more.ini")
+    ini = read_ini(write_ini("[X]\na = 1\ninclude sub/inc.ini # comment\nd = 4\n"))
+    assert entries(ini, "X") == [
+        ("a", "1", 2),
+        ("c", "3", 1),
+        ("b", "2", 2),
+        ("d", "4", 4),
+    ]
+    assert [entry.source.file.name for entry in ini.sections["X"].entries] == [
+        "test.ini",
+        "more.ini",
+        "inc.ini",
+        "test.ini",
+    ]
+
+
+def test_sections_of_several_files_merge_and_the_current_one_stays(
+    write_ini: Write,
+) -> None:
+    write_ini("[Y]\nb = 2\n[X]\nc = 3\n", "inc.ini")
+    ini = read_ini(write_ini("[X]\na = 1\ninclude inc.ini\nd = 4\n"))
+    assert [key for key, _, _ in entries(ini, "X")] == ["a", "c", "d"]
+    assert [key for key, _, _ in entries(ini, "Y")] == ["b"]
+
+
+def test_a_section_of_several_files_is_where_it_is_first(write_ini: Write) -> None:
+    write_ini("\n\n[X]\nc = 3\n", "inc.ini")
+    source = read_ini(write_ini("[X]\na = 1\ninclude inc.ini\n")).sections["X"].source
+    assert (source.file.name, source.line) == ("test.ini", 1)
+
+
+def test_a_file_may_be_included_twice(write_ini: Write) -> None:
+    write_ini("a = 1\n", "inc.ini")
+    ini = read_ini(write_ini("[X]\ninclude inc.ini\n[Y]\ninclude inc.ini\n"))
+    assert entries(ini, "X") == entries(ini, "Y")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a = 1\n; old\n", "test.ini:2: `;` starts no comment here; expected `#`"),
+        ("a = 1\n// old\n", "test.ini:2: `//` starts no comment here; expected `#`"),
+        ("a = 1\n  ; old\n", "test.ini:2: `;` starts no comment here; expected `#`"),
+        (
+            '\na = "x\n',
+            'test.ini:2: a text in quotes does not end on its line; expected a closing `"`',
+        ),
+        ("a 1\n", "test.ini:1: `a 1` is no entry; expected `key = value`"),
+        ("= 1\n", "test.ini:1: `= 1` is no entry; expected `key = value`"),
+        ("a = # 1\n", "test.ini:1: `a` has no value; expected `a = value`"),
+        (
+            "  a = 1\n",
+            "test.ini:1: an indented line continues the entry above it, and there is none; expected column 1",
+        ),
+        (
+            "[X]\n  a = 1\n",
+            "test.ini:2: an indented line continues the entry above it, and there is none; expected column 1",
+        ),
+        (
+            "[X]\na = 1\n\n  *.uavs[*].mobility.speed = 3mps\n",
+            "test.ini:4: an indented line continues the entry above it, that of line 2;"
+            " expected a new entry in column 1",
+        ),
+        (
+            "a = 1\n\tseed-set = 3\n",
+            "test.ini:2: an indented line continues the entry above it, that of line 1;"
+            " expected a new entry in column 1",
+        ),
+        ("[X\n", "test.ini:1: `[X` is no heading; expected [General] or [Config NAME]"),
+        (
+            "[Foo X]\n",
+            "test.ini:1: `[Foo X]` is no heading; expected [General] or [Config NAME]",
+        ),
+        (
+            "[Config General]\n",
+            "test.ini:1: `[Config General]` is no heading; expected [General] or [Config NAME]",
+        ),
+        (
+            "[Config a/b]\n",
+            "test.ini:1: `a/b` cannot be part of a file's name, as those of configurations are;"
+            " expected no `/` and no `\\`",
+        ),
+        (
+            "[..\\a]\n",
+            "test.ini:1: `..\\a` cannot be part of a file's name, as those of configurations are;"
+            " expected no `/` and no `\\`",
+        ),
+        (
+            "[X]\n[Y]\n[Config X]\n",
+            "test.ini:3: section `X` is already at line 1; expected each once in a file",
+        ),
+        (
+            "\ninclude test.ini\n",
+            "test.ini:2: test.ini includes itself; expected another file",
+        ),
+        (
+            "*.uavs[${n}].x = 3\n",
+            "test.ini:1: `*.uavs[${n}].x` has a variable; expected `${...}` in values only",
+        ),
+        (
+            "include tst.ini\n",
+            "test.ini:1: tst.ini: no such file; expected an .ini file; did you mean `test.ini`?",
+        ),
+    ],
+)
+def test_errors(write_ini: Write, text: str, message: str) -> None:
+    assert error_of(write_ini(text)) == message
+
+
+def test_a_circle_of_includes_is_an_error(write_ini: Write) -> None:
+    write_ini("\n\ninclude test.ini\n", "inc.ini")
+    assert (
+        error_of(write_ini("include inc.ini\n"))
+        == "inc.ini:3: test.ini includes itself; expected another file"
+    )
+
+
+def test_a_row_of_includes_may_be_so_long(write_ini: Write) -> None:
+    for number in range(1, 102):
+        write_ini(f"include inc{number + 1}.ini\n", f"inc{number}.ini")
+    write_ini("", "inc101.ini")
+    whole = write_ini("include inc2.ini\n")
+    assert read_ini(whole)
+    write_ini("include inc1.ini\n")
+    assert error_of(whole) == "inc100.ini:1: more than 100 files in a row include each other"
+
+
+def test_a_file_that_includes_itself_by_another_name_is_found_out(write_ini: Write, tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    assert error_of(write_ini("include sub/../test.ini\n")).endswith(
+        "sub/../test.ini includes itself; expected another file"
+    )
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_a_zero_byte_is_no_text(tmp_path: Path, encoding: str) -> None:
+    file = tmp_path / "test.ini"
+    file.write_bytes(b"a = 1\n" + "b = 2\n".encode(encoding))
+    assert error_of(file) == "test.ini:2: this line has a zero byte; expected UTF-8"
+
+
+def test_a_link_that_leads_to_itself_is_no_file(write_ini: Write, tmp_path: Path) -> None:
+    (tmp_path / "loop.ini").symlink_to("loop.ini")
+    assert error_of(write_ini("include loop.ini\n")).startswith("test.ini:1: loop.ini: Too many levels")
+
+
+@pytest.mark.parametrize("name", ["m" * 300, "m" * 5000, "m" * 5000 + "/more.ini"])
+def test_a_name_that_no_file_has_is_an_error(write_ini: Write, name: str) -> None:
+    text = error_of(write_ini(f"include {name}\n"))
+    assert text.startswith("test.ini:1: ")
+    assert text.endswith(" File name too long; expected an .ini file")
+
+
+def test_a_missing_file_has_no_line(tmp_path: Path, write_ini: Write) -> None:
+    write_ini("a = 1\n", "zigzag.ini")
+    assert (
+        error_of(tmp_path / "zizag.ini")
+        == "zizag.ini: no such file; expected an .ini file; did you mean `zigzag.ini`?"
+    )
+
+
+def test_other_encodings_are_errors(tmp_path: Path) -> None:
+    file = tmp_path / "latin.ini"
+    file.write_bytes(b"a = 1\ndescription = \xe9t\xe9\n")
+    assert error_of(file) == "latin.ini:2: this line is not UTF-8; expected UTF-8"
+
+
+def test_overrides_have_line_0() -> None:
+    (entry,) = read_overrides(Path("a.ini"), ['*.x.y = "a=b"'])
+    assert (entry.key, entry.text, entry.section) == ("*.x.y", '"a=b"', OVERRIDES)
+    assert str(entry.source) == 'override *.x.y="a=b"'
+
+
+@pytest.mark.parametrize("override", ["repeat", "repeat=", "=3"])
+def test_overrides_need_key_and_value(override: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        read_overrides(Path("a.ini"), [override])
+    assert str(caught.value) == f"override {override}: expected KEY=VALUE, such as `sim-time-limit=10s`"
+
+
+@pytest.mark.parametrize("overrides", ["repeat=2", {"repeat": "2"}, [2], 2])
+def test_overrides_are_a_list_of_texts(overrides: Any) -> None:
+    with pytest.raises(TypeError) as caught:
+        read_overrides(Path("a.ini"), overrides)
+    assert str(caught.value) == (
+        f"overrides = {overrides!r}: expected a list of texts, such as ['sim-time-limit=10s']"
+    )

@@ -1,0 +1,12 @@
+from gradysim.scenario.keys.omnetpp_options import IGNORED_OPTIONS
+from gradysim.scenario.keys.options import OPTIONS, SECTION_OPTIONS
+
+
+def test_options_have_no_dot() -> None:
+    assert not any("." in option for option in (*OPTIONS, *SECTION_OPTIONS, *IGNORED_OPTIONS))
+
+
+def test_an_option_is_read_or_ignored_or_the_sections() -> None:
+    assert len({*OPTIONS, *SECTION_OPTIONS, *IGNORED_OPTIONS}) == sum(
+        map(len, (OPTIONS, SECTION_OPTIONS, IGNORED_OPTIONS))
+    )

@@ -1,0 +1,137 @@
+from types import SimpleNamespace
+
+import pytest
+
+from gradysim.scenario.key_list import UNKNOWN, KeyRow, key_meant, key_sections, matching
+from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
+
+
+def row(end: str, **structs: object) -> KeyRow:
+    """The row of the key that ends so; every struct has one variant."""
+    sections = key_sections({name: {"": struct} for name, struct in structs.items()})
+    (found,) = [row for section in sections for row in section.rows if row.key.endswith(end)]
+    return found
+
+
+def keys(pattern: str) -> list[str]:
+    return [row.key for section in matching(key_sections({}), pattern) for row in section.rows]
+
+
+def test_every_key_is_listed_with_a_meaning_and_a_unit() -> None:
+    rows = [row for section in key_sections({}) for row in section.rows]
+    assert all(row.meaning and row.unit and row.default for row in rows)
+    assert len(rows) > len((*NODE_KEYS, *NETWORK_KEYS))
+
+
+@pytest.mark.parametrize(
+    ("end", "field", "value", "written"),
+    [
+        ("sensitivity", "sensitivity_w", 3.1622776601683794e-12, "-85dBm"),
+        ("transmitter.power", "tx_power_w", 0.02, "20mW"),
+        ("centerFrequency", "carrier_hz", 2.412e9, "2412MHz"),
+        ("channelNumber", "carrier_hz", 2.484e9, "13"),
+        ("channelNumber", "carrier_hz", 2.437e9, "5"),
+        ("channelNumber", "carrier_hz", 2.45e9, "20"),
+        ("bandName", "carrier_hz", 2.412e9, '"2.4 GHz"'),
+        ("bandName", "carrier_hz", 2.437e9, "none"),
+        ("snirThreshold", "snir_threshold", 2.51188643150958, "4dB"),
+    ],
+)
+def test_defaults_are_written_as_in_a_file(end: str, field: str, value: float, written: str) -> None:
+    values = {key.field: 1.0 for key in NODE_KEYS if key.struct == "radio"} | {field: value}
+    assert row(end, radio=SimpleNamespace(**values)).default == written
+
+
+def test_a_default_of_a_struct_that_is_missing_is_unknown() -> None:
+    assert row("transmitter.power").default == UNKNOWN
+
+
+def test_defaults_of_our_own_are_always_known() -> None:
+    assert row("transmissionRange").default == "60m"
+
+
+def test_a_meaning_begins_with_the_models_that_read_the_key() -> None:
+    assert row("pathLoss.k").meaning.startswith("RicianFading: ")
+    assert row("macMinBE").meaning.startswith("802.15.4, exponential: ")
+    assert row("opMode").meaning.startswith("Generation of")
+
+
+@pytest.mark.parametrize("pattern", ["POWER", "*.transmitter.power", "wlan[*].radio.transmitter.pow"])
+def test_patterns(pattern: str) -> None:
+    assert "*.nodes[*].wlan[*].radio.transmitter.power" in keys(pattern)
+
+
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [
+        ("stationarymobility", "*.nodes[*].mobility.typename"),  # one of its values
+        ("2.4 ghz", "*.nodes[*].wlan[*].radio.bandName"),  # another one
+        ("60m", "*.communicationMedium.transmissionRange"),  # its default
+        ("ArduPilot", "*.nodes[*].mobility.autopilotPath"),  # its meaning
+    ],
+)
+def test_a_text_is_found_in_values_and_meanings_in_any_case(text: str, key: str) -> None:
+    assert key in keys(text)
+
+
+def test_a_pattern_is_one_of_keys() -> None:
+    assert keys("*ArduPilot*") == []
+
+
+@pytest.mark.parametrize("index", ["0", "1", "12", "1..3", "2..", "..3"])
+def test_what_is_asked_of_one_interface_is_found_for_any(index: str) -> None:
+    assert keys(f"wlan[{index}]") == keys("wlan[*]") != []
+
+
+def test_what_does_not_match_is_left_out() -> None:
+    assert keys("nonsense") == []
+
+
+@pytest.mark.parametrize("group", ["uavs[*]", "uavs[3]", "groundStation", "nodes[*]"])
+def test_what_is_asked_of_a_group_is_found_for_any(group: str) -> None:
+    assert keys(f"*.{group}.mobility.speed") == ["*.nodes[*].mobility.speed"]
+
+
+@pytest.mark.parametrize("pattern", ["numNodes", "*.numNodes", "numUavs", "*.numSensors", "**.numSensors"])
+def test_the_number_of_nodes_of_any_group_is_found(pattern: str) -> None:
+    assert keys(pattern)[0] == "*.numNodes"
+
+
+@pytest.mark.parametrize("pattern", ["*.nodes.count", "*.uavs.count", "nodes.count"])
+def test_the_number_of_nodes_is_found_below_the_group(pattern: str) -> None:
+    assert keys(pattern) == ["*.nodes.count"]
+
+
+def test_other_numbers_are_none_of_nodes() -> None:
+    assert keys("numWlanInterfaces") == ["*.nodes[*].numWlanInterfaces"]
+    assert keys("numWlanIterfaces") == []
+
+
+@pytest.mark.parametrize("group", ["nodes[*]", "uavs[*]", "groundStation"])
+def test_a_pattern_that_keys_begin_with_finds_them(group: str) -> None:
+    assert keys(f"*.{group}.mobility") == keys("nodes[*].mobility") != []
+    assert keys(f"*.{group}.mobility.separation") == [
+        f"*.nodes[*].mobility.separation{axis}" for axis in "XY"
+    ]
+
+
+def test_keys_that_match_are_all_of_a_pattern() -> None:
+    assert keys("*.radioMedium.pathLoss.alpha") == ["*.radioMedium.pathLoss.alpha"]
+
+
+def test_the_network_has_parts_that_are_no_groups() -> None:
+    assert keys("*.radioMedium.pathLoss.k") == ["*.radioMedium.pathLoss.k"]
+    assert keys("*.radioMedium.mobility.speed") == []
+
+
+@pytest.mark.parametrize(
+    ("pattern", "hint"),
+    [
+        ("sensitivty", "; did you mean `sensitivity`?"),
+        ("mobility speed", "; did you mean `mobility.speed`?"),
+        ("sim time limit", "; did you mean `sim-time-limit`?"),
+        ("zzz", ""),
+    ],
+)
+def test_the_nearest_name_is_suggested(pattern: str, hint: str) -> None:
+    assert key_meant(key_sections({}), pattern) == hint

@@ -1,0 +1,363 @@
+import pickle
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from gradysim.scenario import ConfigError, load_scenarios, networks
+from gradysim.scenario.errors.argument_names import OF_SCRIPT
+from gradysim.scenario.load import CheckedScenarios
+from gradysim.scenario.network import read_network
+from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
+from python.scenario.conftest import BASE
+
+
+def test_a_run_holds_what_the_file_says(folder: Any) -> None:
+    scenario = folder.load('[X]\ndescription = "Two UAVs"\nseed-set = 7\nsim-time-limit = 1h 30min\n', "X")
+    assert (scenario.file, scenario.config, scenario.run_number) == (folder.ini, "X", 0)
+    assert (scenario.seed, scenario.description, scenario.sim_time_limit_s) == (
+        7,
+        "Two UAVs",
+        5400.0,
+    )
+
+
+def test_defaults(folder: Any) -> None:
+    scenario = folder.load()
+    assert (scenario.seed, scenario.description, scenario.medium) == (0, "", {})
+    assert scenario.communication_medium == CommunicationMediumSpec(60.0, 0.0, 0.0)
+    assert scenario.reference_coordinates == (0.0, 0.0, 0.0)
+
+
+def test_a_description_needs_no_quotes(folder: Any) -> None:
+    assert folder.load("description = Two UAVs # really\n").description == "Two UAVs"
+
+
+def test_own_section_bases_and_general_in_that_order(folder: Any) -> None:
+    added = "[A]\nextends = B\nseed-set = 1\n[B]\nseed-set = 2\n*.numUavs = 5\n"
+    scenario = folder.load(added, "A")
+    assert (scenario.seed, len(scenario.nodes), scenario.sim_time_limit_s) == (
+        1,
+        6,
+        3600.0,
+    )
+
+
+def test_overrides_come_before_all(folder: Any) -> None:
+    scenario = folder.load("", "General", "*.numUavs=1", "sim-time-limit=10s", "sim-time-limit=20s")
+    assert (len(scenario.nodes), scenario.sim_time_limit_s) == (2, 10.0)
+
+
+def test_a_class_on_the_command_line_needs_no_quotes(folder: Any) -> None:
+    scenario = folder.load("", "General", "*.uavs[*].protocol.class=protocols.py:Sensor")
+    assert [node.protocol.__name__ for node in scenario.nodes] == [
+        "Sensor",
+        "Sensor",
+        "Sensor",
+    ]
+
+
+def test_one_scenario_for_each_run(folder: Any) -> None:
+    folder.load("repeat = 3\n")
+    scenarios = load_scenarios(str(folder.ini))
+    assert [(scenario.run_number, scenario.seed) for scenario in scenarios] == [
+        (0, 0),
+        (1, 1),
+        (2, 2),
+    ]
+    assert scenarios[0].nodes is scenarios[2].nodes
+    assert [scenario.run_number for scenario in load_scenarios(folder.ini, runs="1..2")] == [1, 2]
+
+
+def test_values_may_depend_on_the_run(folder: Any) -> None:
+    folder.load('repeat = 2\nseed-set = 10${runnumber}\n**.label = "${configname}-${repetition}"\n')
+    scenarios = load_scenarios(folder.ini)
+    assert [scenario.seed for scenario in scenarios] == [100, 101]
+    assert [scenario.nodes[1].protocol_parameters["label"] for scenario in scenarios] == [
+        "General-0",
+        "General-1",
+    ]
+    assert scenarios[0].nodes[1].protocol is scenarios[1].nodes[1].protocol
+
+
+def test_a_variable_in_the_name_of_the_network_is_an_error_at_its_line(folder: Any) -> None:
+    with pytest.raises(ConfigError, match=r"\.ini:\d+: network = \$\{x=A, B\}: it is the same in all runs"):
+        folder.load('network = ${x=A, B}\n**.label = "${x}"\n')
+
+
+def speeds(scenarios: list[Scenario]) -> list[object]:
+    return [scenario.nodes[1].mobility["speed_mps"].value for scenario in scenarios]
+
+
+def test_a_run_for_each_combination_of_values_and_repetition(folder: Any) -> None:
+    folder.load("repeat = 2\n*.uavs[*].mobility.speed = ${speed=1, 2}mps\n")
+    scenarios = load_scenarios(folder.ini)
+    assert [scenario.run_number for scenario in scenarios] == [0, 1, 2, 3]
+    assert [scenario.seed for scenario in scenarios] == [0, 1, 2, 3]
+    assert [scenario.repetition for scenario in scenarios] == [0, 1, 0, 1]
+    assert {scenario.run_count for scenario in scenarios} == {4}
+    assert [scenario.iterations["speed"] for scenario in scenarios] == ["1", "1", "2", "2"]
+    assert speeds(scenarios) == [1.0, 1.0, 2.0, 2.0]
+    assert scenarios[0].nodes is scenarios[1].nodes
+    assert speeds(load_scenarios(folder.ini, runs="2")) == [2.0]
+
+
+def test_options_may_iterate_too(folder: Any) -> None:
+    folder.load("seed-set = ${repetition}\nrepeat = 2\n[X]\nsim-time-limit = ${10s, 20s}\n")
+    assert [(scenario.sim_time_limit_s, scenario.seed) for scenario in load_scenarios(folder.ini, "X")] == [
+        (10.0, 0),
+        (10.0, 1),
+        (20.0, 0),
+        (20.0, 1),
+    ]
+
+
+def test_an_override_fixes_what_the_file_iterates_over(folder: Any) -> None:
+    folder.load("*.uavs[*].mobility.speed = ${speed=1, 2}mps\n")
+    assert speeds(load_scenarios(folder.ini, overrides=["*.uavs[*].mobility.speed=5mps"])) == [5.0]
+    overrides = ["*.uavs[*].mobility.speed=${6..8}mps"]
+    assert speeds(load_scenarios(folder.ini, overrides=overrides)) == [6.0, 7.0, 8.0]
+
+
+def test_a_mistake_in_one_of_the_values_is_found_at_once(folder: Any) -> None:
+    folder.load()
+    with pytest.raises(ConfigError, match=r"\$\{1mps, 2s\}.* expected a speed"):
+        load_scenarios(folder.ini, overrides=["**.speed=${1mps, 2s}"])
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "field", "value"),
+    [
+        ("typename", '"UnitDiskRadioMedium"', "typename", "UnitDiskRadioMedium"),
+        ("backgroundNoise.power", "-110dBm", "background_noise_w", 1e-14),
+        (
+            "pathLoss.typename",
+            '"BreakpointPathLoss"',
+            "path_loss",
+            "BreakpointPathLoss",
+        ),
+        ("pathLoss.alpha", "2.5", "alpha", 2.5),
+        ("pathLoss.breakpointDistance", "8m", "breakpoint_distance_m", 8.0),
+        ("pathLoss.l01", "40.2dB", "l01_db", 40.2),
+        ("pathLoss.l02", "46.2", "l02_db", 46.2),
+        ("pathLoss.l02", "58.5dB", "l02_db", 58.5),
+        ("pathLoss.alpha1", "2", "alpha1", 2.0),
+        ("pathLoss.alpha2", "3.3", "alpha2", 3.3),
+        ("pathLoss.epsilon_r", "4", "epsilon_r", 4.0),
+        ("pathLoss.polarization", '"vertical"', "polarization", "vertical"),
+        ("pathLoss.sigma", "2.5", "sigma_db", 2.5),
+        ("pathLoss.k", "6dB", "k_db", 6.0),
+        ("pathLoss.shapeFactor", "0.5", "shape_factor", 0.5),
+        ("pathLoss.coherenceTime", "20ms", "coherence_time_s", 0.02),
+        ("pathLoss.coherenceTime", "-1s", "coherence_time_s", -1.0),
+        (
+            "propagation.typename",
+            '"ConstantSpeedPropagation"',
+            "propagation",
+            "ConstantSpeedPropagation",
+        ),
+    ],
+)
+def test_keys_of_the_medium(folder: Any, key: str, text: str, field: str, value: object) -> None:
+    setting = folder.load(f"*.radioMedium.{key} = {text}\n").medium[field]
+    assert (setting.value, setting.source.line) == (value, 6)
+
+
+def test_prototype_modes_medium(folder: Any) -> None:
+    scenario = folder.load(
+        "*.communicationMedium.transmissionRange = 50m\n*.communicationMedium.delay = 5ms\n"
+        "*.communicationMedium.failureRate = 0.25\n"
+    )
+    assert scenario.communication_medium == CommunicationMediumSpec(50.0, 0.005, 0.25)
+
+
+def test_the_place_on_earth(folder: Any) -> None:
+    scenario = folder.load(
+        "*.coordinateSystem.sceneLatitude = -22.9deg\n*.coordinateSystem.sceneLongitude = -43.2deg\n"
+        "*.coordinateSystem.sceneAltitude = 11m\n"
+    )
+    assert scenario.reference_coordinates == (-22.9, -43.2, 11.0)
+
+
+@pytest.mark.parametrize(
+    ("added", "message"),
+    [
+        (
+            "repeat = 0\n",
+            "repeat = 0: it is out of range; expected a whole number, at least 1 and at most 1000000",
+        ),
+        (
+            "seed-set = 1.5\n",
+            "seed-set = 1.5: `1.5` is no whole number; expected a whole number",
+        ),
+        (
+            "*.uavs[*].mobility.speed = ${v}mps\n",
+            "*.uavs[*].mobility.speed = ${v}mps: there is no variable `v`",
+        ),
+        (
+            "**.failureRate = 1.5\n",
+            "**.failureRate = 1.5: it is out of range; expected a plain number, at least 0",
+        ),
+        (
+            "**.sceneLatitude = 91deg\n",
+            "**.sceneLatitude = 91deg: it is out of range; expected an angle such as",
+        ),
+        (
+            "**.pathLoss.alpha = 0\n",
+            "**.pathLoss.alpha = 0: it is out of range; expected a plain number, greater than 0",
+        ),
+        (
+            "**.transmissionRange = inf m\n",
+            "**.transmissionRange = inf m: `infm` is not finite; expected a length",
+        ),
+    ],
+)
+def test_errors(folder: Any, added: str, message: str) -> None:
+    assert folder.error(added).startswith(f"test.ini:6: {message}")
+
+
+@pytest.mark.parametrize("text", ["1", "5m", "0s", "-1s", "inf s", "nan s", "200d", "1h 5"])
+def test_a_time_limit_that_is_none(folder: Any, text: str) -> None:
+    error = folder.error(f"[X]\nsim-time-limit = {text}\n", "X")
+    assert error.startswith(f"test.ini:7: sim-time-limit = {text}: ")
+    assert "expected a time such as 10s, greater than 0s and at most 9200000s" in error
+
+
+def test_a_time_limit_is_needed(folder: Any) -> None:
+    assert folder.error("[X]\nsim-time-limit = default\n", "X") == (
+        "test.ini:6: `X` does not say how long to simulate; expected `sim-time-limit = 1h`"
+    )
+
+
+def test_nodes_are_needed(folder: Any) -> None:
+    folder.write("test.ini", "[General]\nsim-time-limit = 1s\n[X]\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini)
+    assert str(caught.value) == (
+        f"{folder.ini}:1: there are no nodes; "
+        "expected some, such as `*.numUavs = 2`; or run another configuration of the file: `config = NAME`, X"
+    )
+
+
+@pytest.mark.parametrize("size", ["0", "${n=0, 2}"])
+def test_groups_without_nodes_are_told_at_the_line_of_the_first(folder: Any, size: str) -> None:
+    folder.write("test.ini", f"sim-time-limit = 1s\n*.numUavs = {size}\n*.sensors.count = 0\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini)
+    assert str(caught.value) == (
+        f"{folder.ini}:2: *.numUavs = {size}: that is 0, and there are no nodes; expected one at least"
+    )
+
+
+def test_keys_of_nodes_without_any_are_told_the_same(folder: Any) -> None:
+    folder.write("test.ini", '[General]\nsim-time-limit = 1s\n**.protocol.class = "protocols.py:Sensor"\n')
+    with pytest.raises(ConfigError, match=r"there are no nodes; expected some, such as `\*\.numUavs = 2`"):
+        load_scenarios(folder.ini)
+
+
+def test_a_misspelt_general_is_named(folder: Any) -> None:
+    folder.write("test.ini", "[Genral]\nsim-time-limit = 1s\n*.numUavs = 2\n[Config X]\n")
+    for config in ["General", "X"]:
+        with pytest.raises(
+            ConfigError, match=r"\[Genral\] at line 1 is not used: did you mean \[General\]\?"
+        ):
+            load_scenarios(folder.ini, config)
+
+
+def test_nodes_that_only_other_configurations_have(folder: Any) -> None:
+    folder.write("test.ini", '[General]\n*.uavs[*].protocol.class = "a.py:A"\n[Ten]\n*.numUavs = 10\n')
+    with pytest.raises(ConfigError, match=r"matches no node.*`config = NAME`, Ten$"):
+        load_scenarios(folder.ini)
+
+
+def test_what_is_no_name_of_a_configuration(folder: Any) -> None:
+    with pytest.raises(TypeError, match=r"^config = None: expected the name of a configuration$"):
+        load_scenarios(folder.ini, None)  # type: ignore[arg-type]
+
+
+def test_a_run_that_does_not_exist(folder: Any) -> None:
+    folder.load("repeat = 3\n")
+    with pytest.raises(ConfigError) as caught:
+        load_scenarios(folder.ini, runs="3")
+    assert str(caught.value) == (
+        f"{folder.ini}:6: configuration `General` has no run 3; expected runs 0 to 2 (`repeat = 3`)"
+    )
+
+
+def test_ids_count_from_the_most_general_section_on(folder: Any) -> None:
+    sections = "".join(
+        f'[{name}]\n*.{name.lower()}.count = 1\n**.protocol.class = "protocols.py:Sensor"\n'
+        for name in ("Near", "Far", "Own")
+    )
+    nodes = folder.load(f"{sections}extends = Near, Far\n", "Own", "*.last.count=1", "*.own.count=1").nodes
+    assert [node.group for node in nodes] == ["groundStation", "uavs", "uavs", "far", "near", "own", "last"]
+
+
+def test_settings_can_be_pickled(folder: Any) -> None:
+    node = folder.load("**.power = 1mW\n").nodes[0]
+    assert pickle.loads(pickle.dumps(node.wlan)) == node.wlan
+
+
+@pytest.mark.parametrize(
+    ("head", "of_each"),
+    [
+        (
+            "*.environment.numObstacles = {}\n",
+            "*.environment.obstacle[{0}].minX = {0}m\n*.environment.obstacle[{0}].maxX = {0}.5m\n"
+            "**.obstacle[{0}].minY = 0m\n**.environment.obstacle[{0}].maxY = 1m\n"
+            "*.environment.obstacle[{0}].minZ = 0m\n*.environment.obstacle[{0}].maxZ = 1m\n",
+        ),
+        ("*.numUavs = {}\n", "**.uavs[{}].wlan[*].radio.transmitter.power = 1mW\n"),
+        ("**.speed = 3mps\n", '*.g{0}[*].protocol.class = "protocols.py:Sensor"\n*.g{0}.count = 1\n'),
+    ],
+)
+def test_twice_the_lines_take_twice_the_time(
+    folder: Any, count_matches: Callable[..., int], head: str, of_each: str
+) -> None:
+    def load(size: int) -> None:
+        lines = head.format(size) + "".join(of_each.format(index) for index in range(size))
+        folder.write("test.ini", f"[General]\n{lines}" + BASE.partition("\n")[2])
+        load_scenarios(folder.ini)
+
+    few, many = (count_matches(lambda size=size: load(size)) for size in (60, 120))
+    assert many <= 2.2 * few
+
+
+PLACES = "repeat = 5\n*.uavs[*].mobility.initialX = uniform(0m, 1km)\n"
+
+
+def checked(folder: Any, added: str) -> CheckedScenarios:
+    folder.write("test.ini", BASE + added)
+    return CheckedScenarios(folder.ini, "General", None, (), None, OF_SCRIPT)
+
+
+@pytest.mark.parametrize(
+    ("added", "count"),
+    [
+        (PLACES, 1),
+        (PLACES + "*.uavs[*].mobility.speed = ${1mps, 2mps}\n", 2),
+        ("repeat = 5\n*.uavs[*].mobility.speed = uniform(1mps, 2mps)\n", 5),
+    ],
+)
+def test_runs_whose_nodes_only_stand_elsewhere_are_checked_once(
+    folder: Any, monkeypatch: pytest.MonkeyPatch, added: str, count: int
+) -> None:
+    read: list[object] = []
+    monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
+    assert len({id(scenario.nodes) for scenario in checked(folder, added).scenarios}) == len(read) == count
+
+
+def test_they_are_placed_where_they_stand_if_read_alone(folder: Any) -> None:
+    def positions(scenario: Scenario) -> list[tuple[float, float, float]]:
+        return [node.initial_position for node in scenario.nodes]
+
+    study = checked(folder, PLACES)
+    alone = [positions(load_scenarios(folder.ini, runs=str(number))[0]) for number in range(5)]
+    assert [positions(study.placed(scenario)) for scenario in study.scenarios] == alone
+    assert [positions(scenario) for scenario in load_scenarios(folder.ini)] == alone
+    assert len(set(map(str, alone))) == 5
+
+
+def test_what_only_the_seed_of_a_later_run_makes_wrong_is_refused(folder: Any) -> None:
+    with pytest.raises(ConfigError, match="with seed 4: it is out of range"):
+        checked(folder, "repeat = 50\n*.uavs[*].mobility.speed = uniform(-1mps, 20mps)\n")
