@@ -2,6 +2,6 @@
 
 import sys
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 
 sys.exit(main())

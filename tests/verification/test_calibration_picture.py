@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 
 _ZIGZAG = Path(__file__).parents[2] / "configs" / "zigzag.ini"
 

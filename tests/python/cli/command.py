@@ -123,7 +123,7 @@ def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[s
 
 def run_without(module: str, folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     """Run the command in a folder where a module is not installed."""
-    code = f"import sys; sys.modules[{module!r}] = None; from gradysim.cli import main; sys.exit(main())"
+    code = f"import sys; sys.modules[{module!r}] = None; from gradysim.cli.app import main; sys.exit(main())"
     return run_command(folder, sys.executable, "-c", code, *arguments)
 
 

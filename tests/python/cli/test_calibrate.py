@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
 

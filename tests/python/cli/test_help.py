@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from gradysim.cli import app
+from gradysim.cli.app import app
 from python.cli.command import environment
 
 
@@ -29,12 +29,12 @@ def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
 
 
 def test_help_loads_nothing_heavy(folder):
-    code = "import sys; from gradysim.cli import main; main(['--help']); print(*sys.modules, sep='\\n')"
+    code = "import sys; from gradysim.cli.app import main; main(['--help']); print(*sys.modules, sep='\\n')"
     done = subprocess.run(
         [sys.executable, "-c", code], env=environment(), capture_output=True, text=True, check=True
     )
     ours = {name for name in done.stdout.splitlines() if name.startswith("gradysim")}
-    assert {name for name in ours if not name.startswith("gradysim.commands")} == {"gradysim", "gradysim.cli"}
+    assert {name for name in ours if not name.startswith("gradysim.cli")} == {"gradysim"}
     heavy = {"numpy", "pandas", "matplotlib", "sqlite3", "asyncio", "rich.progress"}
     assert not heavy & set(done.stdout.splitlines())
 

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from python.cli.command import both_modes, environment, objects, run_command
 
 COSTS = ("wall_s", "cpu_s")
@@ -164,7 +164,7 @@ def test_a_process_that_ends_itself_is_no_run_that_is_done(gradysim, folder, sta
 
 def test_an_exception_outside_of_protocols_is_not_told_as_an_exit(folder):
     code = (
-        "import sys; from gradysim.cli import main; from gradysim.report import summary\n"
+        "import sys; from gradysim.cli.app import main; from gradysim.cli import summary\n"
         "def print_summary(*_): raise RuntimeError('no summary')\n"
         "summary.print_summary = print_summary\n"
         "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '-r', '0', '-j', '2']))"
@@ -179,7 +179,7 @@ def test_an_exception_outside_of_protocols_is_not_told_as_an_exit(folder):
 
 def test_a_process_that_cannot_begin_is_told(folder):
     code = (
-        "import errno, os, sys; from gradysim.cli import main\n"
+        "import errno, os, sys; from gradysim.cli.app import main\n"
         "def fork(count=[]):\n"
         "    count.append(1)\n"
         "    if len(count) > 1: raise OSError(errno.EAGAIN, 'too many processes')\n"

@@ -3,7 +3,7 @@
 import contextlib
 import io
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from python.cli.command import run_without
 
 

@@ -43,7 +43,7 @@ def test_a_mistake_that_only_the_whole_network_shows_is_found_before_a_single_ru
 @pytest.mark.parametrize(("runs", "built"), [("0", 1), ("0..2", 6)])
 def test_a_single_network_is_built_once(folder, runs, built):
     code = (
-        "import sys; from gradysim.cli import main; from gradysim.integrated import network, run\n"
+        "import sys; from gradysim.cli.app import main; from gradysim.integrated import network, run\n"
         "built = []\n"
         "def build_network(scenario, build=network.build_network):\n"
         "    built.append(scenario)\n"

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.results import read_scalars, read_vectors
 from gradysim.scenario.runs.file_hashes import hash_of
 from python.cli.command import both_modes, compiled, interrupt_endless_run, objects

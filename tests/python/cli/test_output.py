@@ -113,7 +113,7 @@ def test_a_mistake_is_no_result_where_the_error_output_is_closed(folder):
 def test_an_error_about_something_else_is_not_told_as_one_of_the_output(folder):
     for error in ("OSError(errno.EAGAIN, 'try again')", "BrokenPipeError(errno.EPIPE, 'try again')"):
         code = (
-            "import errno, sys; from gradysim.commands import run; from gradysim.cli import main\n"
+            "import errno, sys; from gradysim.cli import run; from gradysim.cli.app import main\n"
             f"def fail(*_): raise {error}\n"
             "run.warnings_of_seeds = fail\n"
             "sys.exit(main(['run', 'test.ini', '--mode', 'prototype', '--quiet']))"

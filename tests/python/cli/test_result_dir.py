@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from python.cli.command import both_modes, compiled
 
 

@@ -8,7 +8,7 @@ from dataclasses import fields
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.results.run_result import RunResult
 from python.cli.command import PROTOCOL, both_modes, compiled, environment, objects
 

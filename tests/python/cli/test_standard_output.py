@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from gradysim.commands.standard_output import is_about_output, named_output
+from gradysim.cli.standard_output import is_about_output, named_output
 
 
 def test_what_is_written_arrives_and_no_letter_is_an_error(tmp_path):

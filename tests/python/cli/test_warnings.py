@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.scenario import Scenario
 from python.cli.command import both_modes
 

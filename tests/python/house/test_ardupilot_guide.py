@@ -9,7 +9,7 @@ import pytest
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.scenario import load_scenarios
 from gradysim.simulator.handler.ardupilot_mobility import ArdupilotMobilityException
 

@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.integrated.calibration import calibrate
 from gradysim.scenario import Scenario, load_scenarios
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 
 
 def test_the_page_is_the_commands(root: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.cli import main
+from gradysim.cli.app import main
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.scenario import ConfigError, load_scenarios

@@ -55,7 +55,7 @@ def test_prototype_mode_runs_without_the_compiled_part(root: Path) -> None:
         [
             "import sys",
             "sys.modules['gradysim._netsim'] = None",  # an import of it now fails
-            "import gradysim.cli, gradysim.prototype.run, gradysim.simulator.simulation",
+            "import gradysim.cli.app, gradysim.prototype.run, gradysim.simulator.simulation",
         ]
     )
     outcome = subprocess.run(

@@ -1,0 +1,1 @@
+"""The command `gradysim`: its subcommands, their options and what they print. `app` is the entry point."""

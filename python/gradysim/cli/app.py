@@ -1,0 +1,100 @@
+"""The command `gradysim`.
+
+    gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
+    gradysim runs FILE.ini [-c CONFIG]
+    gradysim means DIR [QUANTITY...] [--csv]
+    gradysim keys [PATTERN] [--markdown]
+    gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
+
+Exit codes: 0 all is well; 1 a protocol failed, or ended its process; 2 a mistake in the arguments
+or in the .ini file, or what the system refuses: an output that takes no more, another process; 130 Ctrl-C.
+Each command has its own file in `gradysim.cli`.
+"""
+
+import os
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
+
+from gradysim.cli.calibrate import calibrate_power
+from gradysim.cli.exit_code import INTERRUPTED, MISTAKE, OK, say_mistake
+from gradysim.cli.keys import list_keys
+from gradysim.cli.means import print_means
+from gradysim.cli.run import run
+from gradysim.cli.runs import list_runs
+from gradysim.cli.standard_output import is_about_output, named_output
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+
+def installed_version() -> str:
+    """Return the version of the installed package."""
+    from importlib import metadata
+
+    try:
+        return metadata.version("gradysim")
+    except metadata.PackageNotFoundError:
+        return "unknown (gradysim is not installed)"
+
+
+def mistake_in_arguments(error: CycloptsError) -> "RenderableType":
+    """Return what to print of it; of an argument that nothing takes cyclopts says only `Unused Tokens`."""
+    if not isinstance(error, UnusedCliTokensError) or not error.unused_tokens:
+        return CycloptsPanel(error)
+    first = error.unused_tokens[0]
+    command = " ".join(["gradysim", *(error.command_chain or ()), "--help"])
+    expected = "--set before each KEY=VALUE" if "=" in first else f"an option before it, see {command}"
+    return CycloptsPanel(f"{first} is one argument too many; expected {expected}")
+
+
+app = App(
+    name="gradysim",
+    help="Simulator of flying networks: one Python protocol, from a prototype to a realistic 802.11 network.",
+    version=installed_version,
+    suppress_keyboard_interrupt=False,
+    error_formatter=mistake_in_arguments,
+)
+app.command(run)
+app.command(list_runs, name="runs")
+app.command(print_means, name="means")
+app.command(list_keys, name="keys")
+app.command(calibrate_power, name="calibrate")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Carry out a command line (that of this process by default) and return the exit code."""
+    if sys.stdout is None:  # closed by whoever started the command
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
+    sys.stdout = named_output(sys.stdout)
+    try:
+        try:
+            code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
+        finally:
+            sys.stdout.flush()  # here, where it is known what to do if nobody takes it
+    except CycloptsError:  # cyclopts has said what is wrong
+        return MISTAKE
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError) and is_about_output(end.__context__):
+            return OK  # what rich makes of it
+        raise
+    except OSError as error:
+        if not is_about_output(error):
+            return say_mistake(error)
+        abandon_output()
+        if isinstance(error, BrokenPipeError):  # who reads the output, such as `head`, has had enough
+            return OK
+        print(error.filename, error.strerror, sep=": ", file=sys.stderr)
+        return MISTAKE
+    return code if isinstance(code, int) else OK
+
+
+def abandon_output() -> None:
+    """Let nothing more be written to standard output: the interpreter flushes it once more as it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

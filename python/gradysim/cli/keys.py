@@ -1,0 +1,47 @@
+"""`gradysim keys`: the keys of .ini files."""
+
+import sys
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from gradysim.cli.exit_code import MISTAKE, OK
+
+_PATTERN = "Part of a key, of its values or of its meaning; or a key with *."
+
+
+def list_keys(
+    pattern: Annotated[str, Parameter(name="PATTERN", help=_PATTERN)] = "",
+    /,
+    *,
+    markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
+) -> int:
+    """List the keys of .ini files: unit, default, meaning."""
+    from gradysim.cli import key_table
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.integrated.engine_defaults import engine_defaults
+    from gradysim.integrated.native_protocols import native_protocols
+    from gradysim.scenario.key_list import key_meant, key_sections, matching
+
+    try:
+        structs, natives = engine_defaults(), list(native_protocols().values())
+    except CompiledPartMissingError:
+        structs, natives = {}, []
+        print("defaults shown as ? are the compiled part's, which is not installed", file=sys.stderr)
+    everything = key_sections(structs, natives)
+    sections = matching(everything, pattern)
+    if not sections:
+        hint = key_meant(everything, pattern)
+        print(
+            f"no key, value or meaning contains {pattern!r}; `gradysim keys` lists all{hint}", file=sys.stderr
+        )
+        return MISTAKE
+    if markdown:
+        print(key_table.markdown(sections), end="")
+    elif sys.stdout.isatty():
+        from rich.console import Console
+
+        Console().print(key_table.rich_tables(sections))
+    else:
+        print(key_table.plain_text(sections), end="")
+    return OK

@@ -1,0 +1,90 @@
+"""What is left of many runs for --resume."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gradysim.cli.arguments import Mode
+from gradysim.cli.asked import Asked
+from gradysim.cli.files_of_run import files_beside_result, files_for_omnetpp
+from gradysim.cli.simulators import ids_of_fates, nodes_of_vectors
+
+if TYPE_CHECKING:
+    from gradysim.scenario.scenario import Scenario
+
+
+def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "list[Scenario]":
+    """Return the runs that lack a file that is asked for, and say which do not, and which are outdated.
+
+    Raises ConfigError without a folder.
+    """
+    from gradysim.results.run_file import files_changed_since
+    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.runs.file_hashes import text_of_files
+    from gradysim.scenario.runs.run_numbers import text_of_runs
+
+    result_dir = asked.result_dir
+    if result_dir is None:
+        raise ConfigError(
+            "--resume: it goes by the JSON files of --result-dir, which is not given;"
+            " expected --result-dir DIR, too"
+        )
+    left, done = [], []
+    outdated: dict[tuple[str, ...], list[int]] = {}
+    for scenario in scenarios:
+        complete = _has_left_its_files(scenario, mode, asked)
+        changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, asked))
+        if changed == () and complete:
+            done.append(scenario.run_number)
+            continue
+        left.append(scenario)
+        if changed:
+            outdated.setdefault(changed, []).append(scenario.run_number)
+    for files, runs in outdated.items():
+        print(
+            f"{scenarios[0].config}: {text_of_files(files)} changed after {len(runs)} of {len(scenarios)}"
+            f" runs in {result_dir} ({text_of_runs(runs)}), which begin anew",
+            file=sys.stderr,
+        )
+    if done:
+        print(
+            f"{scenarios[0].config}: {len(done)} of {len(scenarios)} runs {'is' if len(done) == 1 else 'are'}"
+            f" in {result_dir} ({text_of_runs(done)}) and left out",
+            file=sys.stderr,
+        )
+    return left
+
+
+def _has_left_its_files(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
+    """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
+    from gradysim.results.run_file import has_written
+
+    files = files_for_omnetpp(scenario, mode, asked)
+    return (
+        has_written(scenario, mode, asked.directory, files_beside_result(scenario, mode, asked))
+        and _have_labels(files, scenario, mode)
+        and _has_vectors(files, scenario, asked)
+    )
+
+
+def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
+    """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
+    from gradysim.results.database import storable
+    from gradysim.results.read_files import run_attributes
+    from gradysim.results.run_identity import lasting_attributes
+
+    expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
+    found = [run_attributes(file) for file in files]
+    return all(
+        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
+        for attributes in found
+    )
+
+
+def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:
+    """Whether the last of the files has vectors of all nodes that are asked for."""
+    from gradysim.results.read_files import recorded_modules
+
+    expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, asked)}
+    return not expected or expected <= recorded_modules(files[-1])

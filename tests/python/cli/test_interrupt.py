@@ -1,0 +1,67 @@
+import signal
+import threading
+
+import pytest
+
+from gradysim.cli.interrupt import StopOnInterrupt
+
+
+def test_nothing_was_pressed():
+    with StopOnInterrupt() as interrupt:
+        assert not interrupt.should_stop()
+
+
+def test_the_first_press_is_a_wish():
+    with StopOnInterrupt() as interrupt:
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.should_stop()
+
+
+def test_the_first_press_is_answered_with_what_a_second_one_does(capfd):
+    with StopOnInterrupt():
+        signal.raise_signal(signal.SIGINT)
+    assert "Ctrl-C once more stops at once" in capfd.readouterr().err
+
+
+def test_the_second_press_is_an_order():
+    with StopOnInterrupt():
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_where_nothing_is_lost_the_first_press_is_an_order():
+    with StopOnInterrupt() as interrupt:
+        with pytest.raises(KeyboardInterrupt), interrupt.at_once():
+            signal.raise_signal(signal.SIGINT)
+        assert not interrupt.should_stop()
+
+
+def test_behind_it_the_first_press_is_a_wish_again():
+    with StopOnInterrupt() as interrupt:
+        with interrupt.at_once():
+            pass
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.should_stop()
+        with pytest.raises(KeyboardInterrupt), interrupt.at_once():
+            pytest.fail("it was pressed before")
+
+
+def test_afterwards_all_is_as_before():
+    before = signal.getsignal(signal.SIGINT)
+    with StopOnInterrupt():
+        pass
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_in_another_thread_it_does_no_harm():
+    answers = []
+
+    def work():
+        with StopOnInterrupt() as interrupt:
+            answers.append(interrupt.should_stop())
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert answers == [False]

@@ -1,0 +1,233 @@
+import math
+from dataclasses import replace
+from io import StringIO
+
+import pytest
+from rich.console import Console
+
+from gradysim.cli.summary import MAX_VALUE_LENGTH, print_summary, short
+from gradysim.results.delays import constant_delays
+from gradysim.results.run_result import NodeResult, RunResult
+
+
+def printed(width=100, **changes):
+    node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.25, -3.0), {"data": 5, "colour": "[red]"})
+    fields = {
+        "config": "ZigZag5",
+        "run": 2,
+        "seed": 7,
+        "mode": "integrated",
+        "sim_time_s": 7200.0,
+        "wall_s": 2.0,
+        "cpu_s": 1.9,
+        "events": 123456,
+        "interrupted": False,
+        "fingerprint": "0123456789abcdef",
+        "fates": {
+            "frames": {
+                "broadcast": {"delivered": 1500, "below_sensitivity": 2, "interference": 0},
+                "ack": {"delivered": 3},
+            },
+            "messages": {"broadcast": {"sent": 0}},
+        },
+        "nodes": (node,),
+    }
+    text = StringIO()
+    print_summary(RunResult(**{**fields, **changes}), Console(file=text, width=width))
+    return text.getvalue()
+
+
+@pytest.mark.parametrize(
+    "what",
+    [
+        "ZigZag5 run 2",
+        "seed 7, integrated mode",
+        "7,200 s",
+        "2.000 s (3,600 x real time)",
+        "1.900 s of processor time",
+        "123,456",
+        "0123456789abcdef",
+        "uavs[0]",
+        "Mobile",
+        "1.0, 2.2, -3.0",
+        "data = 5",
+        "colour = [red]",
+        "Fates of frames, a copy for each radio",
+    ],
+)
+def test_what_is_in_it(what):
+    assert what in printed()
+
+
+def test_nodes_are_a_table_with_a_row_for_each():
+    rows = [line.split() for line in printed().splitlines()]
+    heading = rows.index(["id", "name", "protocol", "position", "in", "m", "tracked", "variables"])
+    place = ["1.0,", "2.2,", "-3.0"]
+    assert rows[heading + 2] == ["0", "uavs[0]", "Mobile", *place, "data", "=", "5"]
+
+
+def test_delays_of_messages():
+    delays = {"unicast": constant_delays({0.0003: 1999, 1.5: 1})}
+    lines = printed(message_delays=delays).splitlines()
+    assert "Delays of messages, from protocol to protocol" in lines
+    row = next(line for line in lines if line.startswith("unicast"))
+    assert row.split() == ["unicast", "2,000", *["1.05", "ms", "0.3", "ms", "0.3", "ms", "1,500", "ms"]]
+
+
+def test_the_delay_that_95_percent_do_not_exceed_is_told():
+    delays = {"unicast": constant_delays({0.001: 93, 0.002: 4, 0.003: 3})}
+    row = next(line for line in printed(message_delays=delays).splitlines() if line.startswith("unicast"))
+    assert row.split()[-4:] == ["2", "ms", "3", "ms"]
+
+
+def test_a_delay_of_many_seconds_is_written_out():
+    lines = printed(message_delays={"unicast": constant_delays({12.3456: 1})}).splitlines()
+    assert next(line for line in lines if line.startswith("unicast")).endswith("12,346 ms")
+
+
+def test_no_table_of_delays_without_messages():
+    assert "Delays" not in printed()
+
+
+def test_values_of_iteration_variables_are_in_the_heading():
+    shown = printed(iterations={"jitter": "10ms", "0": "5"})
+    assert shown.splitlines()[0] == "ZigZag5 run 2  $jitter=10ms, $0=5, seed 7, integrated mode"
+
+
+def test_fates_are_a_table_with_a_column_per_kind():
+    lines = [line.split() for line in printed().splitlines()]
+    assert ["fate", "broadcast", "ack"] in lines
+    assert ["delivered", "1,500", "3"] in lines
+    assert ["below", "sensitivity", "2", "0"] in lines
+    assert ["sum", "1,502", "3"] in lines
+
+
+def test_a_table_of_nothing_is_left_out():
+    assert "Fates" not in printed(fates={"frames": {"broadcast": {"delivered": 0}}})
+
+
+def test_what_belongs_to_options_is_shown_where_there_was_any():
+    kinds = {
+        "unicast": {"delivered": 1, "noise": 0, "captured": 2, "header_error": 0},
+        "ack": {"delivered": 0, "noise": 0, "captured": 0, "header_error": 0},
+        "rts": {"delivered": 0, "noise": 0, "captured": 0, "header_error": 0},
+        "cts": {"delivered": 3, "noise": 0, "captured": 0, "header_error": 0},
+    }
+    lines = [line.split() for line in printed(fates={"frames": kinds}).splitlines()]
+    assert ["fate", "unicast", "ack", "cts"] in lines
+    assert ["noise", "0", "0", "0"] in lines
+    assert ["captured", "2", "0", "0"] in lines
+    assert not any("header" in line for line in lines)
+
+
+def test_prototype_mode_has_no_fingerprint():
+    assert "fingerprint" not in printed(fingerprint=None)
+
+
+def test_an_interrupted_run_is_marked_on_a_line_of_its_own():
+    lines = printed(interrupted=True, sim_time_s=12.5).splitlines()
+    assert "interrupted at 12.5 s of simulated time" in lines
+
+
+def test_the_time_of_an_interruption_is_the_simulated_time():
+    text = printed(interrupted=True, sim_time_s=2345678.900000000058)
+    assert text.count("2,345,678.9 s") == 2
+
+
+def test_a_whole_run_is_not():
+    assert "interrupted" not in printed()
+
+
+def test_a_run_shorter_than_a_second_has_a_speed():
+    assert "0.500 s (14,400 x real time)" in printed(wall_s=0.5)
+
+
+def test_a_run_that_took_no_time_has_no_speed():
+    assert "real time" not in printed(wall_s=0.0)
+
+
+def test_a_long_value_is_cut():
+    assert short("x" * 1000) == "x" * (MAX_VALUE_LENGTH - 1) + "…"
+
+
+def test_a_value_that_just_fits_is_not_cut():
+    assert short("x" * MAX_VALUE_LENGTH) == "x" * MAX_VALUE_LENGTH
+
+
+def test_what_is_no_number_is_shown_as_that():
+    assert short(math.nan) == "nan"
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [
+        (59.90000000000058, "59.9"),
+        (60.00000000000058, "60.0"),
+        ([(59.90000000000058, 1e-17)], "[[59.9, 1e-17]]"),
+        ({"at": 0.1 + 0.2}, "{'at': 0.3}"),
+        (True, "True"),
+        (12345678901234567, "12345678901234567"),
+    ],
+)
+def test_sums_of_steps_are_shown_without_the_rests_of_rounding(value, shown):
+    assert short(value) == shown
+
+
+def test_a_whole_number_of_any_size_is_shown():
+    assert short(10**198) == "1" + "0" * 198
+    assert short(10**400).endswith("…")
+
+
+def test_a_lone_surrogate_is_escaped():
+    node = NodeResult(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {"na\udc80me": "va\ud800lue"})
+    text = printed(nodes=(node,))
+    assert text.encode().decode() == text
+    assert r"na\udc80me = va\ud800lue" in text
+
+
+def nodes(count):
+    return tuple(NodeResult(i, f"uavs[{i}]", "Mobile", (-0.04, -0.06, 0.0), {}) for i in range(count))
+
+
+@pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
+def test_many_nodes_are_cut_short(count, shown):
+    text = printed(nodes=nodes(count))
+    assert text.count("uavs[") == shown
+    assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
+
+
+def told_nodes(count):
+    """Nodes of a run that was asked for what became of frames there."""
+    fates = {"broadcast": {"delivered": 2, "interference": 1}}
+    told = {
+        "frame_fates": fates,
+        "interferers": {"uavs[0]": 1},
+        "message_fates": {"wlan[0]": {"unicast": {"sent": 4}}},
+    }
+    return tuple(replace(node, **told) for node in nodes(count))
+
+
+def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
+    lines = [line.split() for line in printed(nodes=(*told_nodes(1), *nodes(1))).splitlines()]
+    assert ["uavs[0]", "broadcast", "2", "1"] in lines
+    assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
+    assert ["uavs[0]", "unicast", "4"] in lines
+    assert "Fates of frames at nodes" not in printed()
+
+
+@pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])
+def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
+    at_node = replace(*nodes(1), frame_fates={kind: {"delivered": 1}}, message_fates={})
+    text = f"of {kind}, frames for other nodes that were overheard count, too"
+    assert (text in printed(nodes=(at_node,))) is told
+
+
+@pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
+def test_fates_at_many_nodes_are_cut_short(count, shown):
+    _, _, text = printed(nodes=told_nodes(count)).partition("Fates of frames at nodes")
+    assert (text.count(" broadcast "), text.count(" unicast ")) == (shown, shown)
+    assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
+
+
+def test_what_rounds_to_zero_has_no_sign():
+    assert " 0.0, -0.1, 0.0 " in printed(nodes=nodes(1))
