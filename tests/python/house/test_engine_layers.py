@@ -11,19 +11,17 @@ ENGINE = Path("cpp/netsim")
 # root (units.hpp, error.hpp, interface_id.hpp).
 LAYERS = [
     "",
-    *[
-        "kernel",
-        "geometry",
-        "config",
-        "mobility",
-        "trace",
-        "propagation",
-        "carrier_sense",
-        "medium",
-        "phy",
-        "mac",
-        "node",
-    ],
+    "kernel",
+    "geometry",
+    "config",
+    "mobility",
+    "trace",
+    "propagation",
+    "carrier_sense",
+    "medium",
+    "phy",
+    "mac",
+    "node",
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 PYTHON = re.compile(r"pybind11|\bPython\.h\b|\bPyObject\b|\bproxy_protocol\b")
