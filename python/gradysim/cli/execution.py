@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TextIO
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from gradysim.results.run_result import RunResult
+    from gradysim.scenario.lint import Finding
     from gradysim.scenario.scenario import Scenario
 
 
@@ -32,6 +33,9 @@ class Run(Protocol):
     def result(self) -> "RunResult":
         """Return what has been computed up to now."""
 
+    def findings(self) -> "list[Finding]":
+        """Return what lint checks found in the protocols up to now."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -41,11 +45,13 @@ class Outcome:
         result: None if the run could not even be built.
         failure: What a protocol raised, in a callback or when it was made.
         interrupted: Whether Ctrl-C ended it.
+        findings: What lint checks found in the protocols.
     """
 
     result: "RunResult | None"
     failure: BaseException | None = None
     interrupted: bool = False
+    findings: "Sequence[Finding]" = ()
 
 
 def execute(
@@ -82,11 +88,11 @@ def execute(
             with RunProgress(terminal, title, scenario.sim_time_limit_s) as bar:
                 run.execute(bar.update, interrupt.should_stop)
     except KeyboardInterrupt:
-        return Outcome(run.result(), interrupted=True)
+        return Outcome(run.result(), interrupted=True, findings=run.findings())
     except BaseException as failure:  # SystemExit and asyncio.CancelledError are no Exception
-        return Outcome(run.result(), failure=failure)
+        return Outcome(run.result(), failure=failure, findings=run.findings())
     result = run.result()
-    return Outcome(result, interrupted=result.interrupted)
+    return Outcome(result, interrupted=result.interrupted, findings=run.findings())
 
 
 def report(

@@ -34,7 +34,7 @@ from gradysim.cli.run_options import (
 from gradysim.cli.scenarios import check, placed
 from gradysim.cli.simulators import check_names, simulator
 from gradysim.cli.study import check_jobs, run_all
-from gradysim.cli.warnings import tell, warnings_of_lines, warnings_of_networks, warnings_of_seeds
+from gradysim.cli.warnings import findings_of, tell, warnings_of_seeds
 from gradysim.cli.written_files import write_files
 
 if TYPE_CHECKING:
@@ -95,12 +95,10 @@ def run(
                 check_may_be_written_to(asked.directory)
             with waiting(f"reading {file}", shown=bar):
                 scenarios = placed(checked, scenarios)
-            tell(warnings_of_lines(scenarios))
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
                     check_network(scenario, is_built_next=len(scenarios) == 1)
-            if mode == "integrated":
-                tell(warnings_of_networks(scenarios))
+            tell(findings_of(scenarios, mode))
     except (ConfigError, CompiledPartMissingError, OSError) as mistake:
         return say_mistake(mistake)
 
@@ -108,6 +106,8 @@ def run(
         try:
             with redirect_stdout(sys.stderr) if as_json else nullcontext(), chdir("."):
                 outcome = execute(build, scenario, interrupt, terminal)
+            if scenario is scenarios[0]:
+                tell(outcome.findings)
             write = partial(write_files, scenario, asked=asked)
             return report(outcome, write, as_json=as_json, quiet=quiet)
         except KeyboardInterrupt:  # while it was built

@@ -31,6 +31,9 @@ class FakeRun:
     def result(self):
         return RunResult("General", 0, 0, "prototype", 5.0, 1.0, 1.0, 3, self.interrupted, None, {}, ())
 
+    def findings(self):
+        return []
+
 
 def test_a_whole_run():
     outcome = execute(lambda _: FakeRun(), SCENARIO, StopOnInterrupt(), None)
