@@ -88,6 +88,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return MISTAKE
     except KeyboardInterrupt:
         return INTERRUPTED
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):
+            return OK  # what rich makes of it
+        raise
     except OSError as error:
         if not is_about_output(error):
             return say_mistake(error)
