@@ -36,7 +36,7 @@ def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
     from gradysim.scenario.doubts.shadowed_lines import shadowed_lines
     from gradysim.scenario.doubts.shared_containers import shared_containers
     from gradysim.scenario.doubts.unread_variables import unread_variables
-    from gradysim.scenario.keys.radio_media import has_radios
+    from gradysim.scenario.keys import has_radios
 
     first = scenarios[0]
     medium = first.medium.get("typename")

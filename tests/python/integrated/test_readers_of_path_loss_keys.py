@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 from gradysim._netsim import MediumConfig, Propagation
-from gradysim.scenario.keys.path_loss import PATH_LOSS_KEYS
+from gradysim.scenario.keys import PATH_LOSS_KEYS
 
 TYPENAME, *KEYS_OF_PARAMETERS = PATH_LOSS_KEYS
 MODELS = re.findall(r'"(\w+)"', TYPENAME.kind.expected)

@@ -10,10 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.scenario.keys.interface import written_for
-from gradysim.scenario.keys.key import ReadBy
-from gradysim.scenario.keys.radio import OF_802154
+from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS, OF_802154, written_for
+from gradysim.scenario.schema import ReadBy
 
 Chosen = Callable[[str], str | None]
 """Given the target of a key that chooses a model, returns the model, written or by default.

@@ -7,18 +7,18 @@ from pathlib import Path
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, rotate_position_2d
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys.environment import (
+from gradysim.scenario.keys import (
     DEFAULT_MATERIAL,
     NUM_OBSTACLES,
     OBSTACLE_FILE,
     OBSTACLE_KEYS,
     obstacle_path,
 )
-from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.lookup import Lookup
 from gradysim.scenario.obstacle.geojson import read_geojson
 from gradysim.scenario.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.scenario.obstacle.outline import Ring, crossing_sides, encloses_nothing
+from gradysim.scenario.schema import Key
 from gradysim.scenario.value.setting import Setting, SettingReader
 
 _BOX_ONLY = ("min_x", "max_x", "min_y", "max_y", "heading_rad")
