@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::array power_law{path_loss_names[0], path_loss_names[2], path_loss_names[4],
                                path_loss_names[5], path_loss_names[6], path_loss_names[7]};
+constexpr std::array free_space{path_loss_names[0], path_loss_names[4], path_loss_names[5],
+                                path_loss_names[6], path_loss_names[7]};
 constexpr std::array breakpoint{path_loss_names[1]};
 constexpr std::array two_ray{path_loss_names[3]};
 constexpr std::array shadowing{path_loss_names[4]};
@@ -19,6 +21,7 @@ constexpr std::array thermal{thermal_noise};
 constexpr std::array dielectric{dielectric_obstacle_loss};
 
 constexpr ReadBy with_power_law{"medium.path_loss", power_law, "All but BreakpointPathLoss and TwoRayInterference"};
+constexpr ReadBy with_free_space{"medium.path_loss", free_space, "FreeSpacePathLoss, shadowing and fading"};
 constexpr ReadBy with_breakpoint{"medium.path_loss", breakpoint, breakpoint[0]};
 constexpr ReadBy with_two_ray{"medium.path_loss", two_ray, two_ray[0]};
 constexpr ReadBy with_shadowing{"medium.path_loss", shadowing, shadowing[0]};
@@ -42,6 +45,8 @@ constexpr Field fields[] = {
      "How power falls with distance, and how it fades; docs/guides/propagation.md"},
     {NETSIM_FIELD(MediumConfig, alpha), "pathLoss.alpha", number().above(0), "exponent of the distance",
      with_power_law},
+    {NETSIM_FIELD(MediumConfig, system_loss), "pathLoss.systemLoss", ratio().at_least(1),
+     "loss in cables, connectors and filters of sender and receiver together", with_free_space},
     {NETSIM_FIELD(MediumConfig, breakpoint_distance_m), "pathLoss.breakpointDistance", quantity("m").above(0),
      "distance at which the exponent changes", with_breakpoint},
     {NETSIM_FIELD(MediumConfig, l01_db), "pathLoss.l01", number_in("dB"), "loss at 1 m", with_breakpoint},

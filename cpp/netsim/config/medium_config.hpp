@@ -46,6 +46,7 @@ struct MediumConfig {
 
     std::string path_loss = "FreeSpacePathLoss";
     double alpha = 2;
+    double system_loss = 1;  // 0 dB
     double breakpoint_distance_m = 8;
     double l01_db = 40.2;
     double l02_db = 58.5;
