@@ -1,4 +1,4 @@
-"""Fields that tests of the engine draw at random. One that none of them draws is tried with its default only."""
+"""Fields that tests of the engine draw at random. Without that, a field is tried with its default only."""
 
 import re
 from pathlib import Path
