@@ -59,7 +59,8 @@ py::object default_of(const Field& field, void* config) {
 }
 
 py::dict type_row(const Field& field) {
-    constexpr std::array kinds{"quantity", "level", "ratio", "number", "integer", "bytes", "boolean", "name", "file"};
+    constexpr std::array kinds{"quantity", "level",   "ratio", "number", "integer",
+                               "bytes",    "boolean", "name",  "file"};
     const ValueType& type = field.type;
     py::dict row;
     row["kind"] = kinds[static_cast<std::size_t>(type.kind)];

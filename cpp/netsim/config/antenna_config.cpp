@@ -52,19 +52,22 @@ const Schema AntennaConfig::schema{"antenna", "wlan[0].radio.antenna", true, fie
 void AntennaConfig::validate(double carrier_hz) const {
     check_fields(*this);
     if (type_name == "ParabolicAntenna" && min_gain > max_gain) {
-        throw ConfigError({"antenna.min_gain", Quantity{min_gain, ""},
+        throw ConfigError({"antenna.min_gain",
+                           Quantity{min_gain, ""},
                            {"expected at most ", FieldName{"antenna.max_gain"}, ", ", Quantity{max_gain, ""}},
                            {"antenna.max_gain"}});
     }
     const bool has_beam = type_name == "CosineAntenna" || type_name == "ParabolicAntenna";
     if (has_beam && beam_width_rad == 0) {
-        throw ConfigError({"antenna.beam_width_rad", Quantity{beam_width_rad, "rad"},
+        throw ConfigError({"antenna.beam_width_rad",
+                           Quantity{beam_width_rad, "rad"},
                            {"expected more than ", Quantity{0, "rad"}},
                            {"antenna.typename"}});
     }
     const double wavelength_m = speed_of_light_mps / carrier_hz;
     if (length_m > wavelength_m) {
-        throw ConfigError({"antenna.length_m", Quantity{length_m, "m"},
+        throw ConfigError({"antenna.length_m",
+                           Quantity{length_m, "m"},
                            {"expected at most the wavelength, ", Quantity{wavelength_m, "m"}},
                            {"radio.carrier_hz"}});
     }

@@ -34,7 +34,8 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(CsmaConfig, max_be), "mac.macMaxBE", exponent, "BE grows by 1 up to this value",
      with_exponential},
     {NETSIM_FIELD(CsmaConfig, contention_window), "mac.contentionWindow",
-     integer().at_least(1).at_most(32767), "the first wait is 1 to this number of periods", with_fixed_window},
+     integer().at_least(1).at_most(32767), "the first wait is 1 to this number of periods",
+     with_fixed_window},
     {NETSIM_FIELD(CsmaConfig, unit_backoff_s), "mac.aUnitBackoffPeriod", period,
      "period in which waits are counted"},
     {NETSIM_FIELD(CsmaConfig, cca_s), "mac.ccaDetectionTime", time,
@@ -55,7 +56,8 @@ const Schema CsmaConfig::schema{"csma", "wlan[0]", true, fields, with_ieee802154
 void CsmaConfig::validate() const {
     check_fields(*this);
     if (min_be > max_be) {
-        throw ConfigError({"csma.min_be", Quantity{1.0 * min_be, ""},
+        throw ConfigError({"csma.min_be",
+                           Quantity{1.0 * min_be, ""},
                            {"expected at most ", FieldName{"csma.max_be"}, ", ", Quantity{1.0 * max_be, ""}},
                            {"csma.max_be"}});
     }

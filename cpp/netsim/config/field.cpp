@@ -23,10 +23,10 @@ std::vector<MessagePart> expectation(const ValueType& type) {
     const Quantity most{type.most, type.unit};
     std::vector<MessagePart> parts{"expected "};
     if (type.special) {
-        parts.insert(parts.end(), {Quantity{*type.special, type.unit},
-                                   type.special_meaning.empty()
-                                       ? std::string(" or ")
-                                       : " (" + std::string(type.special_meaning) + ") or "});
+        parts.insert(parts.end(),
+                     {Quantity{*type.special, type.unit},
+                      type.special_meaning.empty() ? std::string(" or ")
+                                                   : " (" + std::string(type.special_meaning) + ") or "});
     }
     const bool has_most = std::isfinite(type.most);
     if (!std::isfinite(type.least)) {
@@ -49,7 +49,7 @@ std::string expected_name(std::string_view value, std::span<const std::string_vi
     std::vector<std::string_view> candidates;
     for (const std::string_view name : names) {
         expected.append(expected.empty() ? "" : ", ").append(name.empty() ? "\"\" (none)" : name);
-        if (!name.empty()) {  // nobody misspells an empty name
+        if (!name.empty()) {  // an empty name is not a misspelling
             candidates.push_back(name);
         }
     }
@@ -91,14 +91,16 @@ void check_value(std::string_view field, double value, const ValueType& type) {
 
 void check_value(std::string_view field, std::string_view value, const ValueType& type) {
     if (std::ranges::find(type.names, value) == type.names.end()) {
-        throw ConfigError({std::string(field), "\"" + std::string(value) + "\"", {expected_name(value, type.names)}});
+        throw ConfigError(
+            {std::string(field), "\"" + std::string(value) + "\"", {expected_name(value, type.names)}});
     }
 }
 
 void check_fields(const Schema& schema, const void* config) {
     for (const Field& field : schema.fields) {
         // The accessor gives what may be written, which nothing here does.
-        const Member value = field.of(const_cast<void*>(config));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+        const Member value =
+            field.of(const_cast<void*>(config));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
         if (const auto* number = std::get_if<double*>(&value)) {
             if (!field.type.contains(**number)) {
                 check_value(schema.full_name(field), **number, field.type);

@@ -62,23 +62,45 @@ struct ValueType {
     bool contains(double value) const;
 };
 
-constexpr ValueType quantity(std::string_view unit) { return {.kind = ValueType::Kind::quantity, .unit = unit}; }
+constexpr ValueType quantity(std::string_view unit) {
+    return {.kind = ValueType::Kind::quantity, .unit = unit};
+}
 // A power at a receiver, in W, which people write in dBm.
-constexpr ValueType level() { return {.kind = ValueType::Kind::level, .unit = "W", .shown = "dBm", .least = 0}; }
+constexpr ValueType level() {
+    return {.kind = ValueType::Kind::level, .unit = "W", .shown = "dBm", .least = 0};
+}
 // A ratio of powers, which people write in dB.
-constexpr ValueType ratio() { return {.kind = ValueType::Kind::ratio, .shown = "dB", .least = 0}; }
-constexpr ValueType number() { return {}; }
+constexpr ValueType ratio() {
+    return {.kind = ValueType::Kind::ratio, .shown = "dB", .least = 0};
+}
+constexpr ValueType number() {
+    return {};
+}
 // A number that .ini files may write with the unit or without.
-constexpr ValueType number_in(std::string_view unit) { return {.unit = unit}; }
-constexpr ValueType integer() { return {.kind = ValueType::Kind::integer}; }
-constexpr ValueType bytes() { return {.kind = ValueType::Kind::bytes, .unit = "B"}; }
-constexpr ValueType boolean() { return {.kind = ValueType::Kind::boolean}; }
-constexpr ValueType file_name() { return {.kind = ValueType::Kind::file}; }
+constexpr ValueType number_in(std::string_view unit) {
+    return {.unit = unit};
+}
+constexpr ValueType integer() {
+    return {.kind = ValueType::Kind::integer};
+}
+constexpr ValueType bytes() {
+    return {.kind = ValueType::Kind::bytes, .unit = "B"};
+}
+constexpr ValueType boolean() {
+    return {.kind = ValueType::Kind::boolean};
+}
+constexpr ValueType file_name() {
+    return {.kind = ValueType::Kind::file};
+}
 constexpr ValueType one_of(std::span<const std::string_view> names) {
     return {.kind = ValueType::Kind::name, .names = names};
 }
-constexpr ValueType angle() { return quantity("rad").shown_in("deg"); }
-constexpr ValueType bitrate() { return quantity("bps").shown_in("Mbps").above(0).or_special(-1); }
+constexpr ValueType angle() {
+    return quantity("rad").shown_in("deg");
+}
+constexpr ValueType bitrate() {
+    return quantity("bps").shown_in("Mbps").above(0).or_special(-1);
+}
 
 // The models that read a field, where another field chooses among several.
 struct ReadBy {
@@ -90,13 +112,13 @@ struct ReadBy {
 using Member = std::variant<double*, int*, bool*, std::string*>;
 
 struct Field {
-    std::string_view name;         // in C++ and Python
-    Member (*of)(void* config);    // the field of a struct
-    std::string_view key;          // in .ini files, below the path of the struct
+    std::string_view name;       // in C++ and Python
+    Member (*of)(void* config);  // the field of a struct
+    std::string_view key;        // in .ini files, below the path of the struct
     ValueType type;
-    std::string_view meaning;      // one sentence for lists of keys
+    std::string_view meaning;            // one sentence for lists of keys
     std::optional<ReadBy> read_by = {};  // that of the struct, if nothing is said
-    bool must_be_set = false;      // its default stands for "not set": the model that reads it needs a value
+    bool must_be_set = false;  // its default stands for "not set": the model that reads it needs a value
 };
 
 // All fields of one struct.
@@ -132,7 +154,7 @@ Member member(void* config) {
     const auto of = []<typename Config, typename Value>(void* object, Value Config::* field) -> auto& {
         return static_cast<Config*>(object)->*field;
     };
-    return &(of(config, First).*... .*Rest);
+    return &(of(config, First).*....*Rest);
 }
 
 }  // namespace netsim

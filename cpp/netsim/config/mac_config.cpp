@@ -40,7 +40,8 @@ constexpr Field fields[] = {
      "Number of failures after which a frame at or above the RTS threshold is dropped"},
     {NETSIM_FIELD(MacConfig, inet_station_retry_counters),
      "mac.dcf.recoveryProcedure.inetStationRetryCounters", boolean(),
-     "Whether failures are counted across dropped frames, as in INET: from the second in a row on, the contention"
+     "Whether failures are counted across dropped frames, as in INET: from the second in a row on, the "
+     "contention"
      " window stays large"},
     {NETSIM_FIELD(MacConfig, cw_min), "mac.dcf.channelAccess.cwMin", window,
      "Smallest contention window in slots; -1: that of opMode"},
@@ -53,10 +54,12 @@ constexpr Field fields[] = {
      boolean(), "Whether idle time before a frame arrives counts toward its wait"},
     {NETSIM_FIELD(MacConfig, initial_channel_busy), "mac.dcf.channelAccess.contention.initialChannelBusy",
      boolean(),
-     "For backoffOptimization: whether the channel was busy until the run began; false: it has always been idle"},
+     "For backoffOptimization: whether the channel was busy until the run began; false: it has always been "
+     "idle"},
     {NETSIM_FIELD(MacConfig, skip_backoff_if_idle), "mac.dcf.channelAccess.contention.skipBackoffIfIdle",
      boolean(),
-     "Whether a frame that finds station and channel idle waits only for DIFS, without a backoff; the station is idle"
+     "Whether a frame that finds station and channel idle waits only for DIFS, without a backoff; the "
+     "station is idle"
      " after the backoff that follows each frame"},
     {NETSIM_FIELD(MacConfig, inet_eifs), "mac.dcf.channelAccess.contention.inetEifs", boolean(),
      "Whether EIFS follows INET's rules instead of the standard's"},
@@ -93,13 +96,15 @@ const Schema MacConfig::schema{"mac", "wlan[0]", true, fields, with_ieee80211};
 void MacConfig::validate() const {
     check_fields(*this);
     if (cw_max != -1 && cw_max < cw_min) {
-        throw ConfigError({"mac.cw_max", Quantity{1.0 * cw_max, ""},
+        throw ConfigError({"mac.cw_max",
+                           Quantity{1.0 * cw_max, ""},
                            {"expected at least ", FieldName{"mac.cw_min"}, ", ", Quantity{1.0 * cw_min, ""}},
                            {"mac.cw_min"}});
     }
     // ARF has no upper bound, so the bound of AARF must not reject its threshold.
     if (rate_control == "AarfRateControl" && max_increase_threshold < increase_threshold) {
-        throw ConfigError({"mac.max_increase_threshold", Quantity{1.0 * max_increase_threshold, ""},
+        throw ConfigError({"mac.max_increase_threshold",
+                           Quantity{1.0 * max_increase_threshold, ""},
                            {"expected at least ", FieldName{"mac.increase_threshold"}, ", ",
                             Quantity{1.0 * increase_threshold, ""}},
                            {"mac.increase_threshold"}});

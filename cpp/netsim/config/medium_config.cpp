@@ -20,7 +20,8 @@ constexpr std::array isotropic{background_noise_names[0]};
 constexpr std::array thermal{thermal_noise};
 constexpr std::array dielectric{dielectric_obstacle_loss};
 
-constexpr ReadBy with_power_law{"medium.path_loss", power_law, "All but BreakpointPathLoss and TwoRayInterference"};
+constexpr ReadBy with_power_law{"medium.path_loss", power_law,
+                                "All but BreakpointPathLoss and TwoRayInterference"};
 constexpr ReadBy with_free_space{"medium.path_loss", free_space, "FreeSpacePathLoss, shadowing and fading"};
 constexpr ReadBy with_breakpoint{"medium.path_loss", breakpoint, breakpoint[0]};
 constexpr ReadBy with_two_ray{"medium.path_loss", two_ray, two_ray[0]};
@@ -104,7 +105,8 @@ void MediumConfig::validate() const {
     check_fields(*this);
     constexpr double shortest_s = 1e-6;
     if (coherence_time_s > 0 && coherence_time_s < shortest_s) {
-        throw ConfigError({"medium.coherence_time_s", Quantity{coherence_time_s, "s"},
+        throw ConfigError({"medium.coherence_time_s",
+                           Quantity{coherence_time_s, "s"},
                            {"expected at least ", Quantity{shortest_s, "s"}, ", or ", Quantity{0, "s"},
                             " (new for each transmission)"}});
     }

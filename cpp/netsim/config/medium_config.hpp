@@ -57,7 +57,8 @@ struct MediumConfig {
     double sigma_db = 1;
     double k_db = 8;
     double shape_factor = 1;
-    double coherence_time_s = -1;  // 0: each transmission has a state of its own, as in INET; -1: that of the model
+    double coherence_time_s =
+        -1;  // 0: each transmission has a state of its own, as in INET; -1: that of the model
 
     std::string background_noise = "IsotropicScalarBackgroundNoise";
     double temperature_k = 290;

@@ -15,8 +15,10 @@ constexpr Field fields[] = {
     // Shorter intervals would leave time for nothing but telemetry; longer ones do not fit into simulated time.
     {NETSIM_FIELD(MobilityConfig, telemetry_interval_s), "telemetryInterval",
      quantity("s").shown_in("ms").at_least(1e-6).at_most(1e6).or_special(0),
-     "Time between two calls of handle_telemetry, at least 1us; 0s: no calls. In prototype mode the call comes with"
-     " the first update of all positions at or after its time. Positions are updated every 10ms, or as often as the"
+     "Time between two calls of handle_telemetry, at least 1us; 0s: no calls. In prototype mode the call "
+     "comes with"
+     " the first update of all positions at or after its time. Positions are updated every 10ms, or as often "
+     "as the"
      " shortest interval says; beside autopilots the interval cannot be shorter than that"},
     {"initial_heading_rad", &member<&MobilityConfig::initial_orientation, &EulerAngles::heading_rad>,
      "initialHeading", angle(), "How the node is turned at the start: from the x axis to the y axis"},

@@ -16,11 +16,11 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(ObstacleConfig, material), "material", one_of(material_names), "what it is made of",
      with_dielectric},
     {NETSIM_FIELD(ObstacleConfig, relative_permittivity), "relativePermittivity",
-     number().at_least(1).or_special(-1, "that of the material"), "relative permittivity; -1: that of the material",
-     with_dielectric},
+     number().at_least(1).or_special(-1, "that of the material"),
+     "relative permittivity; -1: that of the material", with_dielectric},
     {NETSIM_FIELD(ObstacleConfig, conductivity_spm), "conductivity",
-     number().at_least(0).or_special(-1, "that of the material"), "conductivity in S/m; -1: that of the material",
-     with_dielectric},
+     number().at_least(0).or_special(-1, "that of the material"),
+     "conductivity in S/m; -1: that of the material", with_dielectric},
 };
 constexpr ReadBy with_obstacle_loss{"medium.obstacle_loss", std::span(obstacle_loss_names).last(2), ""};
 

@@ -25,8 +25,10 @@ constexpr Field fields[] = {
      quantity("W").shown_in("mW").at_least(0).at_most(largest_tx_power_w), "Transmit power"},
     {NETSIM_FIELD(RadioConfig, communication_range_m), "transmitter.communicationRange",
      quantity("m").at_least(0),
-     "UnitDiskRadioMedium: radius of the circle. Other media: sets the lowest power at which at least half of the"
-     " broadcast messages of 50 B arrive at that distance; of it and transmitter.power, the first line counts",
+     "UnitDiskRadioMedium: radius of the circle. Other media: sets the lowest power at which at least half "
+     "of the"
+     " broadcast messages of 50 B arrive at that distance; of it and transmitter.power, the first line "
+     "counts",
      ReadBy{}},
     {NETSIM_FIELD(RadioConfig, sensitivity_w), "receiver.sensitivity", level().above(0),
      "Weakest frame that the radio can receive"},
@@ -41,7 +43,8 @@ constexpr Field fields[] = {
      " (docs/guides/receivers.md)",
      with_ber_table, true},
     {NETSIM_FIELD(RadioConfig, snir_mode), "receiver.errorModel.snirMode", one_of(snir_mode_names),
-     "What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of the frame,"
+     "What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of the "
+     "frame,"
      " without the preamble (docs/guides/receivers.md)"},
     {NETSIM_FIELD(RadioConfig, noise_figure), "receiver.noiseFigure", ratio().at_least(1),
      "noise that the receiver adds", with_thermal_noise},
@@ -74,8 +77,8 @@ RadioConfig::RadioConfig(std::string_view interface_type_name) {
         carrier_hz = 2.45e9;
         bandwidth_hz = 2.8e6;
         tx_power_w = 0.00224;
-        sensitivity_w = 1e-13;      // -100 dBm
-        energy_detection_w = 1e-12;  // -90 dBm
+        sensitivity_w = 1e-13;                 // -100 dBm
+        energy_detection_w = 1e-12;            // -90 dBm
         snir_threshold = 0.15848931924611134;  // -8 dB
         error_model = "Ieee802154ErrorModel";
     }
@@ -84,7 +87,8 @@ RadioConfig::RadioConfig(std::string_view interface_type_name) {
 void RadioConfig::validate() const {
     check_fields(*this);
     if (bandwidth_hz > carrier_hz) {
-        throw ConfigError({"radio.bandwidth_hz", Quantity{bandwidth_hz, "Hz"},
+        throw ConfigError({"radio.bandwidth_hz",
+                           Quantity{bandwidth_hz, "Hz"},
                            {"expected at most the center frequency, ", Quantity{carrier_hz, "Hz"}},
                            {"radio.carrier_hz"}});
     }

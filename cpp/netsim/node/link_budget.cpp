@@ -59,8 +59,8 @@ int psdu_bytes_of(const InterfaceConfig& interface, int payload_bytes) {
         if (narrowband) {
             message.emplace_back(", which a frame of 802.15.4");
         } else {
-            message.insert(message.end(), {", which ", FieldName{"mac.mtu_bytes"}, " = ",
-                                           Quantity{1.0 * mtu_bytes, "B"}});
+            message.insert(message.end(),
+                           {", which ", FieldName{"mac.mtu_bytes"}, " = ", Quantity{1.0 * mtu_bytes, "B"}});
         }
         message.emplace_back(" leaves beside the headers of IPv4 and UDP");
         throw ConfigError({"", "", std::move(message)});

@@ -119,13 +119,13 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     }
     const double noise_w = medium_.background_noise().power_w(radio.bandwidth_hz, radio.noise_figure);
     if (radio.energy_detection_w <= noise_w) {
-        throw ConfigError({.field = "radio.energy_detection_w",
-                           .value = Quantity{radio.energy_detection_w, "W"},
-                           .message = {"expected more than the background noise of ", Quantity{noise_w, "W"},
-                                       ", which would keep the channel busy forever"},
-                           .compared_with = {"medium.background_noise_w", "medium.temperature_k",
-                                             "radio.noise_figure", "radio.bandwidth_hz",
-                                             "medium.background_noise", "interface.typename"}});
+        throw ConfigError(
+            {.field = "radio.energy_detection_w",
+             .value = Quantity{radio.energy_detection_w, "W"},
+             .message = {"expected more than the background noise of ", Quantity{noise_w, "W"},
+                         ", which would keep the channel busy forever"},
+             .compared_with = {"medium.background_noise_w", "medium.temperature_k", "radio.noise_figure",
+                               "radio.bandwidth_hz", "medium.background_noise", "interface.typename"}});
     }
     radio_kind(radio);
     if (config.type_name == ieee80211_interface) {
@@ -135,12 +135,12 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     // neither could make anything of what it locks on to.
     const auto there = interface_types_.find(radio.carrier_hz);
     if (there != interface_types_.end() && there->second != config.type_name) {
-        throw ConfigError({.field = "radio.carrier_hz",
-                           .value = Quantity{radio.carrier_hz, "Hz"},
-                           .message = {"expected another frequency for " + node + " with its " +
-                                       config.type_name + ": a node with an " + there->second +
-                                       " uses this one"},
-                           .compared_with = {"interface.typename"}});
+        throw ConfigError(
+            {.field = "radio.carrier_hz",
+             .value = Quantity{radio.carrier_hz, "Hz"},
+             .message = {"expected another frequency for " + node + " with its " + config.type_name +
+                         ": a node with an " + there->second + " uses this one"},
+             .compared_with = {"interface.typename"}});
     }
 }
 
@@ -164,11 +164,11 @@ Radio& Network::radio(InterfaceId id) {
 void Network::capture(NodeId node, const std::string& path, std::int32_t interface) {
     const std::string& name = this->node(node).name();
     if (perfect_channel_) {
-        throw ConfigError({.message = {"cannot capture the frames of " + name + ": ",
-                                       FieldName{"medium.typename"},
-                                       " = \"" + std::string(unit_disk_medium) +
-                                           "\" has no radios; expected Ieee80211ScalarRadioMedium or another radio"
-                                           " medium"}});
+        throw ConfigError(
+            {.message = {"cannot capture the frames of " + name + ": ", FieldName{"medium.typename"},
+                         " = \"" + std::string(unit_disk_medium) +
+                             "\" has no radios; expected Ieee80211ScalarRadioMedium or another radio"
+                             " medium"}});
     }
     const std::size_t count = this->node(node).interfaces().size();
     if (interface < 0 || static_cast<std::size_t>(interface) >= count) {

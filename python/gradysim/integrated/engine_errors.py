@@ -146,7 +146,7 @@ def _for(target: str, name: str, place: Setting | None) -> str:
 
 
 def _file_meant(key: Key | None, setting: Setting) -> str:
-    """A hint at a file beside one that is not there; "" for what is no name of a file, or of one that is."""
+    """A hint at a similar file beside a missing one; "" for any other setting."""
     file = Path(str(setting.value))
     if key is None or not key.kind.is_file or os.path.exists(file):  # False of what no file can be called
         return ""

@@ -442,4 +442,4 @@ NETWORK_KEYS: tuple[Key, ...] = (
 """Those below the network."""
 
 NETWORK_MODULES = frozenset(key.path.partition(".")[0] for key in NETWORK_KEYS)
-"""Names below the network that are no groups of nodes."""
+"""Names below the network that are not groups of nodes."""

@@ -39,11 +39,14 @@ private:
     MediumConfig medium_;
     MobilityConfig mobility_;
     ObstacleConfig obstacle_;
-    std::vector<std::pair<const Schema*, void*>> configs_{
-        {&InterfaceConfig::schema, &interface_},      {&MacConfig::schema, &interface_.mac},
-        {&CsmaConfig::schema, &interface_.csma},      {&RadioConfig::schema, &interface_.radio},
-        {&AntennaConfig::schema, &interface_.radio.antenna}, {&MediumConfig::schema, &medium_},
-        {&MobilityConfig::schema, &mobility_},        {&ObstacleConfig::schema, &obstacle_}};
+    std::vector<std::pair<const Schema*, void*>> configs_{{&InterfaceConfig::schema, &interface_},
+                                                          {&MacConfig::schema, &interface_.mac},
+                                                          {&CsmaConfig::schema, &interface_.csma},
+                                                          {&RadioConfig::schema, &interface_.radio},
+                                                          {&AntennaConfig::schema, &interface_.radio.antenna},
+                                                          {&MediumConfig::schema, &medium_},
+                                                          {&MobilityConfig::schema, &mobility_},
+                                                          {&ObstacleConfig::schema, &obstacle_}};
 };
 
 // The field that the check of the struct reports, "" for none.

@@ -20,8 +20,7 @@ TEST(MacConfig, WindowsMustNotCross) {
     MacConfig config;
     config.cw_min = 63;
     config.cw_max = 31;
-    EXPECT_EQ(error_text([&] { config.validate(); }),
-              "mac.cw_max = 31: expected at least mac.cw_min, 63");
+    EXPECT_EQ(error_text([&] { config.validate(); }), "mac.cw_max = 31: expected at least mac.cw_min, 63");
 }
 
 }  // namespace

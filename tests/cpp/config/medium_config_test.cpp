@@ -52,8 +52,9 @@ TEST(MediumConfig, TheCoherenceTimeIsThatOfTheModelUnlessItIsSet) {
 TEST(MediumConfig, ACoherenceTimeBelowAMicrosecondIsRejected) {
     MediumConfig config;
     config.coherence_time_s = 1e-9;
-    EXPECT_EQ(error_text([&] { config.validate(); }),
-              "medium.coherence_time_s = 1e-09 s: expected at least 1e-06 s, or 0 s (new for each transmission)");
+    EXPECT_EQ(
+        error_text([&] { config.validate(); }),
+        "medium.coherence_time_s = 1e-09 s: expected at least 1e-06 s, or 0 s (new for each transmission)");
 }
 
 }  // namespace

@@ -27,12 +27,12 @@ void check_payload_bytes(Node& node, std::int64_t payload_bytes) {
     constexpr std::size_t longest_in_udp_bytes = 65'507;
     const std::size_t longest_bytes = std::min(node.longest_message_bytes(), longest_in_udp_bytes);
     if (payload_bytes < 0 || static_cast<std::size_t>(payload_bytes) > longest_bytes) {
-        throw ConfigError({"protocol.payload_bytes",
-                           Quantity{static_cast<double>(payload_bytes), "B"},
-                           {"expected from ", Quantity{0, "B"}, " to ",
-                            Quantity{static_cast<double>(longest_bytes), "B"},
-                            ", the longest message of " + node.name() +
-                                " (what its wlan[0] takes, less IPv4 and UDP headers)"}});
+        throw ConfigError(
+            {"protocol.payload_bytes",
+             Quantity{static_cast<double>(payload_bytes), "B"},
+             {"expected from ", Quantity{0, "B"}, " to ", Quantity{static_cast<double>(longest_bytes), "B"},
+              ", the longest message of " + node.name() +
+                  " (what its wlan[0] takes, less IPv4 and UDP headers)"}});
     }
 }
 
@@ -48,12 +48,12 @@ void check_node_id(const Node& node, std::string_view field, std::int64_t id) {
 void check_other_node_id(const Node& node, std::string_view field, std::int64_t id) {
     check_node_id(node, field, id);
     if (id == node.id()) {
-        throw ConfigError({std::string(field),
-                           Quantity{static_cast<double>(id), ""},
-                           {"expected the id of another node than " + node.name() + " itself" +
-                            (node.node_count() == 1
-                                 ? ", but there is no other"
-                                 : ", from 0 to " + std::to_string(node.node_count() - 1))}});
+        throw ConfigError(
+            {std::string(field),
+             Quantity{static_cast<double>(id), ""},
+             {"expected the id of another node than " + node.name() + " itself" +
+              (node.node_count() == 1 ? ", but there is no other"
+                                      : ", from 0 to " + std::to_string(node.node_count() - 1))}});
     }
 }
 
