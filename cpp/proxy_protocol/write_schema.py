@@ -29,7 +29,13 @@ def schema_text(rows: Sequence[Mapping[str, Any]]) -> str:
 
 def stub_text(rows: Sequence[Mapping[str, Any]]) -> str:
     """A class with the fields of each struct, which the class of the struct inherits in _netsim.pyi."""
-    lines = ['"""The declared fields of the config structs. Written by `make schema`; do not edit."""']
+    lines = [
+        '"""The declared fields of the config structs. Written by `make schema`; do not edit."""',
+        "",
+        "from typing import TypeAlias",
+        "",
+        "MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]",
+    ]
     struct = ""
     for row in rows:
         of_struct, _, field = row["target"].partition(".")

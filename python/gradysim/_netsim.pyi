@@ -1,7 +1,7 @@
 """The compiled engine. Names, arguments and meaning are those of the C++ sources in cpp/netsim."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any
 
 from gradysim._netsim_fields import (
     AntennaFields,
@@ -9,13 +9,11 @@ from gradysim._netsim_fields import (
     InterfaceFields,
     MacFields,
     MediumFields,
+    MessagePart,
     MobilityFields,
     ObstacleFields,
     RadioFields,
 )
-
-MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]
-"""A text, a quantity (value, unit), or the full name of a field, "radio.tx_power_w"."""
 
 class ConfigError(ValueError):
     """A value of a configuration is outside its range; the text names the field, the value and the range."""
@@ -24,6 +22,7 @@ class ConfigError(ValueError):
     """Full name of the field, "radio.tx_power_w"; "" for an error that is about no field."""
     value: MessagePart
     message: Sequence[MessagePart]
+    """What is wrong, in parts: texts, quantities (value, unit) and full names of fields (name,)."""
     compared_with: Sequence[str]
     """Full names of the fields that decide whether the value is right, the likeliest cause first."""
     interface: int | None

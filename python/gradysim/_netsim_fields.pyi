@@ -1,5 +1,9 @@
 """The declared fields of the config structs. Written by `make schema`; do not edit."""
 
+from typing import TypeAlias
+
+MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]
+
 class MobilityFields:
     typename: str
     speed_mps: float
@@ -195,6 +199,8 @@ class MediumFields:
     """How power falls with distance, and how it fades; docs/guides/propagation.md."""
     alpha: float
     """Exponent of the distance."""
+    system_loss: float
+    """Loss in cables, connectors and filters of sender and receiver together."""
     breakpoint_distance_m: float
     """Distance at which the exponent changes."""
     l01_db: float
@@ -230,12 +236,10 @@ class MediumFields:
 
 class ObstacleFields:
     base_m: float
-    """Height of the floor above z = 0."""
     top_m: float
-    """Height of the roof above z = 0."""
     material: str
     """What it is made of."""
     relative_permittivity: float
-    """Replaces that of the material."""
+    """Relative permittivity; -1: that of the material."""
     conductivity_spm: float
-    """Replaces that of the material, in S/m."""
+    """Conductivity in S/m; -1: that of the material."""

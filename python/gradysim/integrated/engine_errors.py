@@ -23,6 +23,7 @@ from gradysim.scenario.value.units import UNITS
 
 if TYPE_CHECKING:
     from gradysim import _netsim
+    from gradysim._netsim_fields import MessagePart
 
 _LITERAL = re.compile(r'[-+]?[\d.]+(?:[eE][-+]?\d+)? *[A-Za-z]*|"[^"$]*"')
 _UNREADABLE = re.compile(r"\de[-+]|-inf|^-?0\.00")
@@ -91,10 +92,10 @@ def _engine_error(error: "_netsim.ConfigError", settings: Mapping[str, Setting])
     return told
 
 
-def _text(parts: Sequence["_netsim.MessagePart"], key: Key | None, interface: int | None) -> str:
+def _text(parts: Sequence["MessagePart"], key: Key | None, interface: int | None) -> str:
     """A message of the engine; its quantities are those of the field of `key`."""
 
-    def text(part: "_netsim.MessagePart") -> str:
+    def text(part: "MessagePart") -> str:
         match part:
             case str():
                 return part
