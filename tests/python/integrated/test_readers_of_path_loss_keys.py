@@ -14,6 +14,7 @@ MODELS = re.findall(r'"(\w+)"', TYPENAME.kind.expected)
 
 OTHER_VALUES = {
     "alpha": 3.0,
+    "system_loss": 2.0,
     "breakpoint_distance_m": 20.0,
     "l01_db": 30.0,
     "l02_db": 70.0,

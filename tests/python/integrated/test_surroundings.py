@@ -64,7 +64,7 @@ def test_the_engine_is_given_what_the_file_says() -> None:
         ),
         (
             "*.station.wlan[*].radio.antenna.length=13cm",
-            "length=13cm: expected at most the wavelength, 124.292mm",
+            "length=13cm: expected at most the wavelength, 0.124292m",
         ),
     ],
 )
