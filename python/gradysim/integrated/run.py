@@ -144,6 +144,7 @@ class IntegratedRun(ScenarioRun):
     def _start(self) -> Callable[[int], bool]:
         self._handlers.initialize()
         self._network.initialize()
+        self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
         self._flown.initialize()
         handlers, limit_s, factor = self._handlers, self._scenario.sim_time_limit_s, self._real_time_factor
         if factor == 0:

@@ -49,6 +49,8 @@ class PrototypeRun(ScenarioRun):
 
     def _start(self) -> Callable[[int], bool]:
         simulator = self._simulator
+        simulator.run_events(0)  # only initializes the protocols
+        self._lint.after_initialize(node.protocol_encapsulator.protocol for node in simulator.nodes)
         return lambda max_events: not simulator.run_events(max_events)
 
     def _now(self) -> float:

@@ -13,6 +13,7 @@ from gradysim.encapsulator.garbage_collection import garbage_left_alone
 from gradysim.encapsulator.global_random import global_random_of
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
+from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol.siblings import siblings_importable
 from gradysim.scenario.scenario import Scenario, require_scenario
 
@@ -45,6 +46,7 @@ class ScenarioRun(ABC):
         self._started_s = (perf_counter(), process_time())
         self._cost_s = (0.0, 0.0)
         self._complete = False
+        self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
 
     def execute(
@@ -78,6 +80,10 @@ class ScenarioRun(ABC):
             raise
         finally:
             self._cost_s = (perf_counter() - self._started_s[0], process_time() - self._started_s[1])
+
+    def findings(self) -> list[Finding]:
+        """Return what lint checks found in the protocols up to now."""
+        return self._lint.findings()
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
