@@ -15,7 +15,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from gradysim.results.run_result import RunResult
+    from gradysim.results.result import RunResult
     from gradysim.scenario.lint import Finding
     from gradysim.scenario.scenario import Scenario
 

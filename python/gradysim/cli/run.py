@@ -137,9 +137,8 @@ def import_what_runs_use(asked: Asked, *, summaries: bool) -> None:
     """Import the modules that report a run before a process is forked for each run."""
     names = ["rich._emoji_codes", "gradysim.cli.console", "gradysim.cli.summary"] if summaries else []
     if asked.writes_files:
-        names.append("gradysim.results.run_file")
+        names.append("gradysim.results.files")
     if asked.scalars or asked.vectors:
-        files = ("histograms", "run_identity", "scalar_file", "scalars", "vector_file")
-        names += [f"gradysim.results.{file}" for file in files]
+        names.append("gradysim.results.omnetpp")
     for name in names:
         import_module(name)
