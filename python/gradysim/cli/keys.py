@@ -20,8 +20,8 @@ def list_keys(
     from gradysim.cli import key_table
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.integrated.engine_defaults import engine_defaults
-    from gradysim.integrated.native_protocols import native_protocols
     from gradysim.scenario.key_list import key_meant, key_sections, matching
+    from gradysim.scenario.native_protocols import native_protocols
 
     try:
         structs, natives = engine_defaults(), list(native_protocols().values())

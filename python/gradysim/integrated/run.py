@@ -37,8 +37,8 @@ from gradysim.results.run_file import run_name
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.scenario.lint import Finding, RunLint
-from gradysim.scenario.protocol.parametrize import parametrize
-from gradysim.scenario.protocol.siblings import siblings_importable
+from gradysim.scenario.parameters import parametrize
+from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor

@@ -16,7 +16,7 @@ from gradysim.results.run_account import RunAccount
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
 from gradysim.scenario.lint import Finding, RunLint
-from gradysim.scenario.protocol.siblings import siblings_importable
+from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 

@@ -10,8 +10,8 @@ from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.node import GROUP_SIZE, GROUP_SIZE_OF_NODES, PROTOCOL_KEYS, PROTOCOL_PARAMETER
 from gradysim.scenario.keys.options import OPTION_KEYS
-from gradysim.scenario.protocol.native import NativeProtocol
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.native_protocols import NativeProtocol
+from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.scenario import CommunicationMediumSpec
 
 Structs = Mapping[str, Mapping[str, object]]

@@ -24,7 +24,7 @@ from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.scenario.matching.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.matching.text_index import TextIndex
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.pattern import Pattern
 
