@@ -192,8 +192,8 @@ def origin_of(cls: type[IProtocol]) -> Origin | None:
 def siblings_importable(classes: Iterable[type[IProtocol]]) -> Iterator[None]:
     """Inside, the files beside those of protocols can be imported, by functions and by pickle.
 
-    A name that several of their folders have cannot be imported. Nor can anything while another thread runs
-    another scenario.
+    A name that several of their folders have cannot be imported. While another thread runs a scenario, only
+    the files beside the protocols of that one can be.
     """
     origins = {origin for cls in set(classes) if (origin := origin_of(cls)) is not None}
     folders = {(origin.loader, origin.file.parent) for origin in origins}

@@ -125,7 +125,7 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
 
 
 def _class_meant(reference: str, folder: Path) -> str:
-    """Return a hint for the name of a native protocol, and for a dot in the place of the colon."""
+    """Return a hint for the name of a native protocol, and for a dot instead of the colon."""
     if is_native_name(reference):
         return "; did you mean `protocol.typename`?"
     module, _, class_name = reference.rpartition(".")
