@@ -11,7 +11,7 @@ import pytest
 
 from gradysim.integrated.native_protocols import is_native
 from gradysim.integrated.run import run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.native_protocols import native_protocols
 
