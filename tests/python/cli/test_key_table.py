@@ -2,7 +2,7 @@ from io import StringIO
 
 from rich.console import Console
 
-from gradysim.cli.key_table import markdown, plain_text, rich_tables
+from gradysim.cli.keys import markdown, plain_text, rich_tables
 from gradysim.scenario.key_list import KeyRow, KeySection
 
 SECTIONS = [KeySection("Of nodes", (KeyRow("*.nodes[*].a", "m", "1m", "Length"),))]
