@@ -1,4 +1,4 @@
-"""One run of `gradysim run`: checked, built, executed and shown. It keeps what it computed, however it ends."""
+"""One run of `gradysim run`: checked, built, executed and shown. It keeps its results, however it ends."""
 
 import json
 import sys
@@ -17,7 +17,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from gradysim.results.run_result import RunResult
+    from gradysim.results.result import RunResult
     from gradysim.scenario.lint import Finding
     from gradysim.scenario.scenario import Scenario
 

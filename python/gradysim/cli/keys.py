@@ -66,7 +66,7 @@ def list_keys(
         )
         return MISTAKE
     if markdown:
-        print(markdown(sections), end="")
+        print(markdown_page(sections), end="")
     elif sys.stdout.isatty():
         from gradysim.cli.console import console
 
@@ -100,7 +100,7 @@ def plain_text(sections: "Iterable[KeySection]") -> str:
     return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{row.meaning}\n" for row in rows)
 
 
-def markdown(sections: "Iterable[KeySection]") -> str:
+def markdown_page(sections: "Iterable[KeySection]") -> str:
     """Return the page docs/guides/keys.md."""
     parts = [INTRODUCTION]
     for section in sections:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from cyclopts import Token
 
 Mode = Literal["integrated", "prototype"]
-"""The same as in `gradysim.results.run_result`, which `gradysim --help` does not load."""
+"""The same as in `gradysim.results.result`, which `gradysim --help` does not load."""
 
 DEFAULT_DIR = Path("results")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gradysim.cli.options import RunOptions
 
 if TYPE_CHECKING:
-    from gradysim.results.run_result import RunResult
+    from gradysim.results.result import RunResult
     from gradysim.scenario.node.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
 
@@ -49,7 +49,7 @@ def capture_files_of(scenario: "Scenario", options: RunOptions) -> list[Path]:
 
 def omnetpp_file(scenario: "Scenario", options: RunOptions, suffix: str) -> Path:
     """Return the file of a run's scalars, `.sca`, or vectors, `.vec`."""
-    from gradysim.results.run_file import run_file
+    from gradysim.results.files import run_file
 
     return run_file(options.directory, scenario.config, scenario.run_number, options.mode, suffix)
 
@@ -117,7 +117,7 @@ def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> No
 
 def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
     """Give the files that a run will write, those that are renamed once they are complete as until then."""
-    from gradysim.results.run_file import run_file
+    from gradysim.results.files import run_file
 
     yield from capture_files_of(scenario, options)
     complete = files_for_omnetpp(scenario, options)
@@ -137,7 +137,7 @@ def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) 
     The result comes first: it is there if the disk has no room for the others. Once they are complete it is
     written again, and names them.
     """
-    from gradysim.results.run_file import write_run_file
+    from gradysim.results.files import write_run_file
 
     if options.writes_files:
         yield from _remove_of_earlier_runs(scenario, options)
@@ -162,17 +162,13 @@ def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterat
 
 
 def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
-    from gradysim.results.histograms import histograms
-    from gradysim.results.run_identity import identity_of
-    from gradysim.results.scalar_file import write_scalar_file
-    from gradysim.results.scalars import scalars
-    from gradysim.results.vector_file import vectors_of, write_vector_file
+    from gradysim.results.omnetpp import identity_of, vectors_of, write_scalar_file, write_vector_file
 
     identity = identity_of(result, scenario, options.directory)
     if options.scalars:
         path = omnetpp_file(scenario, options, ".sca")
-        distributions = histograms(result, scenario.network)
-        write_scalar_file(scalars(result, scenario.network), identity, path, distributions)
+        network = scenario.network
+        write_scalar_file(result.scalars(network), identity, path, result.histograms(network))
         yield f"scalars in {path}"
     if options.vectors:
         path = omnetpp_file(scenario, options, ".vec")

@@ -17,7 +17,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Sc
 
     Raises ConfigError without a folder.
     """
-    from gradysim.results.run_file import files_changed_since
+    from gradysim.results.files import files_changed_since
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.runs.file_hashes import text_of_files
     from gradysim.scenario.runs.run_numbers import text_of_runs
@@ -56,11 +56,11 @@ def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Sc
 
 def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
     """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
-    from gradysim.results.run_file import has_written
+    from gradysim.results.files import has_written
 
     files = files_for_omnetpp(scenario, options)
     return (
-        has_written(scenario, options.directory, files_beside_result(scenario, options))
+        has_written(scenario, options.mode, options.directory, files_beside_result(scenario, options))
         and _have_labels(files, scenario, options.mode)
         and _has_vectors(files, scenario, options)
     )
@@ -68,9 +68,8 @@ def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
 
 def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
     """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
-    from gradysim.results.database import storable
-    from gradysim.results.read_files import run_attributes
-    from gradysim.results.run_identity import lasting_attributes
+    from gradysim.results.omnetpp import lasting_attributes, storable
+    from gradysim.results.omnetpp_reader import run_attributes
 
     expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
     found = [run_attributes(file) for file in files]
@@ -82,7 +81,7 @@ def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> boo
 
 def _has_vectors(files: Sequence[Path], scenario: "Scenario", options: RunOptions) -> bool:
     """Whether the last of the files has vectors of all nodes that are asked for."""
-    from gradysim.results.read_files import recorded_modules
+    from gradysim.results.omnetpp_reader import recorded_modules
 
     expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, options)}
     return not expected or expected <= recorded_modules(files[-1])

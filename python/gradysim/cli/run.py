@@ -122,9 +122,8 @@ def import_what_runs_use(options: RunOptions) -> None:
     if not (options.as_json or options.quiet):
         names += ["rich._emoji_codes", "gradysim.cli.console", "gradysim.cli.summary"]
     if options.writes_files:
-        names.append("gradysim.results.run_file")
+        names.append("gradysim.results.files")
     if options.scalars or options.vectors:
-        files = ("histograms", "run_identity", "scalar_file", "scalars", "vector_file")
-        names += [f"gradysim.results.{file}" for file in files]
+        names.append("gradysim.results.omnetpp")
     for name in names:
         import_module(name)

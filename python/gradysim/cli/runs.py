@@ -19,16 +19,17 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     """List the runs of a configuration."""
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.lint import unread_variables
+    from gradysim.scenario.load import runs_of
     from gradysim.scenario.runs.iterations import text_of_iterations
 
     try:
-        scenarios = check(file, config, None, settings).scenarios
-        tell(unread_variables(scenarios[0].unread_variables, scenarios[0].lines))
-        for scenario in scenarios:
-            values = {**scenario.iterations, "repetition": scenario.repetition}
-            print(f"Run {scenario.run_number}: {text_of_iterations(values)}")
+        for number, repetition, iterations in runs_of(file, config, settings):
+            print(f"Run {number}: {text_of_iterations({**iterations, 'repetition': repetition})}")
     except ConfigError as mistake:
         return say_mistake(mistake)
+    with contextlib.suppress(ConfigError):  # `gradysim check` reports it
+        first = check(file, config, None, settings).scenarios[0]
+        tell(unread_variables(first.unread_variables, first.lines))
     return OK
 
 
