@@ -12,7 +12,7 @@ import pytest
 from gradysim.cli import summary
 from python.cli.command import both_modes, environment, objects, run_command
 
-COSTS = ("wall_s", "cpu_s")
+COSTS = ("wall_s", "cpu_s", "setup_s")
 
 TELLS = """
 import os
