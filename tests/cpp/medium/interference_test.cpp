@@ -45,8 +45,8 @@ struct Worst {
     std::vector<NodeId> interferers;
 };
 
-// The definition, without any search: every start is looked at, and everything is added up there. Those are named of whom as
-// strong ones and stronger ones do not outweigh the rest without it.
+// The definition, without any search: every start is looked at, and everything is added up there.
+// Those are named of whom as strong ones and stronger ones do not outweigh the rest without it.
 Worst plain_worst(const Frames& frames, SimTime start, SimTime end) {
     Worst worst;
     SimTime when;

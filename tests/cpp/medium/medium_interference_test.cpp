@@ -15,7 +15,8 @@ using test::Air;
 using test::BareRadio;
 using test::us;
 
-// At the end of whatever it could lock on to, holds the bounds of what disturbed that against the sum.
+// At the end of whatever it could lock on to, holds the bounds of what disturbed that against the
+// sum.
 class Judge final : public MediumListener {
 public:
     Judge(Air& air, Position place) : medium_(air.medium), trajectory_(place) {
@@ -30,19 +31,19 @@ public:
     void arrival_started(const Arrival&) override {}
     void arrival_ended(const Arrival& arrival) override {
         if (arrival.lockable) {
-            const double most_w =
+            const double max_w =
                 medium_.interference_with(id_, arrival, arrival.start, arrival.end).worst_w();
-            const double bound_w = medium_.most_interference_w(id_, arrival);
-            EXPECT_LE(most_w, bound_w);
-            EXPECT_LE(bound_w, medium_.most_interference_w(arrival) * (1 + 1e-6));
-            disturbed += most_w > 0 ? 1 : 0;
-            most_sum_w += most_w;
+            const double bound_w = medium_.max_interference_w(id_, arrival);
+            EXPECT_LE(max_w, bound_w);
+            EXPECT_LE(bound_w, medium_.max_interference_w(arrival) * (1 + 1e-6));
+            disturbed += max_w > 0 ? 1 : 0;
+            max_sum_w += max_w;
             bound_sum_w += bound_w;
         }
     }
 
     int disturbed = 0;
-    double most_sum_w = 0;
+    double max_sum_w = 0;
     double bound_sum_w = 0;
 
 private:
@@ -51,7 +52,8 @@ private:
     RadioId id_ = 0;
 };
 
-// Thirty senders in a square of 4 km and a judge in its middle; each sends one frame within the time of five.
+// Thirty senders in a square of 4 km and a judge in its middle; each sends one frame within the
+// time of five.
 void send_all_over(Air& air, std::uint64_t seed) {
     RandomStream draws(seed, 0, Purpose{1002});
     for (int i = 0; i < 30; ++i) {
@@ -69,7 +71,7 @@ TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
     config.path_loss = GetParam();
     int disturbed = 0;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        Air air(config, Hearing::what_matters, seed);
+        Air air(config, Culling::enabled, seed);
         Judge judge(air, {0, 0, 5});
         send_all_over(air, seed);
         disturbed += judge.disturbed;
@@ -83,13 +85,13 @@ TEST(BoundOfInterference, AtAReceiverIsNearTheSumOfThoseThatDisturbIt) {
     Air air;
     Judge judge(air, {0, 0, 0});
     BareRadio& sender = air.add_radio({100, 0, 0}, test::radio_of_power(0.002));
-    BareRadio& close = air.add_radio({-600, 0, 0}, test::radio_of_power(0.002));
+    BareRadio& close_interferers = air.add_radio({-600, 0, 0}, test::radio_of_power(0.002));
     BareRadio& far = air.add_radio({0, 9000, 0}, test::radio_of_power(0.002));
-    for (BareRadio* each : {&sender, &close, &far}) {
+    for (BareRadio* each : {&sender, &close_interferers, &far}) {
         air.at(us(10), [each] { each->send(us(100)); });
     }
     air.run();
-    EXPECT_LE(judge.bound_sum_w, judge.most_sum_w * 1.01);
+    EXPECT_LE(judge.bound_sum_w, judge.max_sum_w * 1.01);
 }
 
 }  // namespace

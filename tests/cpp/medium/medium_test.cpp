@@ -25,9 +25,9 @@ TEST(Medium, ArrivesAfterThePropagationDelay) {
     Sniffer& sniffer = air.add_sniffer({0, 3 * light_microsecond_m, 4 * light_microsecond_m});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    ASSERT_EQ(sniffer.heard.size(), 1U);
-    EXPECT_EQ(sniffer.heard[0].start, us(15));
-    EXPECT_EQ(sniffer.heard[0].end, us(115));
+    ASSERT_EQ(sniffer.scheduled.size(), 1U);
+    EXPECT_EQ(sniffer.scheduled[0].start, us(15));
+    EXPECT_EQ(sniffer.scheduled[0].end, us(115));
 }
 
 TEST(Medium, ThePropagationDelayIsRoundedToAPicosecond) {
@@ -36,8 +36,8 @@ TEST(Medium, ThePropagationDelayIsRoundedToAPicosecond) {
     Sniffer& sniffer = air.add_sniffer({100, 0, 0});  // 333 564.095 ps
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_EQ(sniffer.heard.at(0).start, us(10) + SimTime::from_ps(333'564));
-    EXPECT_EQ(sniffer.heard.at(0).end, us(110) + SimTime::from_ps(333'564));
+    EXPECT_EQ(sniffer.scheduled.at(0).start, us(10) + SimTime::from_ps(333'564));
+    EXPECT_EQ(sniffer.scheduled.at(0).end, us(110) + SimTime::from_ps(333'564));
 }
 
 TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
@@ -46,7 +46,7 @@ TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
     Sniffer& sniffer = air.add_sniffer({50, 0, 0});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_NEAR(sniffer.heard.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
+    EXPECT_NEAR(sniffer.scheduled.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
 }
 
 TEST(Medium, OfManyRadiosEachHasItsOwnSensitivity) {
@@ -83,7 +83,7 @@ TEST(Medium, OnAnOverlappingChannelTheShareOfItsPowerArrives) {
     Sniffer& next = air.add_sniffer({0, 50, 0}, three_channels_up());
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_DOUBLE_EQ(next.heard.at(0).power_w, same.heard.at(0).power_w * 7 / 22);
+    EXPECT_DOUBLE_EQ(next.scheduled.at(0).power_w, same.scheduled.at(0).power_w * 7 / 22);
 }
 
 TEST(Medium, AFrameOfAnOverlappingChannelMakesTheChannelBusyAndIsNotReceived) {
@@ -118,8 +118,8 @@ TEST(Medium, AtNoDistanceTheFrameArrivesAtOnceAndWhole) {
     Sniffer& sniffer = air.add_sniffer({0, 0, 0});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_EQ(sniffer.heard.at(0).start, us(10));
-    EXPECT_DOUBLE_EQ(sniffer.heard.at(0).power_w, 0.02);
+    EXPECT_EQ(sniffer.scheduled.at(0).start, us(10));
+    EXPECT_DOUBLE_EQ(sniffer.scheduled.at(0).power_w, 0.02);
 }
 
 TEST(Medium, PositionsAreThoseOfTheStartOfTheTransmission) {
@@ -130,8 +130,8 @@ TEST(Medium, PositionsAreThoseOfTheStartOfTheTransmission) {
     sniffer.trajectory.go_to(us(0), {11 * light_microsecond_m, 0, 0}, light_microsecond_m / 10e-6);
     air.at(us(10), [&] { sender.send(us(1000)); });  // the sniffer is at 2 light microseconds
     air.run();
-    EXPECT_EQ(sniffer.heard.at(0).start, us(12));
-    EXPECT_EQ(sniffer.heard.at(0).end, us(1012));
+    EXPECT_EQ(sniffer.scheduled.at(0).start, us(12));
+    EXPECT_EQ(sniffer.scheduled.at(0).end, us(1012));
 }
 
 TEST(Medium, MakesACopyForEveryOtherRadioOfTheBand) {
@@ -243,8 +243,8 @@ TEST(Medium, ForgetsTransmissionsThatCannotMatterAnyMore) {
 }
 
 TEST(Medium, RemembersAFrameForAsLongAsItInterferes) {
-    // The interferer ends just after the signal has begun, and many short frames elsewhere come and go
-    // meanwhile.
+    // The interferer ends just after the signal has begun, and many short frames elsewhere come and
+    // go meanwhile.
     Air air;
     BareRadio& receiver = air.add_radio({0, 0, 0});
     BareRadio& signal = air.add_radio({200, 0, 0}, test::radio_of_power(test::power_for(4e-12, 200)));

@@ -1,7 +1,8 @@
 // Configurations read from any bytes: every model that a name chooses, and numbers of every size.
 //
-// Zeros give the defaults, and parts that scenarios seldom change are left alone by half of the bytes; else hardly any
-// configuration would be accepted. What is refused by a check is no scenario, which is up to the caller.
+// Zeros give the defaults, and parts that scenarios seldom change are left alone by half of the
+// bytes; else hardly any configuration would be accepted. What is refused by a check is no
+// scenario, which is up to the caller.
 #pragma once
 
 #include <string>
@@ -96,7 +97,8 @@ private:
         }
     }
 
-    // Corners have the lattice of the nodes' usual positions, so that nodes lie on walls and corners.
+    // Corners have the lattice of the nodes' usual positions, so that nodes lie on walls and
+    // corners.
     Ring ring() {
         const double x = 10.0 * bytes_.byte();
         const double y = 10.0 * bytes_.byte();
