@@ -55,7 +55,7 @@ std::string distances_to_goals(double ns_of_100_nodes, double ns_per_frame, doub
 }
 
 // Networks of one size, each with places and phases of its own. A single small one says little: its
-// phases are those of its first second for ever, and in one of 100 nodes it is chance whether any
+// phases are those of its first second forever, and in one of 100 nodes it is chance whether any
 // two frames overlap.
 class BeaconNetworks {
 public:

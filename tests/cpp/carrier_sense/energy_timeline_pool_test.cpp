@@ -12,9 +12,9 @@ SimTime us(std::int64_t microseconds) {
     return SimTime::from_us(microseconds);
 }
 
-class EnergyOutlooksTest : public testing::Test {
+class EnergyTimelinePoolTest : public testing::Test {
 protected:
-    EnergyOutlooksTest() {
+    EnergyTimelinePoolTest() {
         for (int radio = 0; radio < radios; ++radio) {
             timelines.add_radio();
         }
@@ -30,13 +30,13 @@ protected:
     EnergyTimelinePool timelines;
 };
 
-TEST_F(EnergyOutlooksTest, WhoWasNotAskedForHasNone) {
+TEST_F(EnergyTimelinePoolTest, HasNoTimelineAtFirst) {
     timelines.of(1, noise_w, us(0));
     EXPECT_TRUE(timelines.has(1));
     EXPECT_FALSE(timelines.has(0));
 }
 
-TEST_F(EnergyOutlooksTest, ANewOneKnowsNothingButTheNoise) {
+TEST_F(EnergyTimelinePoolTest, ANewTimelineHasNoiseOnly) {
     ReceiverTimeline& known = timelines.of(1, noise_w, us(5));
     EXPECT_EQ(known.next_id, 0U);
     EXPECT_EQ(known.deferred_until, SimTime::long_ago());
@@ -44,7 +44,7 @@ TEST_F(EnergyOutlooksTest, ANewOneKnowsNothingButTheNoise) {
     EXPECT_NEAR(known.timeline.report_missing(level_w, [](const auto&) {}), level_w - noise_w, 1e-20);
 }
 
-TEST_F(EnergyOutlooksTest, IsKeptForItsRadioWhileAnythingLasts) {
+TEST_F(EnergyTimelinePoolTest, KeepsATimelineWhileAnArrivalLasts) {
     ReceiverTimeline& first = with_one_until(0, us(0), us(1000));
     for (RadioId radio = 1; radio < radios; ++radio) {
         with_one_until(radio, us(radio), us(1000));
@@ -53,7 +53,7 @@ TEST_F(EnergyOutlooksTest, IsKeptForItsRadioWhileAnythingLasts) {
     EXPECT_EQ(first.radio, 0);
 }
 
-TEST_F(EnergyOutlooksTest, WhatIsOverIsUsedAgainAndForgotten) {
+TEST_F(EnergyTimelinePoolTest, ReusesTimelinesThatAreOver) {
     for (RadioId radio = 0; radio < radios; ++radio) {
         const SimTime start = us(10) * radio;
         ReceiverTimeline& known = with_one_until(radio, start, start + us(5));

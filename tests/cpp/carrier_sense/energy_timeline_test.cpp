@@ -15,7 +15,7 @@ SimTime us(std::int64_t microseconds) {
     return SimTime::from_us(microseconds);
 }
 
-// What was told, by the ids of the transmissions.
+// The reported arrivals, by the ids of their transmissions.
 struct Told {
     EnergyTimeline& timeline;
     std::vector<std::uint64_t> ids;
@@ -26,9 +26,9 @@ struct Told {
     }
 };
 
-class EnergyForecastTest : public testing::Test {
+class EnergyTimelineTest : public testing::Test {
 protected:
-    EnergyForecastTest() {
+    EnergyTimelineTest() {
         timeline.begin(noise_w);
         timeline.begin_at(us(0));
     }
@@ -37,18 +37,18 @@ protected:
     Told notified{timeline, {}};
 };
 
-TEST_F(EnergyForecastTest, MissesWhatTheLevelIsAboveTheNoise) {
+TEST_F(EnergyTimelineTest, HeadroomIsLevelMinusNoise) {
     EXPECT_NEAR(notified.report_missing(), level_w - noise_w, tiny_w);
 }
 
-TEST_F(EnergyForecastTest, MissesLessWithWhatIsThere) {
+TEST_F(EnergyTimelineTest, ArrivalsReduceTheHeadroom) {
     timeline.add_unreported({1, us(1), us(10), 0.3 * level_w});
     timeline.add_reported({2, us(5), us(15), 0.2 * level_w}, us(5), false);
     EXPECT_NEAR(notified.report_missing(), 0.5 * level_w - noise_w, tiny_w);
     EXPECT_TRUE(notified.ids.empty());
 }
 
-TEST_F(EnergyForecastTest, TellsOfTheStrongestAndOfNoMoreThanItTakes) {
+TEST_F(EnergyTimelineTest, ReportsTheStrongestAndNoMoreThanNeeded) {
     timeline.add_unreported({1, us(1), us(10), 0.3 * level_w});
     timeline.add_unreported({2, us(2), us(11), 0.5 * level_w});
     timeline.add_unreported({3, us(3), us(12), 0.8 * level_w});
@@ -56,7 +56,7 @@ TEST_F(EnergyForecastTest, TellsOfTheStrongestAndOfNoMoreThanItTakes) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{3, 2}));
 }
 
-TEST_F(EnergyForecastTest, TellsOfEachOnce) {
+TEST_F(EnergyTimelineTest, ReportsEachOnce) {
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({2, us(2), us(10), 0.6 * level_w});
     notified.report_missing();
@@ -65,15 +65,15 @@ TEST_F(EnergyForecastTest, TellsOfEachOnce) {
     EXPECT_TRUE(notified.ids.empty());
 }
 
-TEST_F(EnergyForecastTest, WhereEnoughIsToldNothingIsMissing) {
+TEST_F(EnergyTimelineTest, HeadroomIsInfiniteWhereEnoughIsReported) {
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({2, us(2), us(11), 0.7 * level_w});
-    // Before and after both there is one of them.
+    // Before and after the overlap, there is one of them.
     EXPECT_NEAR(notified.report_missing(), 0.3 * level_w - noise_w, tiny_w);
     EXPECT_EQ(notified.ids.size(), 2U);
 }
 
-TEST_F(EnergyForecastTest, TellsOfOthersForWhenOneThatWasToldEnds) {
+TEST_F(EnergyTimelineTest, ReportsOthersForTheTimeAfterAReportedOneEnds) {
     timeline.add_reported({1, us(0), us(5), 2 * level_w}, us(0), true);
     timeline.add_unreported({2, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({3, us(2), us(11), 0.7 * level_w});
@@ -81,7 +81,7 @@ TEST_F(EnergyForecastTest, TellsOfOthersForWhenOneThatWasToldEnds) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{3, 2}));
 }
 
-TEST_F(EnergyForecastTest, TellsOfThoseThatLastAndNotOfThoseThatEndBeforeThem) {
+TEST_F(EnergyTimelineTest, ReportsTheLongestInsteadOfThoseThatEndBefore) {
     for (std::int64_t id = 1; id <= 6; ++id) {
         const double power_w = static_cast<double>(11 - id) / 10 * 0.95 * level_w;
         timeline.add_unreported({static_cast<std::uint64_t>(id), us(-1), us(10 + id), power_w});
@@ -90,21 +90,21 @@ TEST_F(EnergyForecastTest, TellsOfThoseThatLastAndNotOfThoseThatEndBeforeThem) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{5, 6}));
 }
 
-TEST_F(EnergyForecastTest, OnesAfterEachOtherDoNotAddUp) {
+TEST_F(EnergyTimelineTest, ConsecutiveArrivalsDoNotAddUp) {
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({2, us(11), us(20), 0.7 * level_w});
     EXPECT_NEAR(notified.report_missing(), 0.3 * level_w - noise_w, tiny_w);
     EXPECT_TRUE(notified.ids.empty());
 }
 
-TEST_F(EnergyForecastTest, InOneMomentAllThatBeginsAndEndsIsThere) {
+TEST_F(EnergyTimelineTest, AtOneInstantAllStartsAndEndsCountForTheTotal) {
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({2, us(10), us(20), 0.6 * level_w});
     notified.report_missing();
     EXPECT_EQ(notified.ids.size(), 2U);
 }
 
-TEST_F(EnergyForecastTest, InOneMomentWhatWasToldAndBeginsIsNotThere) {
+TEST_F(EnergyTimelineTest, AtOneInstantReportedStartsDoNotCount) {
     timeline.add_reported({1, us(5), us(15), 2 * level_w}, us(5), true);
     timeline.add_reported({2, us(5), us(15), 2 * level_w}, us(5), true);
     timeline.add_unreported({3, us(1), us(20), 0.1 * level_w});
@@ -112,7 +112,7 @@ TEST_F(EnergyForecastTest, InOneMomentWhatWasToldAndBeginsIsNotThere) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{3}));
 }
 
-TEST_F(EnergyForecastTest, WhatIsOverDoesNotCount) {
+TEST_F(EnergyTimelineTest, EndedArrivalsDoNotCount) {
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({2, us(1), us(20), 0.1 * level_w});
     notified.report_missing();
@@ -122,13 +122,13 @@ TEST_F(EnergyForecastTest, WhatIsOverDoesNotCount) {
     EXPECT_NEAR(notified.report_missing(), 0.2 * level_w - noise_w, tiny_w);
 }
 
-TEST_F(EnergyForecastTest, WhatBeganBeforeCounts) {
+TEST_F(EnergyTimelineTest, ArrivalsThatBeganBeforeCount) {
     timeline.begin_at(us(10));
     timeline.add_unreported({1, us(1), us(20), 0.6 * level_w});
     EXPECT_NEAR(notified.report_missing(), 0.4 * level_w - noise_w, tiny_w);
 }
 
-TEST_F(EnergyForecastTest, WhatMayBeLeftOutIsNotEnough) {
+TEST_F(EnergyTimelineTest, ArrivalsBeforeTheirDetectionDoNotSuffice) {
     timeline.add_reported({1, us(1), us(20), 0.95 * level_w}, us(5), false);
     timeline.add_unreported({2, us(1), us(4), 0.02 * level_w});
     timeline.add_unreported({3, us(1), us(4), 0.03 * level_w});
@@ -136,7 +136,7 @@ TEST_F(EnergyForecastTest, WhatMayBeLeftOutIsNotEnough) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{3, 2}));
 }
 
-TEST_F(EnergyForecastTest, WhatIsSensedIsEnough) {
+TEST_F(EnergyTimelineTest, DetectedArrivalsSuffice) {
     timeline.add_reported({1, us(1), us(20), 0.98 * level_w}, us(5), false);
     timeline.add_unreported({2, us(6), us(21), 0.02 * level_w});
     timeline.add_unreported({3, us(7), us(22), 0.01 * level_w});
@@ -144,7 +144,7 @@ TEST_F(EnergyForecastTest, WhatIsSensedIsEnough) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{2}));
 }
 
-TEST_F(EnergyForecastTest, OnesBesideALoudOneMatterWhileItMayBeLeftOut) {
+TEST_F(EnergyTimelineTest, OthersMatterUntilAStrongArrivalIsDetected) {
     timeline.add_reported({1, us(1), us(20), 2 * level_w}, us(5), true);
     timeline.add_unreported({2, us(2), us(4), 0.3 * level_w});
     EXPECT_NEAR(notified.report_missing(), 0.7 * level_w - noise_w, tiny_w);
@@ -154,36 +154,36 @@ TEST_F(EnergyForecastTest, OnesBesideALoudOneMatterWhileItMayBeLeftOut) {
     EXPECT_EQ(notified.ids, (std::vector<std::uint64_t>{3, 2}));
 }
 
-TEST_F(EnergyForecastTest, ALoudOneThatEndsBeforeItIsSensedIsOfNoInterest) {
+TEST_F(EnergyTimelineTest, AStrongArrivalThatEndsBeforeItsDetectionDoesNotCount) {
     timeline.add_reported({1, us(1), us(4), 2 * level_w}, us(5), true);
     EXPECT_NEAR(notified.report_missing(), level_w - noise_w, tiny_w);
 }
 
-TEST_F(EnergyForecastTest, IsToldUntilWhatWasToldIsNotEnough) {
+TEST_F(EnergyTimelineTest, ReportedUntilTheyNoLongerSuffice) {
     timeline.add_reported({1, us(-1), us(10), 2 * level_w}, us(-1), true);
     timeline.add_reported({2, us(5), us(20), 0.6 * level_w}, us(5), false);
     timeline.add_reported({3, us(5), us(15), 0.6 * level_w}, us(5), false);
     EXPECT_EQ(timeline.reported_until(level_w), us(15));
 }
 
-TEST_F(EnergyForecastTest, IsToldUntilNowWhileWhatWasToldIsNotEnough) {
+TEST_F(EnergyTimelineTest, ReportedUntilNowIfTheyDoNotSuffice) {
     timeline.add_reported({1, us(1), us(10), 2 * level_w}, us(1), true);
     EXPECT_EQ(timeline.reported_until(level_w), us(0));
 }
 
-// Perhaps it has not begun yet: what is due in the same instant has turns.
-TEST_F(EnergyForecastTest, IsToldUntilNowIfWhatWasToldBeginsNow) {
+// It may not have begun yet: events of one instant have an order.
+TEST_F(EnergyTimelineTest, ReportedUntilNowIfTheyBeginNow) {
     timeline.add_reported({1, us(0), us(10), 2 * level_w}, us(0), true);
     EXPECT_EQ(timeline.reported_until(level_w), us(0));
 }
 
-TEST_F(EnergyForecastTest, IsToldUntilTheMomentInWhichOneEndsAndTheNextBegins) {
+TEST_F(EnergyTimelineTest, ReportedUntilOneEndsAsTheNextBegins) {
     timeline.add_reported({1, us(-1), us(10), 2 * level_w}, us(-1), true);
     timeline.add_reported({2, us(10), us(20), 2 * level_w}, us(10), true);
     EXPECT_EQ(timeline.reported_until(level_w), us(10));
 }
 
-TEST_F(EnergyForecastTest, IsToldAsFarAsIsKnownWhereTheNoiseIsEnough) {
+TEST_F(EnergyTimelineTest, ReportedUntilTheLastStepIfTheNoiseSuffices) {
     EnergyTimeline exceeds_ed;
     exceeds_ed.begin(2 * level_w);
     exceeds_ed.begin_at(us(0));
@@ -193,7 +193,7 @@ TEST_F(EnergyForecastTest, IsToldAsFarAsIsKnownWhereTheNoiseIsEnough) {
     EXPECT_EQ(exceeds_ed.reported_until(level_w), us(30));
 }
 
-TEST_F(EnergyForecastTest, LevelsAreNotLostBesideLargePowers) {
+TEST_F(EnergyTimelineTest, KeepsSmallLevelsNextToLargePowers) {
     for (SimTime start; start < us(10'000); start += us(10)) {
         timeline.begin_at(start);
         timeline.add_reported({1, start, start + us(25), 1}, start, true);
@@ -202,15 +202,15 @@ TEST_F(EnergyForecastTest, LevelsAreNotLostBesideLargePowers) {
     EXPECT_NEAR(notified.report_missing(), level_w - noise_w, tiny_w);
 }
 
-TEST_F(EnergyForecastTest, IsOverWhenAllHasEnded) {
+TEST_F(EnergyTimelineTest, IsOverWhenAllHasEnded) {
     EXPECT_TRUE(timeline.is_over(us(0)));
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     EXPECT_FALSE(timeline.is_over(us(10)));
     EXPECT_TRUE(timeline.is_over(us(11)));
 }
 
-// Whatever comes, at any time the sum of what is told reaches the level if that of all does.
-TEST(EnergyTimeline, IsEnoughAtAnyTime) {
+// At any time, the reported sum reaches the level if the total does.
+TEST(EnergyTimeline, ReportedEnergySufficesAtAnyTime) {
     struct Sent {
         EnergyTimeline::Signal signal;
         SimTime sensed_from;

@@ -28,7 +28,7 @@ WatchZones ring_alone() {
     return zones;
 }
 
-// As the medium does it: zone by zone only if one number does not tell that the first is enough.
+// As the medium does it: zone by zone only if the first zone may not suffice.
 WatchZones ring_beside(double between_m, std::size_t count = 1) {
     WatchZones zones = ring_alone();
     for (std::size_t i = 0; i < count; ++i) {
@@ -48,33 +48,33 @@ bool is_first_zone(const WatchZones& zones) {
     return zones.min_power_w() == WatchZones::first_zone_w(level_w);
 }
 
-TEST(WatchZones, WatchesTheFirstZoneFromTheBeginning) {
+TEST(WatchZones, WatchesTheFirstZoneFromTheStart) {
     const WatchZones zones = ring_alone();
     EXPECT_TRUE(is_first_zone(zones));
     EXPECT_EQ(zones.radius_m(), reach_m(WatchZones::first_zone_w(level_w)));
     EXPECT_FALSE(zones.is_too_narrow());
 }
 
-TEST(WatchZones, IsThinIfTheOthersAreFarAway) {
+TEST(WatchZones, FirstZoneSufficesIfTheOthersAreFarAway) {
     const WatchZones zones = ring_beside(10'000);
     EXPECT_FALSE(zones.is_too_narrow());
     EXPECT_LT(zones.radius_m(), 1.12 * 100);
     EXPECT_GE(zones.radius_m(), reach_m(0.99 * level_w));
 }
 
-TEST(WatchZones, IsNoMoreThanTheFirstZoneThen) {
+TEST(WatchZones, IsOnlyTheFirstZoneThen) {
     EXPECT_TRUE(is_first_zone(ring_beside(10'000)));
 }
 
-TEST(WatchZones, TheFirstZoneIsNotEnoughIfOneOfThemIsNear) {
+TEST(WatchZones, FirstZoneDoesNotSufficeIfAnotherIsNear) {
     EXPECT_FALSE(is_first_zone(ring_beside(300)));
 }
 
-TEST(WatchZones, OfVeryManyFarAwayTheFirstZoneIsEnoughIfZonesAreToldApart) {
+TEST(WatchZones, FirstZoneSufficesForVeryManyFarAwayWithSeparateZones) {
     EXPECT_TRUE(is_first_zone(ring_beside(10'000, 100)));
 }
 
-TEST(WatchZones, WatchesNobodyBeforeThereAreOthersIfAnythingIsNoticed) {
+TEST(WatchZones, WatchesNoReceiverBeforeThereAreOthersWithoutZones) {
     WatchZones zones;
     zones.begin_without_zones();
     EXPECT_EQ(zones.radius_m(), 0);
@@ -82,13 +82,13 @@ TEST(WatchZones, WatchesNobodyBeforeThereAreOthersIfAnythingIsNoticed) {
     EXPECT_TRUE(zones.is_too_narrow());
 }
 
-TEST(WatchZones, ReachesWhereTwoEqualPowersMakeTheLevel) {
-    // Midway between them each brings half of it.
+TEST(WatchZones, ReachesToHalfTheLevelForTwoEqualPowers) {
+    // Midway between them, each brings half of the level.
     EXPECT_GE(ring_beside(2 * 100 * std::sqrt(2) - 1).radius_m(), 100 * std::sqrt(2) - 1);
 }
 
-// Whatever the sum of all reaches the level is within the ring of the strongest.
-TEST(WatchZones, LeavesOutNobodyWithTheLevel) {
+// Wherever the sum reaches the level is in the watch zones of the strongest.
+TEST(WatchZones, IncludesAllReceiversWithTheLevel) {
     for (const double between_m : {50.0, 150.0, 220.0, 250.0, 280.0, 300.0, 500.0, 600.0, 750.0, 1500.0}) {
         for (const std::size_t count : {1U, 2U, 4U, 5U, 20U, 300U}) {
             const WatchZones zones = ring_beside(between_m, count);
@@ -105,8 +105,8 @@ TEST(WatchZones, LeavesOutNobodyWithTheLevel) {
     }
 }
 
-// Far out, where it is weak, very many may add up, of which none is stronger than it.
-TEST(WatchZones, BesideManyTheFirstZoneAloneTellsNothing) {
+// Far out, where it is weak, very many may add up, none stronger than it.
+TEST(WatchZones, FirstZoneDoesNotSufficeForMany) {
     WatchZones zones = ring_alone();
     const auto nothing_near = [](double radius_m) { return radius_m < 300 ? 0 : level_w / 10; };
     for (int others = 1; others <= 4; ++others) {
@@ -117,7 +117,7 @@ TEST(WatchZones, BesideManyTheFirstZoneAloneTellsNothing) {
     EXPECT_TRUE(zones.is_too_narrow());
 }
 
-TEST(WatchZones, BecomesTooNarrowWhenAnotherOneComesNear) {
+TEST(WatchZones, BecomesTooNarrowWhenAnotherIsNear) {
     WatchZones zones = ring_beside(10'000);
     zones.add(from_distance(15'000));
     EXPECT_FALSE(zones.is_too_narrow());
@@ -125,7 +125,7 @@ TEST(WatchZones, BecomesTooNarrowWhenAnotherOneComesNear) {
     EXPECT_TRUE(zones.is_too_narrow());
 }
 
-TEST(WatchZones, DoesNotShrinkWhenOthersAreOver) {
+TEST(WatchZones, DoesNotShrinkWhenOthersEnd) {
     WatchZones zones = ring_beside(250);
     const double radius_m = zones.radius_m();
     zones.reset_others(1, reach_m);
@@ -135,7 +135,7 @@ TEST(WatchZones, DoesNotShrinkWhenOthersAreOver) {
     EXPECT_EQ(zones.radius_m(), radius_m);
 }
 
-TEST(WatchZones, WatchesEverybodyIfNoEnergyIsTooSmall) {
+TEST(WatchZones, WatchesAllIfAnyEnergyIsNoticed) {
     WatchZones zones;
     zones.begin_without_zones();
     zones.reset_others(1, reach_m);
@@ -146,7 +146,7 @@ TEST(WatchZones, WatchesEverybodyIfNoEnergyIsTooSmall) {
     EXPECT_FALSE(zones.is_too_narrow());
 }
 
-TEST(WatchZones, ForgetsAllWhenItBeginsAgain) {
+TEST(WatchZones, IsResetByBegin) {
     WatchZones zones = ring_beside(250);
     zones.watched().push_back({3, {}, 0});
     zones.begin(level_w, 105, 224);
@@ -155,7 +155,7 @@ TEST(WatchZones, ForgetsAllWhenItBeginsAgain) {
     EXPECT_FALSE(zones.is_too_narrow());
 }
 
-TEST(WatchZones, ForgetsAllWhenItBeginsAgainWithoutZones) {
+TEST(WatchZones, IsResetByBeginWithoutZones) {
     WatchZones zones = ring_beside(250);
     zones.watched().push_back({3, {}, 0});
     zones.begin_without_zones();

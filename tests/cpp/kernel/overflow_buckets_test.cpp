@@ -43,13 +43,13 @@ OverflowBuckets far_at(const std::vector<std::int64_t>& times) {
     return far;
 }
 
-TEST(OverflowBuckets, NothingIsFarAtFirst) {
+TEST(OverflowBuckets, HoldsNothingAtFirst) {
     const OverflowBuckets far;
     EXPECT_FALSE(far.belongs_here(0));
     EXPECT_FALSE(far.belongs_here(end_of_time));
 }
 
-TEST(OverflowBuckets, TakesAllAndLeavesNothing) {
+TEST(OverflowBuckets, TakesAllKeys) {
     std::vector<EventKey> keys = keys_at({30, 10, 20});
     OverflowBuckets far;
     far.take_all(keys);
@@ -57,13 +57,13 @@ TEST(OverflowBuckets, TakesAllAndLeavesNothing) {
     EXPECT_EQ(far.size(), 3U);
 }
 
-TEST(OverflowBuckets, WhatIsDueBeforeThemAllIsNotFar) {
+TEST(OverflowBuckets, EarlierEventsDoNotBelongHere) {
     const OverflowBuckets far = far_at({1000, 2000});
     EXPECT_FALSE(far.belongs_here(999));
     EXPECT_TRUE(far.belongs_here(1000));
 }
 
-TEST(OverflowBuckets, WhatIsDueWithinASliceThatWasOpenedIsNotFar) {
+TEST(OverflowBuckets, EventsOfAnOpenedBucketDoNotBelongHere) {
     OverflowBuckets far = far_at({1000, 1000, 5'000'000});
     std::vector<EventKey> keys;
     far.open_next(keys);
@@ -72,12 +72,12 @@ TEST(OverflowBuckets, WhatIsDueWithinASliceThatWasOpenedIsNotFar) {
     EXPECT_TRUE(far.belongs_here(5'000'000));
 }
 
-TEST(OverflowBuckets, ThoseOfOneTimeAreOpenedTogether) {
+TEST(OverflowBuckets, EventsOfOneTimeAreOpenedTogether) {
     OverflowBuckets far = far_at(std::vector<std::int64_t>(1000, 7));
     EXPECT_EQ(opened_by(far), (std::vector<std::vector<std::int64_t>>{std::vector<std::int64_t>(1000, 7)}));
 }
 
-TEST(OverflowBuckets, OneVeryLateEventDoesNotPutAllOthersIntoOneSlice) {
+TEST(OverflowBuckets, AVeryLateEventDoesNotPutAllOthersIntoOneBucket) {
     std::vector<std::int64_t> times;
     for (std::int64_t i = 0; i < 1000; ++i) {
         times.push_back(i * 1000);
@@ -89,7 +89,7 @@ TEST(OverflowBuckets, OneVeryLateEventDoesNotPutAllOthersIntoOneSlice) {
     }
 }
 
-TEST(OverflowBuckets, WhatIsErasedIsNotOpened) {
+TEST(OverflowBuckets, ErasedEventsAreNotOpened) {
     OverflowBuckets far = far_at({10, 20, 30, 40, end_of_time});
     far.erase_if([](const EventKey& key) { return key.time_ps % 20 == 0; });
     EXPECT_EQ(far.size(), 3U);
@@ -101,9 +101,9 @@ TEST(OverflowBuckets, WhatIsErasedIsNotOpened) {
 }
 
 // Whatever is added when, as long as it is far: batch by batch, time goes on and nothing is lost.
-class FarEventsInOrder : public testing::TestWithParam<unsigned> {};
+class OverflowBucketsInOrder : public testing::TestWithParam<unsigned> {};
 
-TEST_P(FarEventsInOrder, BatchesFollowEachOther) {
+TEST_P(OverflowBucketsInOrder, BatchesFollowEachOther) {
     std::mt19937_64 random(GetParam());
     const std::uint64_t most = std::uint64_t{1} << (random() % 63);
     std::vector<std::int64_t> times(1 + random() % 2000);
@@ -137,7 +137,7 @@ TEST_P(FarEventsInOrder, BatchesFollowEachOther) {
     EXPECT_EQ(opened, times);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, FarEventsInOrder, testing::Range(1U, 41U));
+INSTANTIATE_TEST_SUITE_P(Seeds, OverflowBucketsInOrder, testing::Range(1U, 41U));
 
 }  // namespace
 }  // namespace netsim

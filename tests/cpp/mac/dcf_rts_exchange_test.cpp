@@ -1,4 +1,4 @@
-// Exchanges of the Dcf that begin with RTS and CTS, in instants worked out by hand as in
+// Exchanges of the Dcf that begin with RTS and CTS, with instants computed by hand as in
 // dcf_test.cpp, and which frames begin so.
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-// RTS and CTS of the Dcf, in instants worked out by hand as in dcf_test.cpp.
+// RTS and CTS of the Dcf, with instants computed by hand as in dcf_test.cpp.
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -35,7 +35,7 @@ TEST(FrameFifo, FirstInFirstOut) {
 }
 
 // Beside a plain queue, through all lengths and back.
-TEST(FrameFifo, IsTheSameAsAPlainQueue) {
+TEST(FrameFifo, MatchesAPlainQueue) {
     FrameFifo queue;
     std::deque<std::uint32_t> plain;
     RandomStream draws(1, 0, Purpose::protocol);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int capacity = 2;
 
-class OutboxTest : public testing::Test {
+class TransmitQueueTest : public testing::Test {
 protected:
     bool add(NodeId destination) { return queue.add(queue.frame_of(destination, text, 164, SimTime{})); }
     std::uint64_t booked(MessageKind kind, MessageFate fate) const {
@@ -25,7 +25,7 @@ protected:
     TransmitQueue queue{7, capacity};
 };
 
-TEST_F(OutboxTest, FramesAreNumberedAndSayWhomTheyAreFor) {
+TEST_F(TransmitQueueTest, FramesHaveSequenceNumbersAndReceivers) {
     const Frame all = queue.frame_of(broadcast_id, text, 164, SimTime::from_us(7));
     EXPECT_EQ(all.kind, FrameKind::broadcast);
     EXPECT_EQ(all.transmitter, 7);
@@ -40,7 +40,7 @@ TEST_F(OutboxTest, FramesAreNumberedAndSayWhomTheyAreFor) {
     EXPECT_FALSE(one.retry);
 }
 
-TEST_F(OutboxTest, TheOneInProgressDoesNotWait) {
+TEST_F(TransmitQueueTest, TheFrameInProgressDoesNotWait) {
     EXPECT_TRUE(queue.empty());
     EXPECT_TRUE(add(3));
     EXPECT_TRUE(add(4));
@@ -50,7 +50,7 @@ TEST_F(OutboxTest, TheOneInProgressDoesNotWait) {
     EXPECT_EQ(queue.in_progress()->receiver, 3);
 }
 
-TEST_F(OutboxTest, AFrameInProgressStaysSoUntilItIsFinished) {
+TEST_F(TransmitQueueTest, AFrameStaysInProgressUntilItIsFinished) {
     add(3);
     add(4);
     queue.begin_next();
@@ -63,7 +63,7 @@ TEST_F(OutboxTest, AFrameInProgressStaysSoUntilItIsFinished) {
     EXPECT_EQ(queue.in_progress()->receiver, 4);
 }
 
-TEST_F(OutboxTest, WhatIsFinishedIsBooked) {
+TEST_F(TransmitQueueTest, FinishedMessagesAreBooked) {
     add(3);
     queue.begin_next();
     EXPECT_EQ(booked(MessageKind::unicast, MessageFate::queued), 1U);
@@ -72,7 +72,7 @@ TEST_F(OutboxTest, WhatIsFinishedIsBooked) {
     EXPECT_EQ(booked(MessageKind::unicast, MessageFate::queued), 0U);
 }
 
-TEST_F(OutboxTest, WhatDoesNotFitIsBooked) {
+TEST_F(TransmitQueueTest, OverflowIsBooked) {
     add(broadcast_id);
     add(broadcast_id);
     EXPECT_FALSE(add(broadcast_id));
@@ -81,7 +81,7 @@ TEST_F(OutboxTest, WhatDoesNotFitIsBooked) {
     EXPECT_EQ(booked(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
 }
 
-TEST_F(OutboxTest, ThoseThatWaitStayWhenANewcomerIsDropped) {
+TEST_F(TransmitQueueTest, WaitingFramesStayWhenANewOneIsDropped) {
     add(3);
     add(4);
     EXPECT_FALSE(add(5));
@@ -89,7 +89,7 @@ TEST_F(OutboxTest, ThoseThatWaitStayWhenANewcomerIsDropped) {
     EXPECT_EQ(queue.in_progress()->receiver, 3);
 }
 
-TEST_F(OutboxTest, HasRoomAgainWhenOneOfThoseThatWaitIsInProgress) {
+TEST_F(TransmitQueueTest, HasRoomAgainWhenAWaitingFrameIsInProgress) {
     add(3);
     add(4);
     queue.begin_next();
@@ -102,7 +102,7 @@ TEST_F(OutboxTest, HasRoomAgainWhenOneOfThoseThatWaitIsInProgress) {
 }
 
 // Beside a plain queue, through all lengths and back.
-TEST(TransmitQueue, IsTheSameAsAPlainQueueOfThatCapacity) {
+TEST(TransmitQueue, MatchesAPlainQueueOfThatCapacity) {
     constexpr std::size_t most = 20;
     TransmitQueue queue(7, most);
     std::deque<NodeId> waiting;
@@ -132,7 +132,7 @@ TEST(TransmitQueue, IsTheSameAsAPlainQueueOfThatCapacity) {
     }
 }
 
-TEST_F(OutboxTest, AFrameOnTheAirIsNotTouchedByWhatChanges) {
+TEST_F(TransmitQueueTest, ChangesDoNotAffectAFrameOnTheAir) {
     add(3);
     queue.begin_next();
     const std::shared_ptr<const Frame> sent = queue.in_progress();
@@ -145,7 +145,7 @@ TEST_F(OutboxTest, AFrameOnTheAirIsNotTouchedByWhatChanges) {
     EXPECT_EQ(queue.in_progress()->sequence, sent->sequence);
 }
 
-TEST_F(OutboxTest, WhatIsAlreadySoIsTheSameFrame) {
+TEST_F(TransmitQueueTest, ANoOpChangeKeepsTheFrame) {
     add(3);
     queue.begin_next();
     queue.set_retry();

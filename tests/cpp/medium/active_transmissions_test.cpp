@@ -13,12 +13,12 @@ SimTime us(std::int64_t microseconds) {
     return SimTime::from_us(microseconds);
 }
 
-class AirwavesTest : public testing::Test {
+class ActiveTransmissionsTest : public testing::Test {
 protected:
-    AirwavesTest() {
-        links.add(InterfaceId{0, 0}, {.trajectory = &place, .kind = {.band = band}}, MountedAntenna(),
+    ActiveTransmissionsTest() {
+        links.add(InterfaceId{0, 0}, {.trajectory = &place, .parameters = {.band = band}}, MountedAntenna(),
                   SimTime());
-        links.add(InterfaceId{1, 0}, {.trajectory = &elsewhere, .kind = {.band = band}}, MountedAntenna(),
+        links.add(InterfaceId{1, 0}, {.trajectory = &elsewhere, .parameters = {.band = band}}, MountedAntenna(),
                   SimTime());
     }
     ActiveTransmission& put(SimTime start, SimTime last_end) {
@@ -37,7 +37,7 @@ protected:
     ActiveTransmissions waves{links};
 };
 
-TEST_F(AirwavesTest, NumbersTransmissionsInTheOrderOfTheirStarts) {
+TEST_F(ActiveTransmissionsTest, NumbersTransmissionsInTheOrderOfTheirStarts) {
     put(us(10), us(20));
     const ActiveTransmission& second = put(us(15), us(30));
     EXPECT_EQ(second.transmission.id, 1U);
@@ -47,7 +47,7 @@ TEST_F(AirwavesTest, NumbersTransmissionsInTheOrderOfTheirStarts) {
     EXPECT_EQ(waves.next_id(), 2U);
 }
 
-TEST_F(AirwavesTest, BesideOneAreThoseThatBeganBeforeItAndLastLonger) {
+TEST_F(ActiveTransmissionsTest, ConcurrentOnesBeganBeforeAndLastLonger) {
     put(us(10), us(20));
     ActiveTransmission& second = put(us(15), us(30));
     const ActiveTransmission& third = put(us(20), us(40));
@@ -56,7 +56,7 @@ TEST_F(AirwavesTest, BesideOneAreThoseThatBeganBeforeItAndLastLonger) {
     EXPECT_EQ(concurrent, std::vector{&second});
 }
 
-TEST_F(AirwavesTest, WhatEndedIsRememberedAsLongAsAnyThatBeganBeforeIsOnTheAir) {
+TEST_F(ActiveTransmissionsTest, KeepsEndedOnesWhileAnEarlierOneIsOnTheAir) {
     put(us(10), us(100));
     put(us(20), us(30));
     waves.forget_ended(us(90), us(0));
@@ -65,7 +65,7 @@ TEST_F(AirwavesTest, WhatEndedIsRememberedAsLongAsAnyThatBeganBeforeIsOnTheAir) 
     EXPECT_TRUE(waves.empty());
 }
 
-TEST_F(AirwavesTest, WhatEndedIsRememberedAsLongAsIsAskedFor) {
+TEST_F(ActiveTransmissionsTest, KeepsEndedOnesForTheRequestedTime) {
     put(us(10), us(20));
     waves.forget_ended(us(50), us(30));
     EXPECT_EQ(waves.size(), 1U);
@@ -73,7 +73,7 @@ TEST_F(AirwavesTest, WhatEndedIsRememberedAsLongAsIsAskedFor) {
     EXPECT_TRUE(waves.empty());
 }
 
-TEST_F(AirwavesTest, OfWhomNobodyMovedThePlaceIsTakenAsGiven) {
+TEST_F(ActiveTransmissionsTest, UsesTheGivenPlaceIfNoNodeMoved) {
     const ActiveTransmission& sent = put(us(10), us(200));
     const Arrival looked_up = waves.arrival_at(sent, 1);
     const Arrival given = waves.arrival_at(sent, 1, {301, 2, 3}, us(50));
@@ -81,7 +81,7 @@ TEST_F(AirwavesTest, OfWhomNobodyMovedThePlaceIsTakenAsGiven) {
     EXPECT_EQ(given.power_w, looked_up.power_w);
 }
 
-TEST_F(AirwavesTest, OnceSomebodyMovedThePlaceIsThatOfTheStart) {
+TEST_F(ActiveTransmissionsTest, UsesThePlaceAtTheStartOnceANodeMoved) {
     const ActiveTransmission& sent = put(us(10), us(200));
     elsewhere.go_to(us(20), {1001, 2, 3}, 1000);
     const Arrival arrival = waves.arrival_at(sent, 1, {900, 2, 3}, us(50));

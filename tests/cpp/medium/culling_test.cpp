@@ -1,6 +1,6 @@
-// The medium tells radios only of what can matter to them. Whatever it leaves out, the course of a
-// run must be that of the plain model, in which every radio hears everything: the same frames in
-// the same instants, the same copies lost for the same reasons.
+// With culling, the medium notifies radios of relevant arrivals only. A run must still match the
+// plain model, in which every radio is notified of all: the same frames at the same instants, and
+// the same copies lost for the same reasons.
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
@@ -71,7 +71,7 @@ std::uint64_t frame_count(const Network& network) {
     return count;
 }
 
-// Runs both models step by step; where they part is found to within a step.
+// Runs both models step by step, to find the step in which they differ.
 void expect_same_course(const RandomScenario& scenario) {
     ScenarioRun shortcut(scenario, Culling::enabled);
     ScenarioRun plain(scenario, Culling::disabled);
@@ -87,21 +87,21 @@ void expect_same_course(const RandomScenario& scenario) {
     }
     EXPECT_TRUE(shortcut.deliveries == plain.deliveries) << "scenario " << scenario.seed;
     EXPECT_EQ(ledger_of(shortcut.network), ledger_of(plain.network)) << "scenario " << scenario.seed;
-    // One event more for an instant in which many frames begin, five or more of them, and for
-    // putting off to look at a radio, which mostly saves telling it of four or more.
+    // One more event for an instant at which five or more frames begin, and for a deferred
+    // evaluation, which usually saves four or more notifications.
     const std::uint64_t more = frame_count(plain.network) / 5 + plain.network.event_count() / 50;
     EXPECT_LE(shortcut.network.event_count(), plain.network.event_count() + more)
         << "scenario " << scenario.seed;
 }
 
-// Of so many times as many scenarios: for who has changed the medium, as `make test` has to be over
-// some time.
+// Multiplies the number of scenarios, to test changes of the medium. `make test` has to be fast.
 std::uint64_t thoroughness() {
-    const char* factor = std::getenv("NETSIM_THOROUGHNESS");  // NOLINT(concurrency-mt-unsafe): nobody sets it
+    const char* factor =
+        std::getenv("NETSIM_THOROUGHNESS");  // NOLINT(concurrency-mt-unsafe): no thread sets it
     return factor == nullptr ? 1 : std::max(std::strtoull(factor, nullptr, 10), 1ULL);
 }
 
-// Those of one batch. make(seed) makes one.
+// The scenarios of one batch. make(seed) creates one.
 template <typename Make>
 void expect_same_courses(std::uint64_t batch, std::uint64_t count, const Make& make) {
     const std::uint64_t scenarios = count * thoroughness();
@@ -115,24 +115,24 @@ void expect_same_courses(std::uint64_t batch, std::uint64_t count, const Make& m
 
 class RandomScenarios : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModel) {
+TEST_P(RandomScenarios, MatchThePlainModel) {
     expect_same_courses(GetParam(), 100, [](std::uint64_t seed) { return test::make_random_scenario(seed); });
 }
 
-TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
+TEST_P(RandomScenarios, MatchThePlainModelForAnyPathLoss) {
     expect_same_courses(GetParam(), 100, [](std::uint64_t seed) {
         return test::with_random_path_loss(test::make_random_scenario(seed));
     });
 }
 
-TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
+TEST_P(RandomScenarios, MatchThePlainModelWithAntennasAndObstacles) {
     expect_same_courses(GetParam(), 100, [](std::uint64_t seed) {
         const RandomScenario scenario = test::with_random_environment(test::make_random_scenario(seed));
         return seed % 4 == 0 ? test::with_random_path_loss(scenario) : scenario;
     });
 }
 
-TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
+TEST_P(RandomScenarios, MatchThePlainModelWithInterfacesOnOverlappingChannels) {
     expect_same_courses(GetParam(), 50, [](std::uint64_t seed) {
         const RandomScenario scenario = test::with_random_interfaces(test::make_random_scenario(seed));
         return seed % 4 == 0 ? test::with_random_environment(test::with_random_path_loss(scenario))
@@ -142,35 +142,35 @@ TEST_P(RandomScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterface
 
 class LightStepScenarios : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(LightStepScenarios, TakeTheSameCourseAsWithThePlainModel) {
+TEST_P(LightStepScenarios, MatchThePlainModel) {
     expect_same_courses(GetParam(), 100, test::make_light_step_scenario);
 }
 
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModel) {
+TEST_P(FarFlungScenarios, MatchThePlainModel) {
     expect_same_courses(GetParam(), 20, test::make_far_flung_scenario);
 }
 
-TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWhateverThePathLoss) {
+TEST_P(FarFlungScenarios, MatchThePlainModelForAnyPathLoss) {
     expect_same_courses(GetParam(), 15, [](std::uint64_t seed) {
         return test::with_random_path_loss(test::make_far_flung_scenario(seed));
     });
 }
 
-TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithAntennasAndObstacles) {
+TEST_P(FarFlungScenarios, MatchThePlainModelWithAntennasAndObstacles) {
     expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
         return test::with_random_environment(test::make_far_flung_scenario(seed));
     });
 }
 
-TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithSeveralInterfacesOnOverlappingChannels) {
+TEST_P(FarFlungScenarios, MatchThePlainModelWithInterfacesOnOverlappingChannels) {
     expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
         return test::with_random_interfaces(test::make_far_flung_scenario(seed));
     });
 }
 
-TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithOptionsOfTheReceiver) {
+TEST_P(FarFlungScenarios, MatchThePlainModelWithReceiverOptions) {
     expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
         return test::with_random_receivers(test::make_far_flung_scenario(seed));
     });
@@ -178,11 +178,11 @@ TEST_P(FarFlungScenarios, TakeTheSameCourseAsWithThePlainModelWithOptionsOfTheRe
 
 class NarrowbandScenarios : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(NarrowbandScenarios, TakeTheSameCourseAsWithThePlainModel) {
+TEST_P(NarrowbandScenarios, MatchThePlainModel) {
     expect_same_courses(GetParam(), 50, test::make_narrowband_scenario);
 }
 
-TEST(NarrowbandScenario, MeetsEveryFateOften) {
+TEST(NarrowbandScenario, CoversEveryFate) {
     FrameFates::Counts frames{};
     MessageFates::Counts messages{};
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -206,7 +206,7 @@ TEST(NarrowbandScenario, MeetsEveryFateOften) {
     }
 }
 
-TEST(RandomScenario, MeetsEveryFateOften) {
+TEST(RandomScenario, CoversEveryFate) {
     FrameFates::Counts frames{};
     MessageFates::Counts messages{};
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -225,7 +225,7 @@ TEST(RandomScenario, MeetsEveryFateOften) {
         EXPECT_GE(frames[fate], 30U) << frame_fate_names[fate];
     }
     for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
-        // Of perfect channels and of 802.15.4 only.
+        // Fates of perfect channels and of 802.15.4 only.
         if (static_cast<MessageFate>(fate) != MessageFate::out_of_range &&
             static_cast<MessageFate>(fate) != MessageFate::channel_access_failure) {
             EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];

@@ -29,8 +29,8 @@ RadioConfig deaf_but_sensing() {
     return config;
 }
 
-// The watch alone: who is told of what, by whoever else is told.
-class EnergyWatchAlone : public testing::Test, private CumulativeEnergyListener {
+// The detection alone, with a test listener.
+class CumulativeEnergyDetectionTest : public testing::Test, private CumulativeEnergyListener {
 protected:
     struct Matter {
         RadioId radio;
@@ -40,19 +40,19 @@ protected:
         bool operator==(const Matter&) const = default;
     };
 
-    // Of 1e-10 W, that of noise included, and one that hears nothing else.
+    // A radio with an ED threshold of 1e-10 W, noise included, that locks on to nothing.
     RadioId add(Position place) {
         const Trajectory& trajectory = places.emplace_back(place);
         const RadioConfig config = deaf_but_sensing();
         watch.add_radio();
         return links.add(InterfaceId{static_cast<NodeId>(places.size()) - 1, 0},
                          {.trajectory = &trajectory,
-                          .kind = {.band = {config.carrier_hz, config.bandwidth_hz},
-                                   .sensitivity_w = config.sensitivity_w,
-                                   .energy_detection_w = config.energy_detection_w}},
+                          .parameters = {.band = {config.carrier_hz, config.bandwidth_hz},
+                                         .sensitivity_w = config.sensitivity_w,
+                                         .energy_detection_w = config.energy_detection_w}},
                          MountedAntenna(), SimTime());
     }
-    // Begins now for 100 µs, as the medium has it; the receiver at the origin gets that power.
+    // A transmission of 100 µs that begins now. The receiver at the origin gets that power.
     void send(RadioId sender, double received_w) {
         Transmission transmission;
         transmission.radio = sender;
@@ -87,14 +87,14 @@ protected:
     RadioId far = add({0, 2 * light_microsecond_m, 0});
 
 private:
-    void arrival_matters(RadioId radio, ActiveTransmission& active, const Arrival& arrival) override {
+    void arrival_needed(RadioId radio, ActiveTransmission& active, const Arrival& arrival) override {
         if (radio == receiver) {
             notified.push_back({radio, active.transmission.id, arrival.start});
         }
     }
 };
 
-TEST_F(EnergyWatchAlone, TellsOfAllThatItTakes) {
+TEST_F(CumulativeEnergyDetectionTest, ReportsAllThatIsNeeded) {
     send(near, 6e-11);
     EXPECT_TRUE(notified.empty());
     send(far, 6e-11);
@@ -103,13 +103,13 @@ TEST_F(EnergyWatchAlone, TellsOfAllThatItTakes) {
     EXPECT_NE(std::ranges::find(notified, Matter{receiver, 1, us(2)}), notified.end());
 }
 
-TEST_F(EnergyWatchAlone, TellsNobodyWhereItIsNotEnough) {
+TEST_F(CumulativeEnergyDetectionTest, ReportsNothingBelowTheThreshold) {
     send(near, 4e-11);
     send(far, 4e-11);
     EXPECT_TRUE(notified.empty());
 }
 
-TEST_F(EnergyWatchAlone, TellsNobodyWhoDoesNotWatchBeforeHeDoes) {
+TEST_F(CumulativeEnergyDetectionTest, ReportsNothingBeforeARadioWatches) {
     links.set_watches_energy(receiver, false);
     send(near, 6e-11);
     send(far, 6e-11);
@@ -119,8 +119,8 @@ TEST_F(EnergyWatchAlone, TellsNobodyWhoDoesNotWatchBeforeHeDoes) {
     EXPECT_EQ(notified.size(), 2U);
 }
 
-// Two frames that together make the channel of a receiver busy from 62 µs to 111 µs, the second
-// lasts until 162 µs.
+// Two frames make the channel of a receiver busy together from 62 µs to 111 µs. The second lasts
+// until 162 µs.
 class WatchedEnergy : public testing::Test {
 protected:
     WatchedEnergy() {
@@ -150,44 +150,44 @@ std::vector<RadioEvent> busy_while_both_last() {
     return {{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}};
 }
 
-TEST_F(WatchedEnergy, IsNotToldToWhoDoesNotWatch) {
+TEST_F(WatchedEnergy, IsNotReportedWithoutWatching) {
     air.run();
     EXPECT_TRUE(bare.log.events.empty());
 }
 
-TEST_F(WatchedEnergy, IsToldToWhoBeganBeforeIt) {
+TEST_F(WatchedEnergy, IsReportedAfterWatchingBegan) {
     begins_to_watch_at(us(5), us(5));
     air.run();
     EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
-TEST_F(WatchedEnergy, IsToldToWhoBeganBesideTheFirstFrame) {
+TEST_F(WatchedEnergy, IsReportedIfWatchingBeganDuringTheFirstFrame) {
     begins_to_watch_at(us(30), us(30));
     air.run();
     EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
-TEST_F(WatchedEnergy, IsToldToWhoBeganBeforeTheSecondFrameCame) {
+TEST_F(WatchedEnergy, IsReportedIfWatchingBeganBeforeTheSecondArrival) {
     begins_to_watch_at(us(61), us(61));
     air.run();
     EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
-TEST_F(WatchedEnergy, MakesTheChannelBusyOfWhoBeginsMeanwhile) {
+TEST_F(WatchedEnergy, MakesTheChannelBusyIfWatchingBeginsDuringIt) {
     begins_to_watch_at(us(80), us(80));
     air.run();
     EXPECT_EQ(bare.log.events,
               (std::vector<RadioEvent>{{RadioWord::busy, us(80)}, {RadioWord::free, us(111)}}));
 }
 
-TEST_F(WatchedEnergy, IsNotToldToWhoHasStopped) {
+TEST_F(WatchedEnergy, IsNotReportedAfterWatchingStopped) {
     begins_to_watch_at(us(5), us(5));
     air.at(us(30), [this] { receiver.stop_watching_channel(); });
     air.run();
     EXPECT_TRUE(bare.log.events.empty());
 }
 
-TEST_F(WatchedEnergy, IsToldToWhoStoppedAndBeganAgain) {
+TEST_F(WatchedEnergy, IsReportedAfterWatchingRestarted) {
     begins_to_watch_at(us(5), us(5));
     air.at(us(30), [this] { receiver.stop_watching_channel(); });
     begins_to_watch_at(us(40), us(40));
@@ -195,35 +195,35 @@ TEST_F(WatchedEnergy, IsToldToWhoStoppedAndBeganAgain) {
     EXPECT_EQ(bare.log.events, busy_while_both_last());
 }
 
-TEST_F(WatchedEnergy, AfterwardsItIsKnownWhenItWasOver) {
+TEST_F(WatchedEnergy, ReturnsItsEndAfterwards) {
     begins_to_watch_at(us(150), us(100));
     air.run();
     EXPECT_EQ(busy_until, us(111));
 }
 
-TEST_F(WatchedEnergy, IsRememberedBeyondTheEndOfAllFrames) {
+TEST_F(WatchedEnergy, ReturnsItsEndAfterAllFramesEnded) {
     send_at(us(300));
     begins_to_watch_at(us(450), us(0));
     air.run();
     EXPECT_EQ(busy_until, us(111));
 }
 
-TEST_F(WatchedEnergy, WhatWasOverBeforeIsNotAskedFor) {
+TEST_F(WatchedEnergy, IgnoresEndsBeforeSince) {
     begins_to_watch_at(us(150), us(120));
     air.run();
     EXPECT_EQ(busy_until, SimTime::long_ago());
 }
 
-TEST_F(WatchedEnergy, OfWhatDidNotSufficeNothingIsKnown) {
+TEST_F(WatchedEnergy, IgnoresEnergyBelowTheThreshold) {
     begins_to_watch_at(us(50), us(0));
     air.run();
     EXPECT_EQ(busy_until, SimTime::long_ago());
 }
 
-// Six frames on the way, of which it takes five: they arrive at 11, 12, … µs and last for 100 µs.
-class ManyThatAreComing : public testing::TestWithParam<Culling> {
+// Six frames, five of which suffice. They arrive at 11, 12, … µs and last for 100 µs.
+class ManyPendingArrivals : public testing::TestWithParam<Culling> {
 protected:
-    ManyThatAreComing() {
+    ManyPendingArrivals() {
         receiver.stop_watching_channel();
         for (int i = 1; i <= 6; ++i) {
             const double away_m = i * light_microsecond_m;
@@ -238,27 +238,27 @@ protected:
     Radio& receiver = bare.radio;
 };
 
-TEST_P(ManyThatAreComing, MakeTheChannelBusyOfWhoBeganToWatchBeforeTheyArrived) {
+TEST_P(ManyPendingArrivals, MakeTheChannelBusyIfWatchingBeganBeforeThem) {
     air.at(us(10) + SimTime::from_ns(500), [this] { receiver.watch_channel(us(10)); });
     air.run();
     EXPECT_EQ(bare.log.events,
               (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(112)}}));
 }
 
-TEST_P(ManyThatAreComing, MakeTheChannelBusyOfWhoBeganToWatchAsTheFirstArrived) {
+TEST_P(ManyPendingArrivals, MakeTheChannelBusyIfWatchingBeganAtTheFirst) {
     air.at(us(11), [this] { receiver.watch_channel(us(10)); });
     air.run();
     EXPECT_EQ(bare.log.events,
               (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(112)}}));
 }
 
-INSTANTIATE_TEST_SUITE_P(Hearings, ManyThatAreComing, testing::Values(Culling::enabled, Culling::disabled),
-                         [](const auto& param_info) {
+INSTANTIATE_TEST_SUITE_P(CullingModes, ManyPendingArrivals,
+                         testing::Values(Culling::enabled, Culling::disabled), [](const auto& param_info) {
                              return param_info.param == Culling::disabled ? "everything" : "what_matters";
                          });
 
-// Who stops before they arrive, to send itself, is told of none of them.
-TEST(ManyThatAreStillComing, CostWhoStopsToWatchOneEvent) {
+// A radio that stops watching before they arrive, to send itself, is notified of none.
+TEST(ManyLateArrivals, CostOneEventIfWatchingStops) {
     const auto event_count = [](bool watches) {
         Air air;
         Radio& receiver = air.add_radio({0, 0, 0}, deaf_but_sensing()).radio;
@@ -281,9 +281,9 @@ TEST(ManyThatAreStillComing, CostWhoStopsToWatchOneEvent) {
     EXPECT_EQ(event_count(true), event_count(false) + 1);
 }
 
-// A station does not watch as long as it has nothing to send, and finds its channel all the same as
-// if it did.
-class StationBesideEnergy : public testing::TestWithParam<Culling> {
+// A station does not watch while it has nothing to send. It finds the same channel state as if it
+// did.
+class StationWithCumulativeEnergy : public testing::TestWithParam<Culling> {
 protected:
     BareRadio& add_sender(double received_w) {
         return air.add_radio({light_microsecond_m, 0, 0},
@@ -292,13 +292,13 @@ protected:
     void sends_at(BareRadio& sender, SimTime start, SimTime duration) {
         air.at(start, [&sender, duration] { sender.send(duration); });
     }
-    // When the station begins to send what it is given at that time.
+    // When the station begins to send a message that it is given at that time.
     SimTime sent(SimTime time) {
         air.at(time, [this] { station.send(broadcast_id, 100); });
         air.run();
-        for (const test::ScheduledArrival& scheduled : sniffer.scheduled) {
-            if (scheduled.sender == station.id() && scheduled.start >= time) {
-                return scheduled.start;
+        for (const test::Heard& frame : sniffer.heard) {
+            if (frame.sender == station.id() && frame.start >= time) {
+                return frame.start;
             }
         }
         return SimTime::long_ago();
@@ -317,25 +317,25 @@ protected:
     test::Sniffer& sniffer = air.add_sniffer({0, 0, 0});
 };
 
-TEST_P(StationBesideEnergy, SendsAtOnceIfNoneMadeItsChannelBusy) {
+TEST_P(StationWithCumulativeEnergy, SendsAtOnceIfTheChannelWasFree) {
     sends_at(add_sender(6e-11), us(10), us(100));
     EXPECT_EQ(sent(us(120)), us(120));
 }
 
-TEST_P(StationBesideEnergy, WaitsFromTheEndOfWhatMadeItBusy) {
+TEST_P(StationWithCumulativeEnergy, WaitsFromTheEndOfTheBusyPeriod) {
     sends_at(add_sender(6e-11), us(10), us(100));
     sends_at(add_sender(6e-11), us(10), us(200));
     EXPECT_EQ(sent(us(120)), us(111) + timing.difs);
 }
 
-TEST_P(StationBesideEnergy, WaitsForTheEndOfWhatMakesItBusy) {
+TEST_P(StationWithCumulativeEnergy, WaitsForTheEndOfTheBusyPeriod) {
     sends_at(add_sender(6e-11), us(10), us(200));
     sends_at(add_sender(6e-11), us(10), us(300));
     EXPECT_EQ(sent(us(120)), us(211) + timing.difs);
 }
 
-// The wait after a broken frame begins when the channel is free, not when the frame is over.
-TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameUntilThatIsOver) {
+// The wait after a corrupted frame begins when the channel is free, not at the end of the frame.
+TEST_P(StationWithCumulativeEnergy, WaitsEifsAfterTheBusyPeriodOfACorruptedFrame) {
     sends_at(add_sender(2e-9), us(10), us(100));
     sends_at(add_sender(2e-9), us(50), us(20));
     sends_at(add_sender(6e-11), us(20), us(200));
@@ -343,7 +343,7 @@ TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameUntilThatIsOver) {
     EXPECT_EQ(sent(us(250)), us(221) + timing.eifs);
 }
 
-TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameInPlaceOfTheLastAck) {
+TEST_P(StationWithCumulativeEnergy, WaitsEifsAfterACorruptedFrameInsteadOfTheLastAck) {
     const Mode& mode = mode_set(MacConfig().op_mode).mode_for_bitrate(MacConfig().bitrate_bps);
     const SimTime no_ack = us(10) + mode.duration(data_psdu_bytes(100)) + us(10);
     sends_at(add_sender(2e-9), no_ack, us(100));
@@ -352,8 +352,8 @@ TEST_P(StationBesideEnergy, WaitsLongerAfterABrokenFrameInPlaceOfTheLastAck) {
     EXPECT_EQ(sent(no_ack + us(120)), no_ack + us(101) + timing.eifs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hearings, StationBesideEnergy, testing::Values(Culling::enabled, Culling::disabled),
-                         [](const auto& param_info) {
+INSTANTIATE_TEST_SUITE_P(CullingModes, StationWithCumulativeEnergy,
+                         testing::Values(Culling::enabled, Culling::disabled), [](const auto& param_info) {
                              return param_info.param == Culling::disabled ? "everything" : "what_matters";
                          });
 

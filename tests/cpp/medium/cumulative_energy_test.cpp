@@ -25,10 +25,10 @@ std::string name_of(const testing::TestParamInfo<Culling>& given) {
     return std::string(given.param == Culling::disabled ? "everything" : "what_matters");
 }
 
-// Two or three signals at one receiver, none of which it would notice alone.
-class EnergyThatAddsUp : public testing::TestWithParam<Culling> {
+// Two or three signals at one receiver, none of which exceeds its ED threshold alone.
+class CumulativeEnergy : public testing::TestWithParam<Culling> {
 protected:
-    EnergyThatAddsUp() : air(MediumConfig(), GetParam()) {
+    CumulativeEnergy() : air(MediumConfig(), GetParam()) {
         RadioConfig config;
         config.sensitivity_w = 1e-9;
         config.energy_detection_w = 1e-10;
@@ -47,14 +47,14 @@ protected:
     BareRadio* receiver = nullptr;
 };
 
-TEST_P(EnergyThatAddsUp, IsNotNoticedAlone) {
+TEST_P(CumulativeEnergy, IsNotDetectedFromOneFrame) {
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
     sends_at(add_sender({2, 0, 0}, 6e-11), us(200), us(100));
     air.run();
     EXPECT_TRUE(receiver->log.events.empty());
 }
 
-TEST_P(EnergyThatAddsUp, IsNoticedWhereItOverlaps) {
+TEST_P(CumulativeEnergy, IsDetectedWhereFramesOverlap) {
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
     sends_at(add_sender({2, 0, 0}, 6e-11), us(60), us(100));
     air.run();
@@ -62,7 +62,7 @@ TEST_P(EnergyThatAddsUp, IsNoticedWhereItOverlaps) {
               (std::vector<RadioEvent>{{RadioWord::busy, us(62)}, {RadioWord::free, us(111)}}));
 }
 
-TEST_P(EnergyThatAddsUp, IsNoticedOfSimultaneousTransmissions) {
+TEST_P(CumulativeEnergy, IsDetectedFromSimultaneousTransmissions) {
     BareRadio& near = add_sender({1, 0, 0}, 6e-11);
     BareRadio& far = add_sender({2, 0, 0}, 6e-11);
     sends_at(near, us(10), us(100));
@@ -72,7 +72,7 @@ TEST_P(EnergyThatAddsUp, IsNoticedOfSimultaneousTransmissions) {
               (std::vector<RadioEvent>{{RadioWord::busy, us(12)}, {RadioWord::free, us(111)}}));
 }
 
-TEST_P(EnergyThatAddsUp, IsNoticedWhenTheLaterOneArrivesFirst) {
+TEST_P(CumulativeEnergy, IsDetectedIfTheLaterFrameArrivesFirst) {
     sends_at(add_sender({5, 0, 0}, 6e-11), us(10), us(100));
     sends_at(add_sender({1, 0, 0}, 6e-11), us(12), us(100));
     air.run();
@@ -80,7 +80,7 @@ TEST_P(EnergyThatAddsUp, IsNoticedWhenTheLaterOneArrivesFirst) {
               (std::vector<RadioEvent>{{RadioWord::busy, us(15)}, {RadioWord::free, us(113)}}));
 }
 
-TEST_P(EnergyThatAddsUp, TakesAsManyAsItTakes) {
+TEST_P(CumulativeEnergy, NeedsEnoughFrames) {
     sends_at(add_sender({1, 0, 0}, 4e-11), us(10), us(100));
     sends_at(add_sender({1, 0, 0}, 4e-11), us(20), us(100));
     sends_at(add_sender({1, 0, 0}, 4e-11), us(30), us(20));
@@ -89,14 +89,14 @@ TEST_P(EnergyThatAddsUp, TakesAsManyAsItTakes) {
               (std::vector<RadioEvent>{{RadioWord::busy, us(31)}, {RadioWord::free, us(51)}}));
 }
 
-TEST_P(EnergyThatAddsUp, IsNotNoticedWhereFramesOnlyTouch) {
+TEST_P(CumulativeEnergy, IsNotDetectedWhereFramesOnlyTouch) {
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
     sends_at(add_sender({1, 0, 0}, 6e-11), us(110), us(100));
     air.run();
     EXPECT_TRUE(receiver->log.events.empty());
 }
 
-TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterOnesOwnFrame) {
+TEST_P(CumulativeEnergy, KeepsTheChannelBusyAfterTheOwnFrame) {
     sends_at(*receiver, us(10), us(50));
     sends_at(add_sender({1, 0, 0}, 6e-11), us(20), us(100));
     sends_at(add_sender({2, 0, 0}, 6e-11), us(30), us(100));
@@ -105,7 +105,7 @@ TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterOnesOwnFrame) {
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(121)});
 }
 
-TEST_P(EnergyThatAddsUp, OfFramesThatBeganInOneInstantIsNoticedAfterOnesOwn) {
+TEST_P(CumulativeEnergy, OfSimultaneousFramesIsDetectedAfterTheOwnFrame) {
     sends_at(*receiver, us(10), us(50));
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
     sends_at(add_sender({2, 0, 0}, 6e-11), us(10), us(100));
@@ -114,7 +114,7 @@ TEST_P(EnergyThatAddsUp, OfFramesThatBeganInOneInstantIsNoticedAfterOnesOwn) {
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
 }
 
-TEST_P(EnergyThatAddsUp, IsNoticedAtOnceOfThoseInTheSamePlace) {
+TEST_P(CumulativeEnergy, IsDetectedAtOnceInTheSamePlace) {
     for (int i = 0; i < 3; ++i) {
         BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(4e-11));
         sends_at(sender, us(10), us(100));
@@ -124,7 +124,7 @@ TEST_P(EnergyThatAddsUp, IsNoticedAtOnceOfThoseInTheSamePlace) {
               (std::vector<RadioEvent>{{RadioWord::busy, us(10)}, {RadioWord::free, us(110)}}));
 }
 
-TEST_P(EnergyThatAddsUp, TellsOfEachFrameOnce) {
+TEST_P(CumulativeEnergy, ReportsEachFrameOnce) {
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(300));
     for (int i = 0; i < 3; ++i) {
         sends_at(add_sender({1, 0, 0}, 6e-11), us(50 + 50 * i), us(20));
@@ -134,7 +134,7 @@ TEST_P(EnergyThatAddsUp, TellsOfEachFrameOnce) {
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(71), us(121), us(171)}));
 }
 
-TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrame) {
+TEST_P(CumulativeEnergy, KeepsTheChannelBusyAfterAStrongFrame) {
     sends_at(add_sender({1, 0, 0}, 6e-11), us(10), us(100));
     sends_at(add_sender({2, 0, 0}, 6e-11), us(20), us(100));
     sends_at(add_sender({1, 0, 0}, 1e-8), us(50), us(10));
@@ -143,8 +143,8 @@ TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrame) {
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(111)});
 }
 
-// Many, so that looking at them is put off.
-TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrameBesideWhichManyBegan) {
+// Many, so that the evaluation is deferred.
+TEST_P(CumulativeEnergy, KeepsTheChannelBusyAfterAStrongFrameWithManyConcurrentOnes) {
     sends_at(add_sender({1, 0, 0}, 1e-8), us(10), us(100));
     for (int i = 1; i <= 8; ++i) {
         sends_at(add_sender({1.0 * i, 0, 0}, 2e-11), us(20 + i), us(100));
@@ -154,7 +154,7 @@ TEST_P(EnergyThatAddsUp, KeepsTheChannelBusyAfterALoudFrameBesideWhichManyBegan)
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), std::vector{us(20 + 4 + 4 + 100)});
 }
 
-TEST_P(EnergyThatAddsUp, OfManyIsNoticedIfItArrivesAfterALoudFrameBesideWhichTheyBegan) {
+TEST_P(CumulativeEnergy, OfManyIsDetectedIfItArrivesAfterAConcurrentStrongFrame) {
     sends_at(add_sender({1, 0, 0}, 1e-8), us(10), us(10));
     for (int i = 0; i < 8; ++i) {
         sends_at(add_sender({20.0 + i, 0, 0}, 2e-11), us(12), us(100));
@@ -164,7 +164,7 @@ TEST_P(EnergyThatAddsUp, OfManyIsNoticedIfItArrivesAfterALoudFrameBesideWhichThe
     EXPECT_EQ(receiver->log.times_of(RadioWord::free), (std::vector{us(21), us(135)}));
 }
 
-// Watches its channel from its first frame on, as a station that answers it.
+// Watches its channel from its first frame on, as a station that responds to it.
 class WatcherOfItsFrame final : public RadioListener {
 public:
     explicit WatcherOfItsFrame(Radio& radio) : radio_(radio) {
@@ -191,8 +191,8 @@ private:
     bool found_it_busy_ = false;
 };
 
-// The others are enough together, but one of them is still on its way.
-TEST_P(EnergyThatAddsUp, DoesNotMakeTheChannelFreeWhileAFrameIsReported) {
+// The others suffice together, but one of them has not arrived yet.
+TEST_P(CumulativeEnergy, DoesNotMakeTheChannelFreeWhileAFrameIsReported) {
     WatcherOfItsFrame watcher(receiver->radio);
     sends_at(add_sender({1, 0, 0}, 5e-9), us(10), us(50));
     sends_at(add_sender({0, 1, 0}, 3.5e-11), us(20), us(400));
@@ -203,9 +203,9 @@ TEST_P(EnergyThatAddsUp, DoesNotMakeTheChannelFreeWhileAFrameIsReported) {
     EXPECT_FALSE(watcher.was_told_it_is_free());
 }
 
-// So near that they arrive at once, though none is in the place of another, and too weak to be
+// So near that they arrive without delay, although no two are in the same place, and too weak to be
 // noticed anywhere.
-TEST_P(EnergyThatAddsUp, OfManyIsNoticedInTheInstantInWhichTheyAreSent) {
+TEST_P(CumulativeEnergy, OfManyIsDetectedAtTheInstantOfSending) {
     RadioConfig config = test::radio_of_power(1.8e-11);
     config.sensitivity_w = 1e-9;
     config.energy_detection_w = 1e-10;
@@ -224,17 +224,17 @@ TEST_P(EnergyThatAddsUp, OfManyIsNoticedInTheInstantInWhichTheyAreSent) {
     EXPECT_TRUE(is_busy);
 }
 
-// A station that gets its message in an instant in which something changes; its channel is busy
-// before and after it.
-class EnergyOfOneInstant : public testing::TestWithParam<Culling> {
+// A station gets its message at an instant at which something changes. Its channel is busy before
+// and after it.
+class SimultaneousEnergy : public testing::TestWithParam<Culling> {
 protected:
-    EnergyOfOneInstant() : air(MediumConfig(), GetParam()) {
+    SimultaneousEnergy() : air(MediumConfig(), GetParam()) {
         RadioConfig config;
         config.sensitivity_w = 1e-9;
         config.energy_detection_w = 1e-10;
         station = &air.add_station({0, 0, 0}, MacConfig(), config);
     }
-    // Each alone is not noticed, three are.
+    // One does not suffice, three do.
     void weak_frame(double from_light_us, SimTime start) {
         const double from_m = from_light_us * light_microsecond_m;
         BareRadio& sender =
@@ -252,7 +252,7 @@ protected:
     Station* station = nullptr;
 };
 
-TEST_P(EnergyOfOneInstant, IsNoticedByWhoGetsItsMessageAfterItArrived) {
+TEST_P(SimultaneousEnergy, IsDetectedByAStationWhoseMessageComesLater) {
     for (const int i : {1, 2, 3}) {
         weak_frame(i, us(100 - i));
     }
@@ -263,7 +263,7 @@ TEST_P(EnergyOfOneInstant, IsNoticedByWhoGetsItsMessageAfterItArrived) {
     EXPECT_FALSE(is_sending_at(us(101)));
 }
 
-TEST_P(EnergyOfOneInstant, IsNoticedThoughALoudFrameIsAboutToBegin) {
+TEST_P(SimultaneousEnergy, IsDetectedBeforeAStrongFrameBegins) {
     for (const int i : {1, 2, 3, 4}) {
         weak_frame(i, us(50));
     }
@@ -273,14 +273,14 @@ TEST_P(EnergyOfOneInstant, IsNoticedThoughALoudFrameIsAboutToBegin) {
     EXPECT_FALSE(is_sending_at(us(101)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Hearings, EnergyThatAddsUp, testing::Values(Culling::enabled, Culling::disabled),
+INSTANTIATE_TEST_SUITE_P(CullingModes, CumulativeEnergy, testing::Values(Culling::enabled, Culling::disabled),
                          name_of);
 
-INSTANTIATE_TEST_SUITE_P(Hearings, EnergyOfOneInstant, testing::Values(Culling::enabled, Culling::disabled),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(CullingModes, SimultaneousEnergy,
+                         testing::Values(Culling::enabled, Culling::disabled), name_of);
 
-// The least level that there is: so many parts of it as it is divided into there are not.
-TEST(EnergyOfAnySize, IsNoticedByWhoNoticesTheLeast) {
+// The smallest level: it cannot be divided into zones.
+TEST(EnergyWithTheLowestThreshold, IsDetected) {
     MediumConfig config;
     config.background_noise_w = 0;
     Air air(config);
@@ -296,9 +296,9 @@ TEST(EnergyOfAnySize, IsNoticedByWhoNoticesTheLeast) {
     EXPECT_EQ(receiver.log.times_of(RadioWord::free), std::vector{us(122)});
 }
 
-// With next to no path loss but at the sender's place, whoever leaves that flies along the border
-// of where the frames are noticed.
-TEST(EnergyAtABorder, IsNoticedByWhoFliesAsFastAsItMoves) {
+// With hardly any path loss except at the sender's place, a node that leaves it flies along the
+// border of detection.
+TEST(EnergyAtAZoneBorder, IsDetectedByANodeFlyingAlongIt) {
     MediumConfig config;
     config.alpha = 1e-7;
     Air air(config);
@@ -324,8 +324,8 @@ TEST(EnergyAtABorder, IsNoticedByWhoFliesAsFastAsItMoves) {
     EXPECT_EQ(busy_count, 50);
 }
 
-// Very many frames at once, of which it takes some to make a channel busy.
-TEST(EnergyOfVeryMany, LooksAtEachTransmissionAFewTimesAtEachRadio) {
+// Very many simultaneous frames, some of which suffice to make a channel busy.
+TEST(EnergyOfVeryManyFrames, IsEvaluatedAFewTimesPerTransmissionAndRadio) {
     Air air;
     RadioConfig config = test::radio_of_power(test::power_for(3e-11, light_microsecond_m));
     config.sensitivity_w = 1e-9;

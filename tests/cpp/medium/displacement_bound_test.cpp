@@ -9,7 +9,7 @@ SimTime s(double seconds) {
     return SimTime::from_seconds(seconds);
 }
 
-TEST(DisplacementBound, StandsWhileAllStand) {
+TEST(DisplacementBound, IsConstantWhileAllStand) {
     const Trajectory place({1, 2, 3});
     DisplacementBound displacement;
     displacement.watch(place, s(0));
@@ -17,7 +17,7 @@ TEST(DisplacementBound, StandsWhileAllStand) {
     EXPECT_EQ(displacement.total_m(s(1000)), displacement.total_m(s(0)));
 }
 
-TEST(DisplacementBound, GoesWithTheFastest) {
+TEST(DisplacementBound, GrowsWithTheFastestNode) {
     Trajectory slow({0, 0, 0});
     Trajectory fast({0, 0, 0});
     DisplacementBound displacement;
@@ -31,7 +31,7 @@ TEST(DisplacementBound, GoesWithTheFastest) {
     EXPECT_NEAR(displacement.total_m(s(7)) - start_m, 110, 1e-9);
 }
 
-TEST(DisplacementBound, RenewedForgetsThoseWhoHaveArrived) {
+TEST(DisplacementBound, RefreshIgnoresNodesThatArrived) {
     Trajectory slow({0, 0, 0});
     Trajectory fast({0, 0, 0});
     DisplacementBound displacement;
@@ -43,7 +43,7 @@ TEST(DisplacementBound, RenewedForgetsThoseWhoHaveArrived) {
     EXPECT_NEAR(displacement.total_m(s(2)) - displacement.total_m(s(1)), 10, 1e-9);
 }
 
-TEST(DisplacementBound, KnowsOfWhoMovedBeforeItWatched) {
+TEST(DisplacementBound, CountsNodesThatMovedBeforeWatching) {
     Trajectory trajectory({0, 0, 0});
     trajectory.go_to(s(0), {1000, 0, 0}, 10);
     DisplacementBound displacement;
@@ -51,7 +51,7 @@ TEST(DisplacementBound, KnowsOfWhoMovedBeforeItWatched) {
     EXPECT_NEAR(displacement.total_m(s(3)) - displacement.total_m(s(1)), 20, 1e-9);
 }
 
-TEST(DisplacementBound, CountsLegsThatTakeNoTimeToSpeakOf) {
+TEST(DisplacementBound, CountsVeryShortLegs) {
     Trajectory trajectory({0, 0, 0});
     DisplacementBound displacement;
     displacement.watch(trajectory, s(0));

@@ -34,7 +34,7 @@ protected:
             places.emplace_back(place);
         }
         const auto node = static_cast<NodeId>(places.size()) - 1;
-        return links.add(InterfaceId{node, interface}, {.trajectory = &places.back(), .kind = kind},
+        return links.add(InterfaceId{node, interface}, {.trajectory = &places.back(), .parameters = kind},
                          MountedAntenna(), SimTime());
     }
     Transmission sent_by(RadioId radio, double power_w = 1e-3) const {
@@ -53,15 +53,15 @@ protected:
     Links links{MediumConfig(), 1};
 };
 
-TEST_F(LinksTest, OfOneBandAndLikeEarsAreOneAudience) {
+TEST_F(LinksTest, GroupsReceiversOfOneBandAndSimilarSensitivity) {
     const RadioId one = add({0, 0, 0});
     const RadioId like = add({10, 0, 0}, with_sensitivity(2.9e-12));
     EXPECT_EQ(links.group_of(one), links.group_of(like));
     EXPECT_EQ(links.groups().size(), 1U);
-    EXPECT_EQ(links.groups()[0].min_w, 2.9e-12);
+    EXPECT_EQ(links.groups()[0].min_power_w, 2.9e-12);
 }
 
-TEST_F(LinksTest, WhoHearsMuchLessOrElsewhereIsOfAnotherAudience) {
+TEST_F(LinksTest, SeparatesReceiversOfOtherBandsOrSensitivities) {
     const RadioId one = add({0, 0, 0});
     const RadioId keen = add({10, 0, 0}, with_sensitivity(1e-15));
     const RadioId other = add({10, 0, 0}, elsewhere());
@@ -69,7 +69,7 @@ TEST_F(LinksTest, WhoHearsMuchLessOrElsewhereIsOfAnotherAudience) {
     EXPECT_NE(links.group_of(one), links.group_of(other));
 }
 
-TEST_F(LinksTest, AnArrivalComesAfterItsWayAndIsLockableIfItIsStrongEnough) {
+TEST_F(LinksTest, AnArrivalIsDelayedAndLockableIfStrongEnough) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Position place{300, 0, 0};
@@ -84,7 +84,7 @@ TEST_F(LinksTest, AnArrivalComesAfterItsWayAndIsLockableIfItIsStrongEnough) {
     }
 }
 
-TEST_F(LinksTest, AShareOfTheBandBringsThatShareOfThePower) {
+TEST_F(LinksTest, AShareOfTheBandGetsThatShareOfThePower) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Position place{300, 0, 0};
@@ -92,19 +92,19 @@ TEST_F(LinksTest, AShareOfTheBandBringsThatShareOfThePower) {
                      links.power_w(sent_by(sender), 1, receiver, place, 300) / 4);
 }
 
-TEST_F(LinksTest, NobodyGetsAPowerFromBeyondItsReach) {
+TEST_F(LinksTest, NoReceiverBeyondTheReachGetsThePower) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Transmission sent = sent_by(sender);
     ReceiverGroup& group = links.groups()[0];
     const double reach_m = links.reach_m(group, sent);
     EXPECT_EQ(reach_m, links.reach_of_power_m(sent, group, group.min_noticed_w(sent)));
-    EXPECT_LT(links.power_w(sent, 1, receiver, {reach_m, 0, 0}, reach_m), group.min_w);
-    EXPECT_GT(links.power_w(sent, 1, receiver, {0.999 * reach_m, 0, 0}, 0.999 * reach_m), group.min_w);
+    EXPECT_LT(links.power_w(sent, 1, receiver, {reach_m, 0, 0}, reach_m), group.min_power_w);
+    EXPECT_GT(links.power_w(sent, 1, receiver, {0.999 * reach_m, 0, 0}, 0.999 * reach_m), group.min_power_w);
     EXPECT_EQ(links.reach_of_power_m(sent, group, 0), std::numeric_limits<double>::infinity());
 }
 
-TEST_F(LinksTest, WhoIsNearerThanThatFindsItLoud) {
+TEST_F(LinksTest, ReceiversWithinTheEdRadiusExceedTheThreshold) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Transmission sent = sent_by(sender);
@@ -113,7 +113,7 @@ TEST_F(LinksTest, WhoIsNearerThanThatFindsItLoud) {
     EXPECT_TRUE(usual().surely_exceeds_ed(links.power_w(sent, 1, receiver, {loud_m, 0, 0}, loud_m)));
 }
 
-TEST_F(LinksTest, TheAddresseeIsTheInterfaceOfThatNodeThatCanDecodeIt) {
+TEST_F(LinksTest, TheAddresseeIsTheInterfaceThatCanDecodeIt) {
     const RadioId sender = add({0, 0, 0});
     add({10, 0, 0}, elsewhere());
     const RadioId second = add({10, 0, 0}, usual(), 1);

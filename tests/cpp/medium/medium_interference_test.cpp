@@ -15,8 +15,7 @@ using test::Air;
 using test::BareRadio;
 using test::us;
 
-// At the end of whatever it could lock on to, holds the bounds of what disturbed that against the
-// sum.
+// Compares the bounds of the interference with the sum, at the end of every lockable arrival.
 class Judge final : public MediumListener {
 public:
     Judge(Air& air, Position place) : medium_(air.medium), trajectory_(place) {
@@ -52,8 +51,8 @@ private:
     RadioId id_ = 0;
 };
 
-// Thirty senders in a square of 4 km and a judge in its middle; each sends one frame within the
-// time of five.
+// Thirty senders in a square of 4 km, and a receiver that checks at its center. Each sends one
+// frame within the duration of five.
 void send_all_over(Air& air, std::uint64_t seed) {
     RandomStream draws(seed, 0, Purpose{1002});
     for (int i = 0; i < 30; ++i) {
@@ -64,9 +63,9 @@ void send_all_over(Air& air, std::uint64_t seed) {
     air.run();
 }
 
-class BoundsOfInterference : public testing::TestWithParam<std::string_view> {};
+class InterferenceBounds : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
+TEST_P(InterferenceBounds, AreNeverBelowTheSum) {
     MediumConfig config;
     config.path_loss = GetParam();
     int disturbed = 0;
@@ -79,9 +78,9 @@ TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
     EXPECT_GT(disturbed, 10) << "too few overlap to judge by: with this path loss, senders are too far apart";
 }
 
-INSTANTIATE_TEST_SUITE_P(PathLosses, BoundsOfInterference, testing::ValuesIn(path_loss_names));
+INSTANTIATE_TEST_SUITE_P(PathLosses, InterferenceBounds, testing::ValuesIn(path_loss_names));
 
-TEST(BoundOfInterference, AtAReceiverIsNearTheSumOfThoseThatDisturbIt) {
+TEST(InterferenceBound, AtAReceiverIsCloseToTheSum) {
     Air air;
     Judge judge(air, {0, 0, 0});
     BareRadio& sender = air.add_radio({100, 0, 0}, test::radio_of_power(0.002));

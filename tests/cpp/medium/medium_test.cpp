@@ -25,9 +25,9 @@ TEST(Medium, ArrivesAfterThePropagationDelay) {
     Sniffer& sniffer = air.add_sniffer({0, 3 * light_microsecond_m, 4 * light_microsecond_m});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    ASSERT_EQ(sniffer.scheduled.size(), 1U);
-    EXPECT_EQ(sniffer.scheduled[0].start, us(15));
-    EXPECT_EQ(sniffer.scheduled[0].end, us(115));
+    ASSERT_EQ(sniffer.heard.size(), 1U);
+    EXPECT_EQ(sniffer.heard[0].start, us(15));
+    EXPECT_EQ(sniffer.heard[0].end, us(115));
 }
 
 TEST(Medium, ThePropagationDelayIsRoundedToAPicosecond) {
@@ -36,20 +36,20 @@ TEST(Medium, ThePropagationDelayIsRoundedToAPicosecond) {
     Sniffer& sniffer = air.add_sniffer({100, 0, 0});  // 333 564.095 ps
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_EQ(sniffer.scheduled.at(0).start, us(10) + SimTime::from_ps(333'564));
-    EXPECT_EQ(sniffer.scheduled.at(0).end, us(110) + SimTime::from_ps(333'564));
+    EXPECT_EQ(sniffer.heard.at(0).start, us(10) + SimTime::from_ps(333'564));
+    EXPECT_EQ(sniffer.heard.at(0).end, us(110) + SimTime::from_ps(333'564));
 }
 
-TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
+TEST(Medium, ArrivesWithThePowerAfterPathLoss) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
     Sniffer& sniffer = air.add_sniffer({50, 0, 0});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_NEAR(sniffer.scheduled.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
+    EXPECT_NEAR(sniffer.heard.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
 }
 
-TEST(Medium, OfManyRadiosEachHasItsOwnSensitivity) {
+TEST(Medium, EachRadioHasItsOwnSensitivity) {
     Air air;
     constexpr double arriving_w = 24.5e-12;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(test::power_for(arriving_w, 50)));
@@ -70,20 +70,20 @@ TEST(Medium, OfManyRadiosEachHasItsOwnSensitivity) {
     air.run();
 }
 
-// Of 22 MHz, channels that are 15 MHz apart share 7.
+// Channels of 22 MHz that are 15 MHz apart overlap by 7 MHz.
 RadioConfig three_channels_up(RadioConfig config = RadioConfig()) {
     config.carrier_hz += 15e6;
     return config;
 }
 
-TEST(Medium, OnAnOverlappingChannelTheShareOfItsPowerArrives) {
+TEST(Medium, AShareOfThePowerArrivesOnAnOverlappingChannel) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
     Sniffer& same = air.add_sniffer({50, 0, 0});
     Sniffer& next = air.add_sniffer({0, 50, 0}, three_channels_up());
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_DOUBLE_EQ(next.scheduled.at(0).power_w, same.scheduled.at(0).power_w * 7 / 22);
+    EXPECT_DOUBLE_EQ(next.heard.at(0).power_w, same.heard.at(0).power_w * 7 / 22);
 }
 
 TEST(Medium, AFrameOfAnOverlappingChannelMakesTheChannelBusyAndIsNotReceived) {
@@ -112,17 +112,17 @@ TEST(Medium, AFrameOfAnOverlappingChannelIsInterference) {
     EXPECT_EQ(air.frame_fates.interferers_at(receiver.id()), (std::map<NodeId, std::uint64_t>{{2, 1}}));
 }
 
-TEST(Medium, AtNoDistanceTheFrameArrivesAtOnceAndWhole) {
+TEST(Medium, AtDistanceZeroTheFrameArrivesAtOnceWithFullPower) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
     Sniffer& sniffer = air.add_sniffer({0, 0, 0});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_EQ(sniffer.scheduled.at(0).start, us(10));
-    EXPECT_DOUBLE_EQ(sniffer.scheduled.at(0).power_w, 0.02);
+    EXPECT_EQ(sniffer.heard.at(0).start, us(10));
+    EXPECT_DOUBLE_EQ(sniffer.heard.at(0).power_w, 0.02);
 }
 
-TEST(Medium, PositionsAreThoseOfTheStartOfTheTransmission) {
+TEST(Medium, UsesPositionsAtTheStartOfTheTransmission) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0});
     Sniffer& sniffer = air.add_sniffer({light_microsecond_m, 0, 0});
@@ -130,8 +130,8 @@ TEST(Medium, PositionsAreThoseOfTheStartOfTheTransmission) {
     sniffer.trajectory.go_to(us(0), {11 * light_microsecond_m, 0, 0}, light_microsecond_m / 10e-6);
     air.at(us(10), [&] { sender.send(us(1000)); });  // the sniffer is at 2 light microseconds
     air.run();
-    EXPECT_EQ(sniffer.scheduled.at(0).start, us(12));
-    EXPECT_EQ(sniffer.scheduled.at(0).end, us(1012));
+    EXPECT_EQ(sniffer.heard.at(0).start, us(12));
+    EXPECT_EQ(sniffer.heard.at(0).end, us(1012));
 }
 
 TEST(Medium, MakesACopyForEveryOtherRadioOfTheBand) {
@@ -150,7 +150,7 @@ TEST(Medium, MakesACopyForEveryOtherRadioOfTheBand) {
     EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::below_sensitivity), 1U);
 }
 
-TEST(Medium, TellsAddresseesFromOverhearers) {
+TEST(Medium, SeparatesAddresseesFromOverhearers) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0});
     BareRadio& addressee = air.add_radio({10, 0, 0});
@@ -172,7 +172,7 @@ TEST(Medium, ACopyIsInTheAirUntilItEnds) {
     EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::in_air), 0U);
 }
 
-TEST(Medium, ReceiversThatItDoesNotMatterToCostNoEvent) {
+TEST(Medium, IrrelevantReceiversCostNoEvent) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0});
     for (int i = 0; i < 100; ++i) {
@@ -183,7 +183,7 @@ TEST(Medium, ReceiversThatItDoesNotMatterToCostNoEvent) {
     EXPECT_EQ(air.simulator.event_count(), 1U);  // the end of the transmission
 }
 
-// Notes in which order receivers are told of the end of node 2's frames.
+// Records the order of notifications of the end of node 2's frames.
 class EndListener final : public MediumListener {
 public:
     EndListener(int name, std::vector<int>& order) : name_(name), order_(order) {}
@@ -200,7 +200,7 @@ private:
     std::vector<int>& order_;
 };
 
-TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
+TEST(Medium, TiesAreBrokenByNodeNotByNotification) {
     Air air;
     std::vector<int> order;
     const Trajectory place({0, 0, 0});
@@ -224,7 +224,7 @@ TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
     EXPECT_EQ(order, (std::vector{0, 1}));
 }
 
-TEST(Medium, ForgetsTransmissionsThatCannotMatterAnyMore) {
+TEST(Medium, DropsTransmissionsThatCannotMatter) {
     Air air;
     BareRadio& one = air.add_radio({0, 0, 0});
     BareRadio& other = air.add_radio({100, 0, 0});
@@ -242,7 +242,7 @@ TEST(Medium, ForgetsTransmissionsThatCannotMatterAnyMore) {
     EXPECT_LE(most, 4U);
 }
 
-TEST(Medium, RemembersAFrameForAsLongAsItInterferes) {
+TEST(Medium, KeepsAFrameWhileItInterferes) {
     // The interferer ends just after the signal has begun, and many short frames elsewhere come and
     // go meanwhile.
     Air air;

@@ -54,9 +54,9 @@ struct Crowd {
     NeighborSearch neighbors;
 };
 
-class NeighboursAtScale : public testing::TestWithParam<double> {};
+class NeighborSearchAtScale : public testing::TestWithParam<double> {};
 
-TEST_P(NeighboursAtScale, AreAllFound) {
+TEST_P(NeighborSearchAtScale, FindsAll) {
     RandomStream draws(1, 0, Purpose{1004});
     const double side_m = GetParam();
     const auto coordinate = [&] { return (draws.uniform() - 0.5) * side_m; };
@@ -71,9 +71,9 @@ TEST_P(NeighboursAtScale, AreAllFound) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, NeighboursAtScale, testing::Values(0.0, 1.0, 1e3, 1e4, 1e6, 1e9, 1e15));
+INSTANTIATE_TEST_SUITE_P(Sides, NeighborSearchAtScale, testing::Values(0.0, 1.0, 1e3, 1e4, 1e6, 1e9, 1e15));
 
-TEST(NeighborSearch, OnTheBordersOfCellsAreFound) {
+TEST(NeighborSearch, FindsRadiosOnCellBorders) {
     Crowd crowd;
     constexpr double reach_m = 100;  // cells of 50 m
     for (int x = -10; x < 10; ++x) {
@@ -88,7 +88,7 @@ TEST(NeighborSearch, OnTheBordersOfCellsAreFound) {
     }
 }
 
-TEST(NeighborSearch, AreFoundWhereverTheyHaveGone) {
+TEST(NeighborSearch, FindsRadiosAfterAnyMovement) {
     RandomStream draws(2, 0, Purpose{1004});
     Crowd crowd;
     const auto somewhere = [&] { return Position{draws.uniform() * 3000, draws.uniform() * 3000, 0}; };
@@ -106,7 +106,7 @@ TEST(NeighborSearch, AreFoundWhereverTheyHaveGone) {
     }
 }
 
-TEST(NeighborSearch, AreLookedForOnlyNearBy) {
+TEST(NeighborSearch, ReturnsFewDistantRadios) {
     Crowd crowd;
     for (int i = 0; i < 10'000; ++i) {
         const int column = i % 100;
@@ -117,7 +117,7 @@ TEST(NeighborSearch, AreLookedForOnlyNearBy) {
     EXPECT_EQ(crowd.neighbors.near({5000, 5000, 0}, 200).size(), 13U);
 }
 
-TEST(NeighborSearch, NobodyIsFartherThanTheFarthest) {
+TEST(NeighborSearch, FarthestBoundsAllDistances) {
     Crowd crowd;
     for (int i = 0; i < 100; ++i) {
         crowd.add({10.0 * i, 0, 0});
@@ -132,7 +132,7 @@ TEST(NeighborSearch, NobodyIsFartherThanTheFarthest) {
     }
 }
 
-TEST(NeighborSearch, NobodyHasGoneFartherThanTheFarthest) {
+TEST(NeighborSearch, FarthestBoundsMovedNodes) {
     Crowd crowd;
     crowd.add({0, 0, 0});
     Trajectory& traveller = crowd.add({1000, 0, 0});
@@ -143,7 +143,7 @@ TEST(NeighborSearch, NobodyHasGoneFartherThanTheFarthest) {
     }
 }
 
-TEST(NeighborSearch, OfNobodyAreNone) {
+TEST(NeighborSearch, IsEmptyWithoutRadios) {
     Crowd crowd;
     EXPECT_TRUE(crowd.found({0, 0, 0}, infinite, s(0), 100).empty());
     EXPECT_EQ(crowd.neighbors.farthest_m({0, 0, 0}), 0);

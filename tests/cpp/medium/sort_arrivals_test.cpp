@@ -21,22 +21,22 @@ struct ScheduledArrival {
     std::int32_t radio = 0;
 
     bool operator==(const ScheduledArrival&) const = default;
-    friend std::ostream& operator<<(std::ostream& out, const ScheduledArrival& scheduled) {
-        return out << scheduled.start.ps() << " ps at " << scheduled.radio;
+    friend std::ostream& operator<<(std::ostream& out, const ScheduledArrival& arrivals) {
+        return out << arrivals.start.ps() << " ps at " << arrivals.radio;
     }
 };
 
-// So many, whose delays are up to that; `kinds` different ones.
+// Arrivals with random delays up to a maximum; `kinds` different ones.
 std::vector<ScheduledArrival> draw(RandomStream& draws, std::size_t count, std::int64_t longest_ps,
                                    std::uint32_t kinds) {
-    std::vector<ScheduledArrival> scheduled;
+    std::vector<ScheduledArrival> arrivals;
     for (std::size_t i = 0; i < count; ++i) {
         const auto delay_ps = static_cast<std::int64_t>(static_cast<double>(longest_ps) *
                                                         draws.uniform_int(kinds) / (kinds - 1));
         const auto radio = static_cast<std::int32_t>(count - i) * 3;
-        scheduled.push_back({sent + SimTime::from_ps(delay_ps), i == 0 ? 0x7FFFFFFF : radio});
+        arrivals.push_back({sent + SimTime::from_ps(delay_ps), i == 0 ? 0x7FFFFFFF : radio});
     }
-    return scheduled;
+    return arrivals;
 }
 
 struct Case {
@@ -45,22 +45,22 @@ struct Case {
     std::uint32_t kinds;
 };
 
-class OrderOfArrival : public testing::TestWithParam<Case> {};
+class SortArrivals : public testing::TestWithParam<Case> {};
 
-TEST_P(OrderOfArrival, IsByStartThenByRadio) {
+TEST_P(SortArrivals, SortsByStartThenByRadio) {
     RandomStream draws(1, 0, Purpose{1004});
     std::vector<ScheduledArrival> spare;
     for (std::size_t count = 0; count < 70; ++count) {
-        std::vector<ScheduledArrival> scheduled = draw(draws, count, GetParam().longest_ps, GetParam().kinds);
-        std::vector<ScheduledArrival> expected = scheduled;
+        std::vector<ScheduledArrival> arrivals = draw(draws, count, GetParam().longest_ps, GetParam().kinds);
+        std::vector<ScheduledArrival> expected = arrivals;
         std::ranges::sort(expected, {},
                           [](const ScheduledArrival& one) { return std::tuple(one.start.ps(), one.radio); });
-        sort_arrivals(scheduled, sent, spare);
-        ASSERT_EQ(scheduled, expected) << count;
+        sort_arrivals(arrivals, sent, spare);
+        ASSERT_EQ(arrivals, expected) << count;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OrderOfArrival,
+INSTANTIATE_TEST_SUITE_P(All, SortArrivals,
                          testing::Values(Case{"near", 1'000'000, 1'000'000}, Case{"onCircles", 1'000'000, 3},
                                          Case{"atTheLastDelayThatFits", (1LL << 31) - 2, 1000},
                                          Case{"beyondIt", (1LL << 31) - 1, 1000},

@@ -20,7 +20,7 @@ struct Kinds {
     std::vector<int> made;
 };
 
-TEST(SharedModels, AreMadeOnceForEqualConfigurations) {
+TEST(SharedModels, AreCreatedOnceForEqualConfigurations) {
     Kinds kinds;
     const auto first = kinds.of(1);
     const auto other = kinds.of(2);
@@ -31,7 +31,7 @@ TEST(SharedModels, AreMadeOnceForEqualConfigurations) {
     EXPECT_EQ(kinds.made, (std::vector{1, 2}));
 }
 
-TEST(SharedModels, StayWithWhoHasThemThoughTheyAreMadeAnewLater) {
+TEST(SharedModels, StayValidAfterTheyAreDropped) {
     Kinds kinds;
     const auto first = kinds.of(0);
     for (int config = 1; config <= 100; ++config) {

@@ -12,14 +12,14 @@ double rayleigh(double from_0) {
 }
 
 // What Rayleigh's gains do: a gain of g comes with the chance exp(−g).
-TEST(GainTailBound, AreAsRareAsTheirDistanceFromZero) {
+TEST(GainTailBound, MatchesTheDistanceFromZero) {
     const GainTailBound rare(rayleigh, 6);
     for (const double gain : {0.125, 1.0, 1.25, 1.5, 4.0, 16.0}) {  // where steps begin
         EXPECT_NEAR(rare.chance_beyond(gain), std::exp(-gain), 1e-8 * std::exp(-gain)) << gain;
     }
 }
 
-TEST(GainTailBound, AreTakenForLessRareByAQuarterAtMost) {
+TEST(GainTailBound, IsTooLargeByAQuarterAtMost) {
     const GainTailBound rare(rayleigh, 6);
     for (int percent = 2; percent < 1800; ++percent) {
         const double gain = percent / 100.0;
@@ -28,7 +28,7 @@ TEST(GainTailBound, AreTakenForLessRareByAQuarterAtMost) {
     }
 }
 
-TEST(GainTailBound, ThoseThatEveryPairHasAreNotRare) {
+TEST(GainTailBound, IsOneForGainsOfEveryPair) {
     const GainTailBound rare([](double from_0) { return std::exp(from_0); }, 6);
     EXPECT_EQ(rare.chance_beyond(0), 1);
     EXPECT_EQ(rare.chance_beyond(0.99), 1);
@@ -36,19 +36,19 @@ TEST(GainTailBound, ThoseThatEveryPairHasAreNotRare) {
     EXPECT_LT(rare.chance_beyond(2), 1);
 }
 
-TEST(GainTailBound, ThoseThatNoneHasAreAsRareAsTheLargest) {
+TEST(GainTailBound, IsThatOfTheLargestForGainsOfNoPair) {
     const GainTailBound rare(rayleigh, 6);
     EXPECT_EQ(rare.chance_beyond(1e6), rare.chance_beyond(18));
     EXPECT_EQ(rare.chance_beyond(INFINITY), rare.chance_beyond(18));
 }
 
-TEST(GainTailBound, WithoutASpreadThereIsNothingToTellApart) {
+TEST(GainTailBound, IsOneWithoutSpread) {
     const GainTailBound constant([](double) { return 1.0; }, 6);
     EXPECT_GE(constant.chance_beyond(0.5), 1);
     EXPECT_GE(constant.chance_beyond(1), 1);
 }
 
-TEST(GainTailBound, WhatIsNoNumberIsNotRare) {
+TEST(GainTailBound, IsOneForNan) {
     EXPECT_EQ(GainTailBound(rayleigh, 6).chance_beyond(NAN), 1);
     EXPECT_EQ(GainTailBound().chance_beyond(5), 1);
 }

@@ -1,5 +1,5 @@
 // The fixture of tests of CSMA/CA as in 802.15.4: devices on one air, and the durations and
-// intervals of IEEE 802.15.4, written out, from which instants are worked out by hand.
+// intervals of IEEE 802.15.4, written out, from which instants are computed by hand.
 #pragma once
 
 #include <cstdint>
