@@ -1,17 +1,16 @@
-"""Handlers of the published interface beside the engine: assertions, viewers, and users' own.
+"""Handlers that watch a run of the engine: assertions, viewers, and users' own.
 
-The engine is what the communication, timer and mobility handlers are in prototype mode. Every other handler
-needs an event loop, nodes to look at and its turn at the right moments, which it is given here in the same
-order as there.
+The engine replaces the communication, timer and mobility handlers of prototype mode. All other handlers get
+an event loop, nodes and their calls here, in the same order as in prototype mode.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.integrated.event_loop import EngineEventLoop
 from gradysim.integrated.native_protocols import NativeView
-from gradysim.integrated.node_view import NodeView
+from gradysim.protocol.position import Position
+from gradysim.simulator.event import EventLoopException
 from gradysim.simulator.handler.given import (
     finalize_after_failure,
     given_handlers,
@@ -29,9 +28,89 @@ MODE = "integrated mode"
 
 
 def checked_handlers(handlers: Iterable[INodeHandler]) -> dict[str, INodeHandler]:
-    """Return `handlers` by their labels; TypeError or ValueError for one that cannot work here."""
+    """Return `handlers` by their labels. Raises TypeError or ValueError for one that cannot work here."""
     world = "the engine is its {label}, set in the scenario"
     return given_handlers(handlers, MODE, world, asynchronous=False)
+
+
+class EngineEventLoop:
+    """Event loop of the engine, for `INodeHandler.inject`; the counterpart of `simulator.event.EventLoop`.
+
+    The engine runs the events: handlers cannot pop or cancel them.
+    """
+
+    def __init__(self, network: "Network") -> None:
+        self._network = network
+
+    @property
+    def current_time(self) -> float:
+        """Simulated time in seconds."""
+        return self._network.now
+
+    def __len__(self) -> int:
+        """Return the number of pending events: those of the network, and those of all handlers."""
+        return self._network.pending_count
+
+    def schedule_event(
+        self, timestamp: float, callback: Callable[[], Any], context: str = ""
+    ) -> tuple[Callable[[], Any], str]:
+        """Call `callback()` at `timestamp`, after all events scheduled for that time so far.
+
+        Args:
+            timestamp: Absolute simulated time in seconds, not before `current_time`; rounded to ps.
+            callback: Takes no arguments; an exception ends the run.
+            context: What the event is about; not used in this mode.
+
+        Raises:
+            EventLoopException: The time is in the past or not a time, or the callback is not callable.
+        """
+        if not callable(callback):
+            raise EventLoopException(f"an event's callback must be callable, got {callback!r}")
+        try:
+            self._network.schedule(timestamp, callback)
+        except (TypeError, RuntimeError) as error:  # the engine's SimulationError is one
+            raise EventLoopException(
+                f"cannot schedule an event at {timestamp!r}: expected a finite number of seconds, "
+                f"at or after the current time, {self.current_time} s"
+            ) from error
+        return (callback, context)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(
+            f"the event loop has no {name!r} in integrated mode, where the engine runs the events: handlers "
+            "use schedule_event, current_time and len()"
+        )
+
+
+class NodeView:
+    """Node of the engine, for `INodeHandler.register_node`; the counterpart of `simulator.node.Node`.
+
+    Attributes:
+        id: Unique in the network.
+        protocol_encapsulator: Holds its protocol.
+        seed: Seed of the run.
+    """
+
+    def __init__(
+        self, node: "Node", protocol_encapsulator: NetsimEncapsulator[Any] | NativeView, seed: int
+    ) -> None:
+        self.id = node.id
+        self.protocol_encapsulator = protocol_encapsulator
+        self.seed = seed
+        self._node = node
+
+    @property
+    def position(self) -> Position:
+        """Current (x, y, z) in meters. It cannot be set: the engine moves the nodes."""
+        return self._node.position
+
+    @position.setter
+    def position(self, _: Position) -> None:
+        raise AttributeError(
+            f"the position of node {self.id} cannot be set in integrated mode, where the engine moves "
+            "the nodes: a handler that moves them works in prototype mode only; a protocol sends mobility "
+            "commands"
+        )
 
 
 class EngineHandlers:
@@ -53,27 +132,27 @@ class EngineHandlers:
     def register_node(
         self, node: "Node", encapsulator: NetsimEncapsulator[Any] | NativeView, seed: int
     ) -> None:
-        """Show every handler one more node."""
+        """Register one more node with every handler."""
         if self.by_label:
             view = cast("SimulatorNode[Any]", NodeView(node, encapsulator, seed))
             for handler in self.by_label.values():
                 handler.register_node(view)
 
     def initialize(self) -> None:
-        """Begin; before the protocols do."""
+        """Initialize the handlers, before the protocols."""
         for handler in self.by_label.values():
             self._live.append(handler)
             handler.initialize()
 
     @property
     def held_up_s(self) -> float:
-        """Wall seconds for which the handlers held the run up on purpose."""
+        """Wall time for which handlers paused the run, in seconds."""
         return sum(getattr(handler, "held_up_s", 0.0) for handler in self.by_label.values())
 
     def run_until(self, limit_s: float, max_events: int) -> bool:
-        """Run at most so many events up to `limit_s`, and say whether that was all of them.
+        """Run at most `max_events` events up to `limit_s`; return whether these were all.
 
-        If a handler wants its turn after every event, the events are run one at a time.
+        The events are run one at a time if a handler is called after each of them.
         """
         network, hooks = self._network, self._hooks
         if not hooks:
@@ -87,12 +166,12 @@ class EngineHandlers:
         return False
 
     def finalize(self, *, complete: bool = True) -> None:
-        """End; after the protocols have. Unless the run is complete, assertions judge nothing more."""
+        """Finalize the handlers, after the protocols. Assertions are checked only if the run is complete."""
         if not complete:
             judge_nothing_more(self._live)
         while self._live:
             self._live.pop(0).finalize()
 
     def finalize_after_failure(self) -> None:
-        """End those that are left; what they raise is logged, and does not hide the failure before."""
+        """Finalize the remaining handlers; their exceptions are logged and do not hide the earlier one."""
         finalize_after_failure(self._live)

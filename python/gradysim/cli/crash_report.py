@@ -1,0 +1,62 @@
+"""Why a run failed: the traceback of an exception in a protocol, from the user's code on, or a crash."""
+
+import contextlib
+import faulthandler
+import traceback
+from pathlib import Path
+from types import TracebackType
+from typing import TextIO
+
+from gradysim.integrated.capture import CaptureError
+from gradysim.protocol.errors import (
+    CommunicationException,
+    MasslessMobilityException,
+    NativeProtocolError,
+    TimerException,
+)
+from gradysim.sitl.error import SitlError
+
+PACKAGE = Path(__file__).resolve().parent.parent
+
+REFUSED_COMMANDS = (CommunicationException, MasslessMobilityException, TimerException)
+"""Their texts tell all. Where they are raised nobody needs, and integrated mode has no frames to show."""
+
+
+WITHOUT_FRAMES = (NativeProtocolError, CaptureError, SitlError)
+"""No code of the user led to these."""
+
+
+def report_crashes() -> None:
+    """Let the interpreter say on the error output in which line it crashes, as in a library written in C."""
+    with contextlib.suppress(OSError, ValueError):  # an error output that is no file
+        if not faulthandler.is_enabled():
+            faulthandler.enable()
+
+
+def print_failure(failure: BaseException, file: TextIO) -> None:
+    """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out."""
+    frames = None if isinstance(failure, WITHOUT_FRAMES) else from_users_code(failure.__traceback__)
+    told = traceback.TracebackException(type(failure), failure, frames)
+    if isinstance(failure, REFUSED_COMMANDS):
+        cut_behind_users_code(told.stack)
+    told.print(file=file)
+
+
+def cut_behind_users_code(stack: traceback.StackSummary) -> None:
+    """Take the frames of gradysim that the user's code called from the end of `stack`, if there is any."""
+    last = max((index for index, frame in enumerate(stack) if not is_ours(frame.filename)), default=None)
+    if last is not None:
+        del stack[last + 1 :]
+
+
+def from_users_code(frames: TracebackType | None) -> TracebackType | None:
+    """Return `frames` from the first one outside this package; all of them if there is none."""
+    first = frames
+    while first is not None and is_ours(first.tb_frame.f_code.co_filename):
+        first = first.tb_next
+    return first if first is not None else frames
+
+
+def is_ours(filename: str) -> bool:
+    """Return whether a source file belongs to the package gradysim."""
+    return Path(filename).is_relative_to(PACKAGE)
