@@ -15,8 +15,7 @@ from gradysim.cli.fates_at_nodes import (
     kinds_overheard,
     messages_from_nodes,
 )
-from gradysim.protocol.plain_value import plain_value
-from gradysim.protocol.readable_number import readable_number
+from gradysim.protocol.plain_value import plain_value, readable_number
 from gradysim.results.delays import Delays
 from gradysim.results.run_result import NodeResult, RunResult
 from gradysim.scenario.runs.iterations import text_of_iterations

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.encapsulator.watched_provider import watch_tracked_variables
+from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.results.node_recorder import NodeRecorder
 
 if TYPE_CHECKING:

@@ -9,10 +9,9 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.encapsulator.failure import add_protocol_note
-from gradysim.encapsulator.garbage_collection import garbage_left_alone
-from gradysim.encapsulator.global_random import global_random_of
+from gradysim.encapsulator.interface import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.encapsulator.run_context import gc_paused, global_random_seeded
 from gradysim.integrated.capture import (
     capture_errors,
     captures_completed_after_failure,
@@ -91,7 +90,7 @@ class IntegratedRun:
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         files = checked_captures(captures or {}, scenario)
-        with garbage_left_alone():
+        with gc_paused():
             self._network, self._nodes = build_network(scenario)
         start_captures(self._network, scenario, files)
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
@@ -100,7 +99,7 @@ class IntegratedRun:
         self._flown = FlownNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
         siblings = siblings_importable(spec.protocol for spec in scenario.nodes)
-        with garbage_left_alone(), siblings, global_random_of(scenario.seed):
+        with gc_paused(), siblings, global_random_seeded(scenario.seed):
             self._make_protocols()
         self._flown.take_off()
 
@@ -124,6 +123,7 @@ class IntegratedRun:
                 steer=self._flown.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
+            encapsulator.provider.has_telemetry = spec.has_telemetry
             if node.id in self._recorders:
                 record_protocol(encapsulator, node, self._recorders[node.id])
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
@@ -147,7 +147,7 @@ class IntegratedRun:
         """
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
         captures = captures_completed_after_failure(self._network)
-        stream = global_random_of(self._scenario.seed)
+        stream = global_random_seeded(self._scenario.seed)
         with captures, siblings, stream, self._account.of_execution():
             self._execute(progress, should_stop)
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from gradysim.encapsulator.watched_provider import watch_tracked_variables
+from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.results.node_recorder import NodeRecorder
 from gradysim.simulator.node import Node

@@ -6,8 +6,7 @@ object: `execute` may raise, `result` tells at any time how far the run came.
 
 from collections.abc import Callable, Iterable
 
-from gradysim.encapsulator.garbage_collection import garbage_left_alone
-from gradysim.encapsulator.global_random import global_random_of
+from gradysim.encapsulator.run_context import gc_paused, global_random_seeded
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.delays import constant_delays
 from gradysim.results.node_recorder import recorders_of
@@ -49,7 +48,7 @@ class PrototypeRun:
         self._scenario = scenario
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         siblings = siblings_importable(node.protocol for node in scenario.nodes)
-        with garbage_left_alone(), siblings, global_random_of(scenario.seed):
+        with gc_paused(), siblings, global_random_seeded(scenario.seed):
             self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
 
     def execute(
@@ -68,7 +67,7 @@ class PrototypeRun:
         simulator, account = self._simulator, self._account
         siblings = siblings_importable(node.protocol for node in self._scenario.nodes)
         interrupt: KeyboardInterrupt | None = None
-        with account.of_execution(), siblings, global_random_of(self._scenario.seed):
+        with account.of_execution(), siblings, global_random_seeded(self._scenario.seed):
             try:
                 account.complete = run_in_slices(
                     lambda max_events: not simulator.run_events(max_events),

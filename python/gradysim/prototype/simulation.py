@@ -65,7 +65,9 @@ def build_simulation(
     recorded = recorders or {}
 
     def prepare(node: Node[Any]) -> None:
-        node.protocol_encapsulator.provider.run_name = name
+        provider = node.protocol_encapsulator.provider
+        provider.run_name = name
+        provider.has_telemetry = scenario.nodes[node.id].has_telemetry
         if node.id in recorded:
             record_node(node, recorded[node.id])
 

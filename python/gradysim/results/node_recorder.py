@@ -3,8 +3,7 @@
 from array import array
 from collections.abc import Iterable, Sized
 
-from gradysim.protocol.number import as_float
-from gradysim.protocol.plain_value import key_text
+from gradysim.protocol.plain_value import as_float, key_text
 from gradysim.results.node_ids import checked_ids
 from gradysim.results.vector import Times, Values, Vector
 

@@ -4,8 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from gradysim.protocol.number import as_float
-from gradysim.protocol.plain_value import key_text
+from gradysim.protocol.plain_value import as_float, key_text
 from gradysim.results.run_result import NodeResult, RunResult
 
 _MEDIUM = {"frames": "radioMedium", "copies": "communicationMedium"}

@@ -8,11 +8,10 @@ from collections.abc import Callable
 from enum import Enum
 from typing import Any
 
-from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.interface import CALLBACKS, IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
 
 _ATTRIBUTE = "_gradysim_dispatcher"
-_CALLBACKS = ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
 
 
 class DispatchReturn(Enum):
@@ -133,7 +132,7 @@ def create_dispatcher(protocol: IProtocol) -> ProtocolWrapper:
     """
     wrapper: ProtocolWrapper | None = getattr(protocol, "__dict__", {}).get(_ATTRIBUTE)
     if wrapper is None:
-        if isinstance(protocol, type) or not all(hasattr(protocol, name) for name in _CALLBACKS):
+        if isinstance(protocol, type) or not all(hasattr(protocol, name) for name in CALLBACKS):
             raise TypeError(f"expected a protocol (a plugin's first argument is `self`), got {protocol!r}")
         wrapper = ProtocolWrapper(protocol)
         setattr(protocol, _ATTRIBUTE, wrapper)

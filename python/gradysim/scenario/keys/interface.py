@@ -2,7 +2,7 @@
 
 import re
 
-from gradysim.protocol.messages.interface_index import MOST_INTERFACES
+from gradysim.protocol.defaults import MOST_INTERFACES
 from gradysim.scenario.keys.key import Key, ReadBy
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.shapes import Below

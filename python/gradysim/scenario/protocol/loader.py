@@ -9,7 +9,7 @@ import uuid
 from pathlib import Path
 from types import ModuleType
 
-from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.interface import IProtocol, is_protocol_class
 from gradysim.scenario.errors.config_error import BadValue
 from gradysim.scenario.errors.nearest import did_you_mean, misspelt
 from gradysim.scenario.errors.sibling_files import file_meant
@@ -109,10 +109,10 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     if cls is None:
         protocols = _protocols(module)
         raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or _list(protocols))
-    if not _is_protocol(cls):
-        why = "is no protocol, it does not derive from IProtocol"
+    if not is_protocol_class(cls):
+        why = "is not a protocol, it does not derive from IProtocol"
         if cls is IProtocol:
-            why = "is no protocol but the interface that protocols derive from"
+            why = "is the interface that protocols derive from, not a protocol"
         raise BadValue(f"`{name}` in {place} {why}", _list(_protocols(module)))
     protocol: type[IProtocol] = cls
     if inspect.isabstract(protocol):
@@ -146,11 +146,7 @@ def _calls(methods: list[str]) -> str:
 
 
 def _protocols(module: ModuleType) -> list[str]:
-    return [name for name, value in vars(module).items() if _is_protocol(value)]
-
-
-def _is_protocol(value: object) -> bool:
-    return isinstance(value, type) and issubclass(value, IProtocol) and value is not IProtocol
+    return [name for name, value in vars(module).items() if is_protocol_class(value)]
 
 
 def _is_loaded_by_itself(file: Path, error: BaseException | None) -> bool:

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, TypedDict
 
-from gradysim.encapsulator.node_positions import NodePositions
+from gradysim.encapsulator.interface import NodePositions
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.checked_configuration import checked_configuration

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.readable_number import readable_number
+from gradysim.protocol.plain_value import readable_number
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node

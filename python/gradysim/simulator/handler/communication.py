@@ -9,13 +9,12 @@ from functools import partial
 from typing import Any
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.encapsulator.refused_commands import wrong_communication
+from gradysim.encapsulator.validation import checked_interface, wrong_communication
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
-from gradysim.protocol.messages.interface_index import checked_interface
+from gradysim.protocol.plain_value import readable_number
 from gradysim.protocol.position import Position, squared_distance
-from gradysim.protocol.readable_number import readable_number
 from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.copy_ledger import CopyLedger

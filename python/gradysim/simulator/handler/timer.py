@@ -3,9 +3,9 @@
 from functools import partial
 from typing import Any
 
-from gradysim.encapsulator.refused_commands import wrong_timer, wrong_timer_name
+from gradysim.encapsulator.validation import wrong_timer, wrong_timer_name
 from gradysim.protocol.errors import TimerException as TimerException
-from gradysim.protocol.readable_number import readable_number
+from gradysim.protocol.plain_value import readable_number
 from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
 from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
 from gradysim.simulator.handler.interface import INodeHandler

@@ -4,9 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, cast
 
-from gradysim.encapsulator.command_numbers import three_numbers
-from gradysim.encapsulator.geo_target import geo_target
-from gradysim.encapsulator.refused_commands import wrong_mobility
+from gradysim.encapsulator.validation import geo_target, three_numbers, wrong_mobility
 from gradysim.protocol.defaults import SPEED_MPS, UPDATE_S
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import (

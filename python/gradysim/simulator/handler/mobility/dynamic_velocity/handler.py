@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from gradysim.encapsulator.command_numbers import three_numbers
+from gradysim.encapsulator.validation import three_numbers
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
