@@ -12,13 +12,13 @@ from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.event_loop import EngineEventLoop
 from gradysim.integrated.native_protocols import NativeView
 from gradysim.integrated.node_view import NodeView
-from gradysim.simulator.handler.given import (
-    finalize_after_failure,
-    given_handlers,
-    judge_nothing_more,
-    step_hooks,
-)
 from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.registry import (
+    finalize_after_failure,
+    handlers_by_label,
+    step_hooks,
+    stop_judging,
+)
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node
@@ -31,7 +31,7 @@ MODE = "integrated mode"
 def checked_handlers(handlers: Iterable[INodeHandler]) -> dict[str, INodeHandler]:
     """Return `handlers` by their labels; TypeError or ValueError for one that cannot work here."""
     world = "the engine is its {label}, set in the scenario"
-    return given_handlers(handlers, MODE, world, asynchronous=False)
+    return handlers_by_label(handlers, MODE, world, asynchronous=False)
 
 
 class EngineHandlers:
@@ -89,7 +89,7 @@ class EngineHandlers:
     def finalize(self, *, complete: bool = True) -> None:
         """End; after the protocols have. Unless the run is complete, assertions judge nothing more."""
         if not complete:
-            judge_nothing_more(self._live)
+            stop_judging(self._live)
         while self._live:
             self._live.pop(0).finalize()
 

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from gradysim.simulator.number_range import is_in_range
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.simulator.real_time import real_time_factor
 
 

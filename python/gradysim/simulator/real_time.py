@@ -1,8 +1,10 @@
 """Simulated time at the pace of the wall clock, for both modes."""
 
 import time
+from types import TracebackType
+from typing import Self
 
-from gradysim.simulator.number_range import is_in_range
+from gradysim.protocol.checked_values import is_in_range
 
 
 def real_time_factor(real_time: bool | float) -> float:
@@ -48,3 +50,29 @@ class RealTimePacer:
         remaining = self.remaining_s(simulated_s)
         if remaining > 0:
             time.sleep(remaining)
+
+
+_contexts = 0
+
+
+class FullSpeed:
+    """Simulations that start in this context do not wait."""
+
+    def __enter__(self) -> Self:
+        global _contexts
+        _contexts += 1
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        exception: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        global _contexts
+        _contexts -= 1
+
+
+def is_full_speed() -> bool:
+    """Return whether this is in such a context."""
+    return _contexts > 0

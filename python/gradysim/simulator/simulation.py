@@ -1,21 +1,43 @@
-"""Puts the nodes and handlers of a simulation together: where scripts of prototype mode begin."""
+"""Builds a simulation from nodes and handlers: where scripts of prototype mode begin."""
 
+import random
 from collections.abc import Callable
 from typing import Any
 
-from gradysim.protocol.checked_values import checked_point
+from gradysim.protocol.checked_values import checked_point, checked_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop as EventLoop  # Scripts of 0.8 import it, and Node, from here.
-from gradysim.simulator.full_speed import FullSpeed
-from gradysim.simulator.handler.given import label_of
 from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.registry import label_of
 from gradysim.simulator.node import Node as Node
-from gradysim.simulator.position_scheme import PositionScheme
-from gradysim.simulator.protocol_class import checked_protocol_class
+from gradysim.simulator.real_time import FullSpeed
 from gradysim.simulator.simulator import Simulator
+from gradysim.simulator.validation import checked_configuration, checked_protocol_class
+
+
+class PositionScheme:
+    """Functions that give the initial position of a node."""
+
+    @staticmethod
+    def random(
+        x_range: tuple[float, float] = (-10, 10),
+        y_range: tuple[float, float] = (-10, 10),
+        z_range: tuple[float, float] = (0, 10),
+    ) -> Position:
+        """Draw a point of a box (m) uniformly, from Python's global stream of random numbers.
+
+        Raises:
+            ValueError: A range is not (low, high) of finite numbers, low <= high.
+        """
+        box = [
+            checked_range(f"{axis}_range", given, ValueError)
+            for axis, given in zip("xyz", (x_range, y_range, z_range), strict=True)
+        ]
+        x, y, z = (random.uniform(lowest, highest) for lowest, highest in box)
+        return (x, y, z)
+
 
 __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
 

@@ -15,23 +15,20 @@ from gradysim.encapsulator.python import PythonEncapsulator
 from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
-from gradysim.simulator.full_speed import is_full_speed
-from gradysim.simulator.handler.given import (
-    finalize_after_failure,
-    judge_nothing_more,
-    step_hooks,
-)
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
+from gradysim.simulator.handler.registry import (
+    finalize_after_failure,
+    step_hooks,
+    stop_judging,
+)
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
-from gradysim.simulator.pacing import Pacing
-from gradysim.simulator.profile import EventProfile
-from gradysim.simulator.protocol_class import checked_protocol_class
-from gradysim.simulator.real_time import RealTimePacer, real_time_factor
-from gradysim.simulator.timing_report import TimingReport
+from gradysim.simulator.pacing import AsyncioRunner, Pacing, WakingEventLoop
+from gradysim.simulator.profiling import EventProfile, TimingReport
+from gradysim.simulator.real_time import RealTimePacer, is_full_speed, real_time_factor
+from gradysim.simulator.validation import checked_protocol_class
 
 _logger = logging.getLogger(__name__)
 
@@ -70,7 +67,7 @@ class Simulator:
         asynchronous = [
             handler for handler in self._handlers.values() if isinstance(handler, IAsyncNodeHandler)
         ]
-        self._turns = AsyncioTurns() if asynchronous else None
+        self._turns = AsyncioRunner() if asynchronous else None
         self._event_loop = EventLoop() if self._turns is None else WakingEventLoop(self._turns)
         self._nodes: dict[int, Node[Any]] = {}
         self._iteration = 0
@@ -211,7 +208,7 @@ class Simulator:
         if self._finalized:
             return
         if not complete:
-            judge_nothing_more(self._live_handlers)
+            stop_judging(self._live_handlers)
         next_time = self._event_loop.next_time()
         if self._initialized and next_time is not None and next_time > self._until_s:
             self._event_loop.advance_to(self._until_s)

@@ -2,12 +2,12 @@ import asyncio
 
 import pytest
 
-from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
+from gradysim.simulator.pacing import AsyncioRunner, WakingEventLoop
 
 
 @pytest.fixture
 def turns():
-    turns = AsyncioTurns()
+    turns = AsyncioRunner()
     yield turns
     turns.close()
 
@@ -70,7 +70,7 @@ def test_an_asyncio_report_without_an_exception_is_logged(turns, caplog):
 
 
 def test_closing_cancels_tasks():
-    turns = AsyncioTurns()
+    turns = AsyncioRunner()
     ends = []
 
     async def waiting():
@@ -86,13 +86,13 @@ def test_closing_cancels_tasks():
 
 
 def test_closing_twice_does_nothing():
-    turns = AsyncioTurns()
+    turns = AsyncioRunner()
     turns.close()
     turns.close()
 
 
 def test_inside_another_loop_it_is_closed_without_a_turn():
-    turns = AsyncioTurns()
+    turns = AsyncioRunner()
 
     async def close():
         turns.close()
@@ -136,7 +136,7 @@ def test_a_failure_meanwhile_is_raised_by_the_next_turn(turns):
 
 
 def test_a_failure_after_the_last_turn_is_logged(caplog):
-    turns = AsyncioTurns()
+    turns = AsyncioRunner()
     turns.asyncio_loop.call_soon(lambda: 1 / 0)
     turns.close()
     (record,) = caplog.records

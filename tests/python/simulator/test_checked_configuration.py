@@ -1,7 +1,7 @@
 import pytest
 
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.handler.communication import CommunicationMedium
+from gradysim.simulator.validation import checked_configuration
 
 
 def test_what_was_given_is_taken_as_it_is():

@@ -1,4 +1,4 @@
-from gradysim.simulator.full_speed import FullSpeed, is_full_speed
+from gradysim.simulator.real_time import FullSpeed, is_full_speed
 
 
 def test_it_ends_with_the_outermost_context() -> None:

@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from gradysim.simulator.number_range import is_in_range
+from gradysim.protocol.checked_values import is_in_range
 
 
 @pytest.mark.parametrize("value", [0, 0.0, 1, 1e300, np.float64(2), np.int64(3)])

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.simulator.position_scheme import PositionScheme
+from gradysim.simulator.simulation import PositionScheme
 
 ranges = st.tuples(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6)).map(lambda pair: (min(pair), max(pair)))
 

@@ -3,7 +3,7 @@ import time
 
 import pytest
 
-from gradysim.simulator.profile import EventProfile
+from gradysim.simulator.profiling import EventProfile
 
 
 def test_the_report_counts_events_by_context(caplog):

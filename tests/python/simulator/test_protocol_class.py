@@ -1,7 +1,7 @@
 import pytest
 
-from gradysim.simulator.protocol_class import checked_protocol_class
 from gradysim.simulator.simulation import SimulationBuilder
+from gradysim.simulator.validation import checked_protocol_class
 from python.simulator.simulator.simulated import protocol
 
 

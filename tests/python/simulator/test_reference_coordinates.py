@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from gradysim.simulator.reference_coordinates import check_reference
+from gradysim.simulator.validation import check_reference
 
 
 @pytest.mark.parametrize("place", [(0, 0, 0), (90, -200.5, 1e3), [-90, 0, -5]])

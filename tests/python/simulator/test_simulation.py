@@ -4,8 +4,7 @@ import pytest
 
 from gradysim.simulator import simulation
 from gradysim.simulator.handler.timer import TimerHandler
-from gradysim.simulator.position_scheme import PositionScheme
-from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from gradysim.simulator.simulation import PositionScheme, SimulationBuilder, SimulationConfiguration
 from python.simulator.simulator.simulated import Recorder, fired, protocol, timers
 
 

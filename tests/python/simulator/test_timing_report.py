@@ -3,7 +3,7 @@ import logging
 
 import pytest
 
-from gradysim.simulator.timing_report import TimingReport
+from gradysim.simulator.profiling import TimingReport
 
 
 @pytest.fixture

@@ -222,12 +222,12 @@ class AssertionHandler(INodeHandler):
                 name = type(case).__name__
                 case.test_iteration(self._nodes, iteration, timestamp)
         except BaseException as error:
-            self.judge_nothing_more()
+            self.stop_judging()
             if not isinstance(error, FailedAssertionException | KeyboardInterrupt):
                 error.add_note(f"in the assertion {name}: {_when(iteration, timestamp)}")
             raise
 
-    def judge_nothing_more(self) -> None:
+    def stop_judging(self) -> None:
         """Drop the cases: the simulation ends early, and nobody knows what was to come."""
         self._cases = []
 

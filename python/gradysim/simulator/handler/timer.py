@@ -6,8 +6,13 @@ from typing import Any
 from gradysim.encapsulator.validation import wrong_timer, wrong_timer_name
 from gradysim.protocol.errors import TimerException as TimerException
 from gradysim.protocol.plain_value import readable_number
-from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
-from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
+from gradysim.simulator.event import (
+    MOST_AT_ONE_INSTANT,
+    EventLoop,
+    EventLoopException,
+    InstantCount,
+    ScheduledEvent,
+)
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node

@@ -14,8 +14,8 @@ from gradysim.protocol.messages.communication import (
     CommunicationCommandType,
     SendMessageCommand,
 )
+from gradysim.simulator import event
 from gradysim.simulator.event import _RAN_AT_MOST, EventLoop
-from gradysim.simulator.handler import instant_count
 from gradysim.simulator.handler.communication import (
     CommunicationException,
     CommunicationHandler,
@@ -302,7 +302,7 @@ class TestStandingTime:
     @pytest.fixture
     def answering(self, monkeypatch, network):
         """Two nodes that answer each message, over a medium with that delay."""
-        monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 10)
+        monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 10)
 
         def answering(delay, times=None):
             handler, nodes = network(CommunicationMedium(delay=delay), xs=(0, 10))

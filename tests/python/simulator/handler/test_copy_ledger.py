@@ -8,8 +8,8 @@ from gradysim.simulator.handler.communication import (
     CommunicationException,
     CommunicationHandler,
     CommunicationMedium,
+    DeliveryLedger,
 )
-from gradysim.simulator.handler.copy_ledger import CopyLedger
 from gradysim.simulator.node import Node
 
 
@@ -26,7 +26,7 @@ class World:
 
     def __init__(self, positions_m, medium, seed=0):
         self.loop = EventLoop()
-        self.ledger = CopyLedger()
+        self.ledger = DeliveryLedger()
         self.network = CommunicationHandler(medium, self.ledger)
         self.network.inject(self.loop)
         self.nodes = []

@@ -1,7 +1,7 @@
 import pytest
 
-from gradysim.simulator.handler.given import WORLD, given_handlers, step_hooks
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
+from gradysim.simulator.handler.registry import WORLD, handlers_by_label, step_hooks
 
 
 class Watching(INodeHandler):
@@ -24,7 +24,7 @@ class Stepping(Watching):
 
 
 def given(*handlers, asynchronous=False):
-    return given_handlers(handlers, "test mode", "it has a {label} of its own", asynchronous=asynchronous)
+    return handlers_by_label(handlers, "test mode", "it has a {label} of its own", asynchronous=asynchronous)
 
 
 def test_by_label_in_the_order_given():
@@ -40,7 +40,7 @@ def test_something_else(wrong):
 
 def test_one_handler_is_no_list():
     with pytest.raises(TypeError, match=r"expected a list of handlers, got <.*Watching object"):
-        given_handlers(Watching(), "test mode", "", asynchronous=False)
+        handlers_by_label(Watching(), "test mode", "", asynchronous=False)
 
 
 @pytest.mark.parametrize("label", WORLD)

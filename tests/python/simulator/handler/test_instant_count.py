@@ -1,12 +1,12 @@
 import pytest
 
-from gradysim.simulator.handler import instant_count
-from gradysim.simulator.handler.instant_count import InstantCount
+from gradysim.simulator import event
+from gradysim.simulator.event import InstantCount
 
 
 @pytest.fixture
 def count(monkeypatch):
-    monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 3)
+    monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 3)
     return InstantCount()
 
 

@@ -5,10 +5,10 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.position import Position
-from gradysim.simulator.number_range import is_in_range
-from gradysim.simulator.reference_coordinates import check_reference
+from gradysim.simulator.validation import check_reference
 from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
 from gradysim.sitl.connection import parse_address
 from gradysim.sitl.unprivileged import DEFAULT_USER

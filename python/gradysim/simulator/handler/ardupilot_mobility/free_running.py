@@ -12,7 +12,7 @@ from gradysim.simulator.handler.ardupilot_mobility.configuration import Ardupilo
 from gradysim.simulator.handler.ardupilot_mobility.exception import ArdupilotMobilityException
 from gradysim.simulator.handler.ardupilot_mobility.flight import Flight
 from gradysim.simulator.handler.ardupilot_mobility.report import NodeReport
-from gradysim.simulator.handler.mobility.update_times import UpdateTimes
+from gradysim.simulator.handler.mobility.updates import UpdateTimes
 from gradysim.simulator.node import Node
 from gradysim.sitl.error import SitlError
 from gradysim.sitl.fleet import Fleet

@@ -6,7 +6,6 @@ from typing import Any
 
 from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
 from gradysim.simulator.handler.ardupilot_mobility.exception import ArdupilotMobilityException
@@ -16,6 +15,7 @@ from gradysim.simulator.handler.ardupilot_mobility.lock_step import LockStep
 from gradysim.simulator.handler.ardupilot_mobility.report import FILE_NAME, write_report
 from gradysim.simulator.handler.interface import IAsyncNodeHandler
 from gradysim.simulator.node import Node
+from gradysim.simulator.validation import checked_configuration
 from gradysim.sitl.dialect import load_dialect
 from gradysim.sitl.error import SitlError
 

@@ -14,9 +14,12 @@ from concurrent.futures import Future
 from queue import Empty
 from typing import TYPE_CHECKING
 
-from gradysim.simulator.handler.visualization.command_queue import CommandQueue
-from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
-from gradysim.simulator.handler.visualization.wire import command_text, is_pause_or_resume
+from gradysim.simulator.handler.visualization.messages import (
+    CommandQueue,
+    VisualizationConfiguration,
+    command_text,
+    is_pause_or_resume,
+)
 
 if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection

@@ -9,7 +9,7 @@ from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
-from gradysim.simulator.handler.mobility.resting import RestingMobilityHandler
+from gradysim.simulator.handler.mobility.massless import IdleSkippingMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 
@@ -67,7 +67,7 @@ def ran(kind, plans, *, telemetry_s=0, duration=10, rate=0.01, delay=0):
 def both(plans, **world):
     """Return the number of events at rest, given that all else is as ever."""
     as_ever = ran(MasslessMobilityHandler, plans, **world)
-    resting = ran(RestingMobilityHandler, plans, **world)
+    resting = ran(IdleSkippingMobilityHandler, plans, **world)
     assert resting[1] == as_ever[1]
     assert resting[0] <= as_ever[0]
     return resting[0]
@@ -76,7 +76,7 @@ def both(plans, **world):
 def test_where_nothing_happens_there_are_no_updates():
     """But one each 2^20, so that whoever runs the simulation has a turn."""
     assert both([{}, {}], duration=100) == 1
-    assert ran(RestingMobilityHandler, [{}], duration=100_000)[0] == 1 + 9
+    assert ran(IdleSkippingMobilityHandler, [{}], duration=100_000)[0] == 1 + 9
 
 
 @pytest.mark.parametrize("time", [5.0, 5.003])

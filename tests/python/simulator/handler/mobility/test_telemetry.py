@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
+from gradysim.simulator.handler.mobility.updates import TelemetryGroup
 from gradysim.simulator.node import Node
 
 

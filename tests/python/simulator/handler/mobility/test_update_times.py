@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.simulator.handler.mobility.update_times import UpdateTimes
+from gradysim.simulator.handler.mobility.updates import UpdateTimes
 
 
 @pytest.mark.parametrize("rate", [0.01, 0.1, 0.03, 1.0, 2.5])

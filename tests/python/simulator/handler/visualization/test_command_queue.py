@@ -1,4 +1,4 @@
-from gradysim.simulator.handler.visualization.command_queue import CommandQueue
+from gradysim.simulator.handler.visualization.messages import CommandQueue
 
 
 def paint(node_id, color):

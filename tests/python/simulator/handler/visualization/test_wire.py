@@ -4,7 +4,7 @@ import math
 import pytest
 from hypothesis import given
 
-from gradysim.simulator.handler.visualization.wire import is_pause_or_resume, snapshot
+from gradysim.simulator.handler.visualization.messages import is_pause_or_resume, snapshot
 from gradysim.simulator.node import Node
 from python.any_value import anything
 

@@ -20,7 +20,7 @@ def label_of(handler: INodeHandler) -> str:
     return handler.get_label()
 
 
-def given_handlers(
+def handlers_by_label(
     handlers: Iterable[INodeHandler], mode: str, world: str, *, asynchronous: bool
 ) -> dict[str, INodeHandler]:
     """Return `handlers` by their labels, in the order given.
@@ -58,10 +58,10 @@ def step_hooks(handlers: Collection[INodeHandler]) -> list[StepHook]:
     return [handler.after_simulation_step for handler in handlers if _has_hook(handler)]
 
 
-def judge_nothing_more(handlers: Iterable[INodeHandler]) -> None:
+def stop_judging(handlers: Iterable[INodeHandler]) -> None:
     """Tell those that judge a run when it is over, as assertions do, that it ended before it was."""
     for handler in handlers:
-        getattr(handler, "judge_nothing_more", _nothing)()
+        getattr(handler, "stop_judging", _nothing)()
 
 
 def finalize_after_failure(live: list[INodeHandler]) -> None:
@@ -69,7 +69,7 @@ def finalize_after_failure(live: list[INodeHandler]) -> None:
 
     What they raise is logged, and does not hide the failure before.
     """
-    judge_nothing_more(live)
+    stop_judging(live)
     while live:
         handler = live.pop(0)
         try:
