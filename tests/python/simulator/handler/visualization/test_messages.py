@@ -4,7 +4,8 @@ import math
 import pytest
 from hypothesis import given
 
-from gradysim.simulator.handler.visualization.messages import is_pause_or_resume, snapshot
+from gradysim.simulator.handler.visualization import VisualizationConfiguration
+from gradysim.simulator.handler.visualization.messages import CommandQueue, is_pause_or_resume, snapshot
 from gradysim.simulator.node import Node
 from python.any_value import anything
 
@@ -92,3 +93,74 @@ def test_pause_and_resume():
 def test_anything_else_is_refused(text):
     with pytest.raises(ValueError, match="pause/resume"):
         is_pause_or_resume(text)
+
+
+def paint(node_id, color):
+    return {"command": "paint_node", "payload": {"node_id": node_id, "color": color}}
+
+
+def taken(queue):
+    return [queue.get() for _ in range(queue.qsize())]
+
+
+def test_first_in_first_out():
+    queue = CommandQueue()
+    for color in range(3):
+        queue.put(paint(0, color))
+    assert taken(queue) == [paint(0, 0), paint(0, 1), paint(0, 2)]
+
+
+def test_when_they_become_many_the_last_of_each_kind_and_node_stay():
+    queue = CommandQueue()
+    for color in range(10_001):
+        queue.put(paint(color % 3, color))
+    assert taken(queue) == [paint(2, 9998), paint(0, 9999), paint(1, 10000)]
+
+
+def test_its_length_is_bounded():
+    queue = CommandQueue()
+    for color in range(100_000):
+        queue.put(paint(color % 7, color))
+    assert queue.qsize() <= 10_000
+
+
+def test_many_nodes_are_all_kept():
+    queue = CommandQueue()
+    for color in range(3):
+        for node_id in range(12_000):
+            queue.put(paint(node_id, color))
+    last = {command["payload"]["node_id"]: command["payload"]["color"] for command in taken(queue)}
+    assert last == dict.fromkeys(range(12_000), 2)
+
+
+def test_the_defaults_are_the_published_ones():
+    assert VisualizationConfiguration() == VisualizationConfiguration(
+        information_collection_interval=0.01,
+        update_rate=0.05,
+        x_range=(-50, 50),
+        y_range=(-50, 50),
+        z_range=(0, 50),
+        host="localhost",
+        port=5678,
+        open_browser=False,
+    )
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"information_collection_interval": 0},
+        {"information_collection_interval": math.inf},
+        {"update_rate": -1},
+        {"update_rate": "fast"},
+        {"x_range": (1, -1)},
+        {"y_range": (0, math.nan)},
+        {"z_range": 5},
+        {"port": -1},
+        {"port": 65536},
+        {"port": "5678"},
+    ],
+)
+def test_wrong_values_are_refused_by_name(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        VisualizationConfiguration(**wrong)
