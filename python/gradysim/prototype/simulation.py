@@ -35,7 +35,7 @@ def build_simulation(
     """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
     `handlers` come beside those of communication, timers and mobility, and after them; `real_time` is that of
-    `SimulationConfiguration`; `recorders` are told what nodes, by their ids, do over time.
+    `SimulationConfiguration`; `recorders` record nodes, by id, over time.
 
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
     handlers cannot be added, what the constructor of a protocol raises, and SitlError when an autopilot does
@@ -54,7 +54,7 @@ def build_simulation(
             execution_logging=False,
         )
     )
-    # Handlers may count events and act between them; the wall clock goes from one to the next.
+    # Idle updates are not skipped if handlers count events, or if the wall clock paces them.
     mobility = mobility_handler(scenario, skips_idle=not given and not real_time)
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
     for handler in given.values():
@@ -80,7 +80,7 @@ def build_simulation(
 def check_scenario(scenario: Scenario) -> None:
     """Raise ConfigError, with the place in the .ini file, when a value is outside the simulator's range.
 
-    Building the simulation does the same check; this is for who wants to know before other runs are run.
+    Building the simulation does the same check. Call this to check before other runs are started.
     """
     check_protocols(scenario)
     communication_medium(scenario)
@@ -96,7 +96,7 @@ def check_protocols(scenario: Scenario) -> None:
 
 
 def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> MasslessMobilityHandler:
-    """Return what moves the nodes, and if it `skips_idle` has no events while there is nothing to do for it.
+    """Return the mobility handler; with `skips_idle`, it has no events while nothing moves.
 
     Raises ConfigError when a value is outside its range.
     """
@@ -133,7 +133,7 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
     stationary = _stands_still(spec)
-    numbers = {"telemetry_interval": UPDATE_S}  # of whom nothing is said, however often others are told
+    numbers = {"telemetry_interval": UPDATE_S}  # the default, whatever interval other nodes have
     mobility.configure_node(spec.id, stationary=stationary, **numbers)
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
         if (setting := spec.mobility.get(field)) is not None:
@@ -171,7 +171,7 @@ def record_node(node: Node[Any], recorder: NodeRecorder) -> None:
         recorder.position_told(now_ps(), *telemetry.current_position)
         handle_telemetry(telemetry)
 
-    # An attribute of the instance hides the method of the class: other nodes are called as ever.
+    # An attribute of the instance hides the method of the class; other nodes keep the method.
     setattr(encapsulator, "handle_telemetry", record_and_handle)  # noqa: B010
     watch_tracked_variables(
         encapsulator.provider, lambda name, value: recorder.variable_set(now_ps(), name, value)

@@ -12,7 +12,7 @@ _logger = logging.getLogger(__name__)
 
 
 class EventProfile:
-    """Runs events and keeps the books."""
+    """Runs events and adds up their wall times."""
 
     def __init__(self) -> None:
         self._totals: dict[str, list[float]] = {}
@@ -29,7 +29,7 @@ class EventProfile:
             total[1] += time.perf_counter() - start
 
     def report(self) -> None:
-        """Log the table as a warning, so that it is seen however quiet the log is; most expensive first."""
+        """Log the table, most expensive first. It is a warning, so that a quiet log shows it, too."""
         rows = [
             [context, f"{count:.0f}", f"{total_s:.6f}", f"{total_s / count:.3e}"]
             for context, (count, total_s) in sorted(self._totals.items(), key=lambda item: -item[1][1])
@@ -44,10 +44,10 @@ ahead of it the simulation was before waiting, and how late it began."""
 
 
 class TimingReport:
-    """Writes a line for each event as it comes, so that its length does not matter."""
+    """Writes one line for each event, as it happens."""
 
     def __init__(self, path: Path, factor: float) -> None:
-        """Begin a new file at `path`, of a simulation that should be `factor` times as fast as real time."""
+        """Create the file at `path`, for a simulation at `factor` times real time."""
         self._path = path.absolute()
         self._factor = factor
         self._file = path.open("w", newline="", encoding="utf-8")
@@ -65,7 +65,7 @@ class TimingReport:
         self._drift.note(late_s)
 
     def log_summary(self) -> None:
-        """Log last, mean and greatest values."""
+        """Log the last, mean and largest values."""
         simulation_s, real_s = self._last
         table = format_table(
             ["Metric", "Last (s)", "Mean (s)", "Max (s)"],
@@ -73,7 +73,7 @@ class TimingReport:
         )
         reached = f"{simulation_s / real_s:.4f}" if real_s > 0 else "unknown"
         _logger.info(
-            "Timing report\n%s\nreal_time: %g asked for, %s reached; all events: %s",
+            "Timing report\n%s\nreal_time: %g requested, %s reached; all events: %s",
             table,
             self._factor,
             reached,

@@ -18,7 +18,7 @@ from gradysim.simulator.validation import checked_configuration, checked_protoco
 
 
 class PositionScheme:
-    """Functions that give the initial position of a node."""
+    """Functions that return the initial position of a node."""
 
     @staticmethod
     def random(
@@ -47,8 +47,8 @@ _ForceFastExecution = FullSpeed  # the published name
 class SimulationBuilder:
     """Collects handlers and nodes.
 
-    `build` may be called again for another simulation of the same, once the one before is over: both have the
-    handlers that were added, which know one simulation at a time.
+    `build` may be called again after the end of the simulation before. Both use the same handlers, which
+    serve one simulation at a time.
     """
 
     def __init__(self, configuration: SimulationConfiguration | None = None) -> None:
@@ -59,12 +59,12 @@ class SimulationBuilder:
         self._prepare_node: Callable[[Node[Any]], None] | None = None
 
     def prepare_nodes(self, prepare_node: Callable[[Node[Any]], None]) -> "SimulationBuilder":
-        """Have each node given to `Simulator.prepare_node` as it is made; returns the builder."""
+        """Call `Simulator.prepare_node` with each new node. Return the builder."""
         self._prepare_node = prepare_node
         return self
 
     def add_handler(self, handler: INodeHandler) -> "SimulationBuilder":
-        """Add a handler, instead of the one with the same label if there is one; returns the builder."""
+        """Add a handler. It replaces one with the same label. Return the builder."""
         self._handlers[label_of(handler)] = handler
         return self
 
@@ -83,7 +83,7 @@ class SimulationBuilder:
         return len(self._nodes) - 1
 
     def build(self) -> Simulator:
-        """Make the simulation: inject the event loop into the handlers, then make the nodes in order."""
+        """Make the simulation: inject the event loop into the handlers, then create the nodes in order."""
         simulator = Simulator(self._handlers, self._configuration)
         simulator.prepare_node = self._prepare_node
         for identifier, (protocol, position) in enumerate(self._nodes):

@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 def checked_configuration(given: T | None, kind: type[T]) -> T:
-    """Return what was given, or `kind()` for None. TypeError if it is no `kind`."""
+    """Return `given`, or `kind()` for None. TypeError if it is not a `kind`."""
     if given is None:
         return kind()
     if not isinstance(given, kind):
@@ -20,14 +20,14 @@ def checked_configuration(given: T | None, kind: type[T]) -> T:
 
 
 def checked_protocol_class(protocol: type[IProtocol]) -> type[IProtocol]:
-    """Return it; TypeError if it is no class, or one that has no `instantiate`."""
+    """Return `protocol`. TypeError if it is not a class, or a class without `instantiate`."""
     if not isinstance(protocol, type) or not hasattr(protocol, "instantiate"):
         raise TypeError(f"expected a protocol's class, a subclass of IProtocol, got {protocol!r}")
     return protocol
 
 
 def check_reference(place: Iterable[object]) -> None:
-    """Check (latitude deg, longitude deg, altitude m); ValueError if it is none."""
+    """Check (latitude deg, longitude deg, altitude m). ValueError if it is not a place on Earth."""
     try:
         latitude, longitude, altitude = place
     except (TypeError, ValueError):

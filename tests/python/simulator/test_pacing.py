@@ -54,7 +54,7 @@ def test_the_timing_report(wall_clock, tmp_path, monkeypatch, capsys):
         [1, 6, 5, -2, 2],
         [2, 20, 10, 5, 0],
     ]
-    assert "2 asked for, 2.0000 reached" in capsys.readouterr().err
+    assert "2 requested, 2.0000 reached" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("configuration", [{"real_time": True}, {"timing_report": True}])
@@ -85,12 +85,12 @@ def turns():
 def test_a_turn_runs_what_is_ready(turns):
     calls = []
     turns.asyncio_loop.call_soon(calls.append, "called")
-    turns.take(0)
+    turns.run_for(0)
     assert calls == ["called"]
 
 
 def test_between_turns_the_loop_stands(turns):
-    turns.take(0)
+    turns.run_for(0)
     assert not turns.asyncio_loop.is_running()
 
 
@@ -98,7 +98,7 @@ def test_between_turns_the_loop_stands(turns):
 def test_a_longer_turn_runs_what_becomes_ready(turns, duration_s):
     calls = []
     turns.asyncio_loop.call_later(0.001, lambda: (calls.append("called"), turns.wake()))
-    turns.take(duration_s)
+    turns.run_for(duration_s)
     assert calls == ["called"]
 
 
@@ -106,14 +106,14 @@ def test_waking_without_a_turn_does_nothing(turns):
     turns.wake()
     calls = []
     turns.asyncio_loop.call_soon(calls.append, "called")
-    turns.take(0)
+    turns.run_for(0)
     assert calls == ["called"]
 
 
 def test_what_a_callback_raises_is_raised(turns):
     turns.asyncio_loop.call_soon(lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        turns.take(60)
+        turns.run_for(60)
 
 
 async def failing():
@@ -123,19 +123,19 @@ async def failing():
 def test_what_a_task_raises_and_nobody_takes_is_raised(turns):
     turns.asyncio_loop.create_task(failing())
     with pytest.raises(RuntimeError, match="of a task"):
-        turns.take(60)
+        turns.run_for(60)
 
 
 def test_a_failure_is_raised_once(turns):
     turns.asyncio_loop.call_soon(lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        turns.take(0)
-    turns.take(0)
+        turns.run_for(0)
+    turns.run_for(0)
 
 
 def test_an_asyncio_report_without_an_exception_is_logged(turns, caplog):
     turns.asyncio_loop.call_exception_handler({"message": "something to know"})
-    turns.take(0)
+    turns.run_for(0)
     assert "something to know" in caplog.text
 
 
@@ -150,7 +150,7 @@ def test_closing_cancels_tasks():
             ends.append("ended")
 
     turns.asyncio_loop.create_task(waiting())
-    turns.take(0)
+    turns.run_for(0)
     turns.close()
     assert (ends, turns.asyncio_loop.is_closed()) == (["ended"], True)
 
@@ -174,7 +174,7 @@ def test_inside_another_loop_it_is_closed_without_a_turn():
 def test_an_event_that_a_task_schedules_ends_the_turn(turns):
     event_loop = WakingEventLoop(turns)
     turns.asyncio_loop.call_soon(lambda: event_loop.schedule_event(1.0, lambda: None))
-    turns.take(60)
+    turns.run_for(60)
     assert event_loop.next_time() == 1.0
 
 
@@ -202,7 +202,7 @@ def test_a_failure_meanwhile_is_raised_by_the_next_turn(turns):
     turns.asyncio_loop.call_soon(lambda: 1 / 0)
     turns.asyncio_loop.run_until_complete(asyncio.sleep(0))
     with pytest.raises(ZeroDivisionError):
-        turns.take(0)
+        turns.run_for(0)
 
 
 def test_a_failure_after_the_last_turn_is_logged(caplog):

@@ -191,7 +191,7 @@ class AssertionHandler(INodeHandler):
         return "assertion"
 
     def inject(self, event_loop: EventLoop) -> None:
-        """Begin anew, for a new simulation."""
+        """Reset for a new simulation."""
         self._nodes = []
         self._cases = [case() for case in self._assertions]
 
@@ -228,7 +228,7 @@ class AssertionHandler(INodeHandler):
             raise
 
     def stop_judging(self) -> None:
-        """Drop the cases: the simulation ends early, and nobody knows what was to come."""
+        """Drop the cases, since the simulation ends early."""
         self._cases = []
 
     def finalize(self) -> None:

@@ -1,4 +1,4 @@
-"""The handlers that somebody gives to a run of a scenario: checked, told of its steps, and of its end."""
+"""Handler registry: checks the handlers that are given to a run, and calls their hooks."""
 
 import logging
 from collections.abc import Callable, Collection, Iterable
@@ -10,11 +10,11 @@ _logger = logging.getLogger(__name__)
 StepHook = Callable[[int, float], None]
 
 WORLD = ("communication", "timer", "mobility")
-"""Labels of the handlers that make up the world. The run of a scenario has its own, and takes no others."""
+"""Labels of handlers that every run of a scenario makes itself."""
 
 
 def label_of(handler: INodeHandler) -> str:
-    """Return a handler's label. TypeError if it is something else than a handler."""
+    """Return a handler's label. TypeError if it is not a handler."""
     if isinstance(handler, type) or not callable(getattr(handler, "get_label", None)):
         raise TypeError(f"expected a handler, an instance of a class like INodeHandler, got {handler!r}")
     return handler.get_label()
@@ -23,17 +23,17 @@ def label_of(handler: INodeHandler) -> str:
 def handlers_by_label(
     handlers: Iterable[INodeHandler], mode: str, world: str, *, asynchronous: bool
 ) -> dict[str, INodeHandler]:
-    """Return `handlers` by their labels, in the order given.
+    """Return `handlers` by label, in the given order.
 
     Args:
         handlers: Instances, of different labels.
-        mode: Name of the mode in which they are to work, for people.
-        world: What takes the place of a handler with one of the labels `WORLD` there, for people.
-        asynchronous: Whether an `IAsyncNodeHandler` works there.
+        mode: Name of the mode, for error messages.
+        world: Error text for a label in `WORLD`.
+        asynchronous: Whether the mode supports `IAsyncNodeHandler`.
 
     Raises:
-        TypeError: They are no list, or something else than a handler is among them.
-        ValueError: One of them cannot work there, or two have the same label.
+        TypeError: `handlers` is not iterable, or an item is not a handler.
+        ValueError: A handler does not work in this mode, or two have the same label.
     """
     if not isinstance(handlers, Iterable):
         raise TypeError(f"expected a list of handlers, got {handlers!r}")
@@ -43,10 +43,10 @@ def handlers_by_label(
         if label in WORLD:
             raise ValueError(f"{name} cannot be given to a run in {mode}: {world.format(label=label)}")
         if isinstance(handler, IAsyncNodeHandler) and not asynchronous:
-            raise ValueError(f"{name} waits for the world outside with asyncio, which {mode} does not do")
+            raise ValueError(f"{name} uses asyncio, which {mode} does not support")
         if label in by_label:
             raise ValueError(
-                f"two handlers are labelled {label!r}: {type(by_label[label]).__name__} and {name}; "
+                f"two handlers are labeled {label!r}: {type(by_label[label]).__name__} and {name}; "
                 "a run has one of each label"
             )
         by_label[label] = handler
@@ -54,20 +54,20 @@ def handlers_by_label(
 
 
 def step_hooks(handlers: Collection[INodeHandler]) -> list[StepHook]:
-    """Return the `after_simulation_step` of those that do something then; most do not, and are not called."""
+    """Return the `after_simulation_step` methods that are overridden."""
     return [handler.after_simulation_step for handler in handlers if _has_hook(handler)]
 
 
 def stop_judging(handlers: Iterable[INodeHandler]) -> None:
-    """Tell those that judge a run when it is over, as assertions do, that it ended before it was."""
+    """Notify handlers such as assertions that the run ends early, so that they report nothing."""
     for handler in handlers:
         getattr(handler, "stop_judging", _nothing)()
 
 
 def finalize_after_failure(live: list[INodeHandler]) -> None:
-    """Finalize the handlers of a run that failed, and take them from the list.
+    """Finalize the handlers of a failed run, and remove them from the list.
 
-    What they raise is logged, and does not hide the failure before.
+    Their exceptions are logged, so that they do not hide the failure.
     """
     stop_judging(live)
     while live:

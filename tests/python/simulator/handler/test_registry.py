@@ -51,7 +51,7 @@ def test_the_world_is_not_to_be_given(label):
 
 
 def test_two_of_one_label():
-    with pytest.raises(ValueError, match=r"two handlers are labelled 'a': Watching and Stepping"):
+    with pytest.raises(ValueError, match=r"two handlers are labeled 'a': Watching and Stepping"):
         given(Watching("a"), Stepping("a"))
 
 

@@ -12,10 +12,10 @@ from gradysim.simulator.node import Node
 
 
 class UpdateTimes:
-    """The times of periodic updates, counted from a start, so that rounding does not add up."""
+    """Times of periodic updates, counted from a start, so that rounding errors do not add up."""
 
     def __init__(self, update_rate_s: float, start_s: float = 0.0) -> None:
-        """Let the first update come one `update_rate_s`, > 0, after `start_s`; simulated seconds."""
+        """Let the first update come one `update_rate_s`, > 0, after `start_s` (simulated seconds)."""
         self._update_rate_s = update_rate_s
         self._frequency = _whole_frequency(update_rate_s)
         self._start_s = start_s
@@ -32,9 +32,10 @@ class UpdateTimes:
 
 
 def _whole_frequency(update_rate_s: float) -> float | None:
-    """Updates per second, if that is a whole number.
+    """Return the updates per second if they are an integer.
 
-    35 / 100 is the number written 0.35 and 35 * 0.01 is not: by division updates meet timers of that time.
+    35 / 100 equals the literal 0.35, and 35 * 0.01 does not. With a division, updates meet timers of that
+    time.
     """
     if update_rate_s < 1e-9:
         return None
@@ -58,16 +59,14 @@ class TelemetryGroup:
         self.deliveries: list[ScheduledEvent] = []
 
     def add(self, node: Node[Any]) -> None:
-        """Let one more node have telemetry."""
+        """Add a node."""
         self.deliveries.append((_delivery(node), f"{label_node(node)} handle_telemetry"))
 
     def is_due(self, update: int) -> bool:
-        """Whether telemetry comes with this update, the first one being 1; to be asked of each in turn.
+        """Return whether telemetry comes with this update; the first one is 1. Call it for each in order.
 
-        Those before the one that is `due` may be left out.
-
-        An interval that is no whole number of updates is kept on average: telemetry comes with the first
-        update at or after its time.
+        Updates before `due` may be skipped. If the interval is not an integer number of updates, telemetry
+        comes with the first update at or after its time.
         """
         if update < self.due:
             return False

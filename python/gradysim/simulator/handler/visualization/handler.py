@@ -86,7 +86,7 @@ class VisualizationHandler(INodeHandler):
                 error,
             )
             return
-        # Who drops a simulation half-way leaves no thread behind.
+        # A simulation that is dropped before its end leaves no thread behind.
         self._guard = weakref.finalize(self, server.stop)
         self._server = server
         self._publish(server)

@@ -20,17 +20,17 @@ from gradysim.simulator.node import Node
 
 @dataclass
 class VisualizationConfiguration:
-    """Settings of a `VisualizationHandler`. ValueError names a wrong one.
+    """Configuration of a `VisualizationHandler`. ValueError names an invalid value.
 
     Attributes:
-        information_collection_interval: Simulated time between two looks at the nodes, at most one of which
-            is sent in each `update_rate`; also how soon a pause takes effect; s, > 0.
+        information_collection_interval: Simulated time between two collections of the nodes' state, of which
+            at most one is sent per `update_rate`. It is also the delay of a pause; s, > 0.
         update_rate: Wall time between two updates sent to the viewers; s, > 0.
-        x_range: (least, greatest) x of the ground that is drawn; m.
+        x_range: (lowest, highest) x of the drawn ground; m.
         y_range: The same for y.
         z_range: The same for z.
         host: Address to listen on.
-        port: Port to listen on; 0 for any that is free. The public viewer looks for 5678 on localhost.
+        port: Port to listen on; 0 for any free port. The public viewer looks for 5678 on localhost.
         open_browser: Open the public viewer in a web browser when the simulation starts.
     """
 
@@ -57,15 +57,14 @@ class VisualizationConfiguration:
 Command = dict[str, Any]
 """{"command": name, "payload": {...}}, of plain values; colours are tuples."""
 
-# So many may wait before those that later ones make void are dropped.
+# Longer queues drop commands that later ones replace.
 _LENGTH_LIMIT = 10_000
 
 
 class CommandQueue(Queue[Command]):
-    """First in, first out; filled by the simulation and emptied by the server's thread.
+    """Commands to the viewers, first in, first out. The server's thread takes them out.
 
-    As long as no viewer is there the commands wait, and a simulation may go on for hours: when they become
-    many, only the last one of each kind and node stays.
+    Without a viewer they wait, perhaps for hours. A long queue keeps only the last one of each kind and node.
     """
 
     def __init__(self) -> None:
@@ -116,7 +115,7 @@ def command_text(command: dict[str, Any]) -> str:
 
 
 def is_pause_or_resume(message: str | bytes) -> bool:
-    """Whether a viewer's message asks to pause or to go on.
+    """Return whether a viewer's message asks to pause or resume.
 
     Raises:
         ValueError: It asks for something unknown.
@@ -127,7 +126,7 @@ def is_pause_or_resume(message: str | bytes) -> bool:
         content = None
     if isinstance(content, dict) and content.get("interaction") == "pause/resume":
         return True
-    raise ValueError(f'expected {{"interaction": "pause/resume"}} of a viewer, got {message[:200]!r}')
+    raise ValueError(f'expected {{"interaction": "pause/resume"}} from a viewer, got {message[:200]!r}')
 
 
 def _tracked_variables(node: Node[Any]) -> dict[str, Any]:
@@ -139,5 +138,5 @@ def _tracked_variables(node: Node[Any]) -> dict[str, Any]:
 def _text(message: dict[str, Any]) -> str:
     try:
         return json.dumps(message, allow_nan=False)
-    except (TypeError, ValueError, RecursionError):  # seldom: most tracked variables are plain
+    except (TypeError, ValueError, RecursionError):  # rare: most tracked variables are plain
         return json.dumps(plain_value(message, nan="nan"), allow_nan=False)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger(__name__)
 
-# The library tells of every handshake; viewers look for the server with requests that are none.
+# The library logs every handshake. Viewers look for the server with plain HTTP requests.
 _library_logger = logging.getLogger(f"{__name__}.websockets")
 _library_logger.setLevel(logging.CRITICAL + 1)
 

@@ -24,7 +24,7 @@ class DynamicVelocityMobilityConfiguration:
             follows as fast as the acceleration allows.
         tau_z: The same along the vertical.
         send_telemetry: Whether nodes get telemetry.
-        telemetry_decimation: Telemetry comes with every so many updates; >= 1.
+        telemetry_decimation: Number of updates per telemetry; >= 1.
     """
 
     update_rate: float

@@ -1,4 +1,4 @@
-"""Vehicles that are told a velocity and reach it as fast as they can."""
+"""Vehicles that are steered by velocity, with limited speed and acceleration."""
 
 from collections.abc import Callable
 from typing import Any
