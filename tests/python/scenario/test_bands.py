@@ -2,13 +2,13 @@
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.keys.bands import (
+from gradysim.scenario.bands import (
     CHANNEL_OF_802154,
     CHANNELS,
     channel_by_default,
     first_channel_of_band,
 )
+from gradysim.scenario.errors.config_error import BadValue
 from gradysim.scenario.value.expression import parse_value
 
 

@@ -1,5 +1,4 @@
-from gradysim.scenario.keys.omnetpp_options import IGNORED_OPTIONS
-from gradysim.scenario.keys.options import OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.options import IGNORED_OPTIONS, OPTIONS, SECTION_OPTIONS
 
 
 def test_options_have_no_dot() -> None:
