@@ -10,7 +10,7 @@ import pytest
 import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.protocol.position import geo_to_cartesian
-from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.result import NodeResult, RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors.config_error import ConfigError
 

@@ -138,9 +138,9 @@ def test_vehicles_move_as_often_as_any_is_told_its_place(make_scenario):
     assert result["track"][:3] == pytest.approx([0.05, 0.1, 0.15])
 
 
-def test_a_telemetry_interval_that_the_engine_would_not_take_either_is_an_error_at_its_setting(make_scenario):
+def test_a_telemetry_interval_below_the_limit_is_an_error_at_its_setting(make_scenario):
     setting = "*.uavs[*].mobility.telemetryInterval"
-    with pytest.raises(ConfigError, match=r"telemetry_interval .* at least .* 1e-06 s") as error:
+    with pytest.raises(ConfigError) as error:
         build_simulation(make_scenario("class Tested(Quiet): pass", f"{setting} = 1ns"))
     assert error.value.key == setting
 
