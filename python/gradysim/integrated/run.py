@@ -13,6 +13,7 @@ from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.garbage_collection import garbage_left_alone
 from gradysim.encapsulator.global_random import global_random_of
 from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.integrated.autopilot_nodes import AutopilotNodes
 from gradysim.integrated.capture import (
     capture_errors,
     captures_completed_after_failure,
@@ -21,7 +22,6 @@ from gradysim.integrated.capture import (
 )
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.fates_at import checked_fates_at, with_fates
-from gradysim.integrated.flown_nodes import FlownNodes
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
@@ -99,12 +99,12 @@ class IntegratedRun:
         # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
-        self._flown = FlownNodes(scenario, self._network, self._nodes)
+        self._autopilots = AutopilotNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
         siblings = siblings_importable(spec.protocol for spec in scenario.nodes)
         with garbage_left_alone(), siblings, global_random_of(scenario.seed):
             self._make_protocols()
-        self._flown.take_off()
+        self._autopilots.take_off()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
@@ -123,7 +123,7 @@ class IntegratedRun:
                 reference_coordinates=scenario.reference_coordinates,
                 nodes=self._nodes,
                 handlers=self._handlers.by_label,
-                steer=self._flown.steering_of(node.id),
+                steer=self._autopilots.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
             if node.id in self._recorders:
@@ -163,7 +163,7 @@ class IntegratedRun:
                 self._handlers.initialize()
                 network.initialize()
                 self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
-                self._flown.initialize()
+                self._autopilots.initialize()
                 account.complete = run_in_slices(self._advance(), lambda: network.now, progress, should_stop)
             except KeyboardInterrupt as pressed:
                 interrupt = pressed
@@ -176,7 +176,7 @@ class IntegratedRun:
             raise self._native_failure(failure) from None
         finally:
             self._handlers.finalize_after_failure()
-            self._flown.close()
+            self._autopilots.close()
             network.release_protocols()
 
     def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:

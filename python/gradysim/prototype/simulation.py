@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.prototype.recorded_nodes import record_node
 from gradysim.results.node_recorder import NodeRecorder
@@ -19,11 +18,12 @@ from gradysim.simulator.handler.copy_ledger import CopyLedger
 from gradysim.simulator.handler.given import given_handlers
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
-from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
 from gradysim.simulator.handler.mobility.resting import RestingMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
+from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
+from gradysim.sitl.scenario_autopilots import flights_of
 
 
 def build_simulation(
@@ -70,7 +70,7 @@ def build_simulation(
             record_node(node, recorded[node.id])
 
     simulator = builder.prepare_nodes(prepare).build()
-    if isinstance(mobility, FlownMobilityHandler):
+    if isinstance(mobility, AutopilotMobilityHandler):
         mobility.take_off()
     return simulator, ledger
 
@@ -104,7 +104,7 @@ def mobility_handler(scenario: Scenario, *, may_rest: bool = False) -> MasslessM
         configuration.update_rate = update_rate_s(scenario.nodes)
         mobility = (RestingMobilityHandler if may_rest else MasslessMobilityHandler)(configuration)
     else:  # autopilots fly on every 10 ms, in both modes
-        mobility = FlownMobilityHandler(configuration, flights)
+        mobility = AutopilotMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility

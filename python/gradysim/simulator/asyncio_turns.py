@@ -4,8 +4,8 @@ import asyncio
 import logging
 from typing import Any
 
+from gradysim.encapsulator.nested_loop import outer_loop_stands
 from gradysim.simulator.event import EventLoop, ScheduledEvent
-from gradysim.sitl.nested_loop import outer_loop_stands
 
 _logger = logging.getLogger(__name__)
 

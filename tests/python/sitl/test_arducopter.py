@@ -1,9 +1,12 @@
+"""The ArduCopter program: its options, parameters and ports."""
+
+import socket
 from pathlib import Path
 
 import pytest
 
+from gradysim.sitl import SitlError, arducopter
 from gradysim.sitl.arducopter import find_arducopter, options, parameter_file
-from gradysim.sitl.error import SitlError
 
 NEW, OLD = "--serial0 --uartA --sysid", "--uartA"
 
@@ -98,3 +101,19 @@ def test_more_parameters_win():
     assert "BATT_MONITOR 0" in lines
     assert "WPNAV_ACCEL 250" in lines
     assert len(lines) == len({line.split()[0] for line in lines})
+
+
+def test_an_instance_whose_ports_are_open_is_not_free(monkeypatch):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as busy:
+        busy.bind(("0.0.0.0", 0))
+        monkeypatch.setattr(arducopter, "_FIRST_PORTS", ((socket.SOCK_DGRAM, busy.getsockname()[1]),))
+        monkeypatch.setattr(arducopter, "_INSTANCES", 1)
+        with pytest.raises(SitlError, match="no free ports"):
+            arducopter.free_instance(set())
+    assert arducopter.free_instance(set()) == 0
+
+
+def test_an_instance_is_given_once(monkeypatch):
+    monkeypatch.setattr(arducopter, "_INSTANCES", 2)
+    monkeypatch.setattr(arducopter, "_is_free", lambda number: True)
+    assert arducopter.free_instance({0}) == 1

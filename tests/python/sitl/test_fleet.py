@@ -6,9 +6,9 @@ import os
 
 import pytest
 
-from gradysim.sitl.error import SitlError
-from gradysim.sitl.link import MavlinkLink
-from python.simulator.handler.ardupilot_mobility.flying import programs_left_in
+from gradysim.sitl import SitlError
+from gradysim.sitl.mavlink import MavlinkLink
+from python.sitl.ardupilot_mobility.flying import programs_left_in
 from python.sitl.fleet_flight import HOME, fly, launched, new_fleet, ready, running
 
 pytestmark = pytest.mark.usefixtures("own_folder")
