@@ -1,7 +1,7 @@
 """Autopilots in lock-step: they wait for our physics at each step, so their clock is ours.
 
 This uses ArduPilot's interface for external physics (`--model JSON`, ArduCopter 4.1 and newer). The autopilot
-sends its servo outputs by UDP and blocks. It continues when it gets sensor values and a time as a line of JSON.
+sends its servo outputs by UDP and blocks. It continues with a line of JSON: sensor values and time.
 """
 
 import asyncio
@@ -161,7 +161,7 @@ class LockStepAutopilot:
         return True
 
     def check(self, deadline_s: float, trouble: str) -> None:
-        """Raise SitlError if the autopilot has ended, or the time is after `deadline_s` (`time.monotonic`)."""
+        """Raise SitlError if the autopilot has ended, or `time.monotonic` is after `deadline_s`."""
         assert self._process is not None
         if not self._process.is_running:
             hint = "" if self._frame is not None else "; is it ArduCopter 4.1 or newer?"

@@ -2,8 +2,8 @@
 
 ArduCopter neither takes off nor lands for a target. On the ground it ignores a target in the air. With a
 target on the ground it believes that it still flies after landing, and loses its position after some minutes.
-So a flight to a target on the ground ends with a downward velocity, which makes it detect the landing. A flight
-from the ground starts with an upward velocity:
+So a flight to a target on the ground ends with a downward velocity, which makes it detect the landing. A
+flight from the ground starts with an upward velocity:
 
     RISING --in the air, and clear of the ground--> FLYING --low over a target on the ground--> STANDING
        ^------------ landed somewhere else -------------+

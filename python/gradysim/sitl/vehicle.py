@@ -1,4 +1,4 @@
-"""A vehicle that is commanded over MAVLink. A step ends when the vehicle confirms it, or fails with its reply.
+"""A vehicle commanded over MAVLink. A step ends when the vehicle confirms it, or fails with its reply.
 
 It is written for ArduCopter. Positions are latitude, longitude and height above the place where the vehicle
 was armed. Times are those of the asyncio loop: wall time or simulated time.

@@ -30,7 +30,7 @@ def test_an_address_has_three_parts():
     "text", ["", "tcp", "tcp:5760", "tcp::5760", "tcp:host:0", "tcp:host:99999", "serial:a:1"]
 )
 def test_other_texts_are_refused(text):
-    with pytest.raises(ValueError, match=r"expected the address of a vehicle, tcp:HOST:PORT, .* got"):
+    with pytest.raises(ValueError, match="tcp:HOST:PORT"):
         parse_address(text)
 
 
@@ -88,15 +88,13 @@ def test_a_tcp_connection_that_ends_loses_the_link():
             server.accept()[0].close()
             await link.wait_for(any_message, 5)
 
-        with pytest.raises(SitlError, match=r"^node 0: the connection was closed by the other side$"):
+        with pytest.raises(SitlError, match=r"^node 0: "):
             asyncio.run(exchange(f"tcp:127.0.0.1:{server.getsockname()[1]}", vehicle))
 
 
 def test_where_nobody_listens_it_gives_up_in_time():
     port = free_port(socket.SOCK_STREAM)
-    with pytest.raises(
-        SitlError, match=rf"^node 0: cannot connect to tcp:127.0.0.1:{port}: no answer in 0.01 s"
-    ):
+    with pytest.raises(SitlError, match=rf"^node 0: .*tcp:127.0.0.1:{port}.* 0.01 s"):
         asyncio.run(connect(MavlinkLink("node 0"), f"tcp:127.0.0.1:{port}", 0.01))
 
 
@@ -230,5 +228,5 @@ def test_a_ground_station_may_come_later(link):
 
 
 def test_a_host_that_does_not_exist_is_named(link):
-    with pytest.raises(SitlError, match=r"^vehicle 0: no way to the ground station no host:14550: "):
+    with pytest.raises(SitlError, match=r"^vehicle 0: .*no host:14550"):
         asyncio.run(open_ground_station(link, "no host"))

@@ -116,12 +116,13 @@ def test_what_goes_wrong_is_told(toy_copter, flights_of, wrong, said):
 
 def test_one_that_starts_and_does_nothing_is_given_up(toy_copter, flights_of):
     said = failure_of(flights_of, toy_copter({0: {"gives_up": True}}), timeout_s=1.0)
-    assert said == "vehicle 0: start: it did not ask for physics in 1 s; it printed last: invalid param"
+    assert said.startswith("vehicle 0: start: ")
+    assert said.endswith("invalid param")
 
 
 def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
     flights = Flights(nodes(toy_copter(), (0.0, 0.0, -5.0)), REFERENCE)
-    with pytest.raises(SitlError, match="vehicle 0: its initial position is below the ground: z = -5 m"):
+    with pytest.raises(SitlError, match=r"vehicle 0: .*z = -5 m"):
         flights.begin()
     flights.close()
 

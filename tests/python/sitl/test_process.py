@@ -63,7 +63,7 @@ def test_it_runs_in_its_folder(start, tmp_path):
 
 
 def test_what_cannot_be_started_is_told(tmp_path):
-    with pytest.raises(SitlError, match=r"^node 1: the autopilot cannot be started: .*nothing"):
+    with pytest.raises(SitlError, match=r"^node 1: .*nothing"):
         AutopilotProcess("node 1", [str(tmp_path / "nothing")], tmp_path, tmp_path / "log")
 
 
@@ -135,14 +135,14 @@ def test_it_ends_with_its_parent(wanted):
 
 def test_an_unknown_user_is_refused(monkeypatch):
     monkeypatch.setattr(os, "geteuid", lambda: 0)
-    with pytest.raises(SitlError, match="there is no user 'nobody at all'"):
+    with pytest.raises(SitlError, match="'nobody at all'"):
         user_for("nobody at all")
 
 
 def test_a_missing_tool_is_named(monkeypatch):
     monkeypatch.setattr(os, "geteuid", lambda: 0)
     monkeypatch.setenv("PATH", "")
-    with pytest.raises(SitlError, match="root needs the command setpriv"):
+    with pytest.raises(SitlError, match="setpriv"):
         user_for("nobody")
 
 

@@ -60,7 +60,8 @@ def test_an_autopilot_that_leaves_the_mode_ends_the_simulation(toy_copter):
 def test_an_autopilot_that_falls_silent_is_given_up(toy_copter, monkeypatch):
     monkeypatch.setattr("gradysim.sitl.ardupilot_mobility.real_time._SILENCE_S", 0.5)
     said = failure_of(toy_copter({0: {"hangs_at": 2}}), Flyer, duration=3600)
-    assert said == "node 0 (Flyer 0): no position for 0.5 s of wall time"
+    assert said.startswith("node 0 (Flyer 0): ")
+    assert "0.5 s" in said
 
 
 def test_an_exception_of_a_protocol_passes_through(toy_copter):

