@@ -15,14 +15,15 @@ from typing import NamedTuple
 from gradysim.scenario.errors.config_error import BadValue, ConfigError
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.keys.omnetpp_options import (
+from gradysim.scenario.matching.pattern_index import PatternIndex
+from gradysim.scenario.options import (
     IGNORED_BEGINNINGS,
     IGNORED_ENDS,
     IGNORED_MODULES,
     IGNORED_OPTIONS,
+    NETWORK,
+    OPTIONS,
 )
-from gradysim.scenario.keys.options import NETWORK, OPTIONS
-from gradysim.scenario.matching.pattern_index import PatternIndex
 from gradysim.scenario.value.parameter_context import differs_between_parameters
 from gradysim.scenario.value.pattern import Pattern, compile_pattern
 

@@ -12,7 +12,7 @@ from gradysim.protocol.defaults import (
 )
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys.mobility import ARDUPILOT
+from gradysim.scenario.keys import ARDUPILOT
 from gradysim.scenario.value.setting import Setting
 
 
