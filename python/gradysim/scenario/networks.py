@@ -10,7 +10,7 @@ from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.matching.key_check import NoSuchNodeError
 from gradysim.scenario.matching.lookup import is_ignored, is_option
 from gradysim.scenario.network import Network, read_network
-from gradysim.scenario.protocol.loader import ProtocolLoader
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.runs.file_hashes import FileHashes
 from gradysim.scenario.runs.iterations import IterationVariable
 from gradysim.scenario.runs.unread_variables import UnreadVariables, line_instead, unread_variables

@@ -29,7 +29,7 @@ from gradysim.scenario.matching.key_suggestion import unknown_name_text, unknown
 from gradysim.scenario.matching.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.matching.text_index import TextIndex
 from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.pattern import Pattern
 
