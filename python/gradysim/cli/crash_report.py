@@ -14,7 +14,7 @@ from gradysim.protocol.errors import (
     NativeProtocolError,
     TimerException,
 )
-from gradysim.sitl.error import SitlError
+from gradysim.sitl import SitlError
 
 PACKAGE = Path(__file__).resolve().parent.parent
 

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.protocol.messages.telemetry import Telemetry
@@ -18,12 +17,13 @@ from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
-from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
 from gradysim.simulator.handler.mobility.massless import IdleSkippingMobilityHandler
 from gradysim.simulator.handler.registry import handlers_by_label
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
+from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
+from gradysim.sitl.scenario_autopilots import flights_of
 
 
 def build_simulation(
@@ -72,7 +72,7 @@ def build_simulation(
             record_node(node, recorded[node.id])
 
     simulator = builder.prepare_nodes(prepare).build()
-    if isinstance(mobility, FlownMobilityHandler):
+    if isinstance(mobility, AutopilotMobilityHandler):
         mobility.take_off()
     return simulator, ledger
 
@@ -106,7 +106,7 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
         configuration.update_rate = update_rate_s(scenario.nodes)
         mobility = (IdleSkippingMobilityHandler if skips_idle else MasslessMobilityHandler)(configuration)
     else:  # autopilots fly on every 10 ms, in both modes
-        mobility = FlownMobilityHandler(configuration, flights)
+        mobility = AutopilotMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility

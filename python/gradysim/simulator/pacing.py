@@ -5,10 +5,10 @@ import logging
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from gradysim.encapsulator.nested_loop import outer_loop_stands
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.profiling import TimingReport
 from gradysim.simulator.real_time import RealTimePacer
-from gradysim.sitl.nested_loop import outer_loop_stands
 
 _logger = logging.getLogger(__name__)
 
