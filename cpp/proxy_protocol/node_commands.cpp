@@ -34,7 +34,8 @@ public:
     const char* what() const noexcept override { return "the argument cannot be read as a command"; }
 };
 
-// An attribute of a command. An argument without it is something else, such as a str or a command of the other kind.
+// An attribute of a command. An argument without it is something else, such as a str or a command of
+// the other kind.
 py::object attribute(py::handle command, PyObject* name) {
     PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
@@ -78,8 +79,8 @@ py::object validation(const char* function, const Arguments&... arguments) {
     return py::module_::import("gradysim.encapsulator.validation").attr(function)(arguments...);
 }
 
-// Carries out a command. A failure is raised as that exception of gradysim.protocol.errors.
-// `wrong` returns what is wrong with the command itself; if that is "", the engine's own error text is raised.
+// Carries out a command. A failure is raised as that exception of gradysim.protocol.errors. `wrong`
+// returns what is wrong with the command itself; if that is "", the engine's error text is raised.
 template <typename Command, typename Wrong>
 void carry_out(const char* exception, Command command, Wrong wrong) {
     std::string words;
