@@ -61,7 +61,7 @@ def add_protocol_note(
 ) -> None:
     """Add a note with node, simulated time and callback to an exception that a protocol has raised.
 
-    Ctrl-C (KeyboardInterrupt) is not a failure of the protocol and gets no note.
+    A KeyboardInterrupt gets the note, too: it names a callback that does not return.
 
     Args:
         exception: The exception. Its traceback does not change.
@@ -70,6 +70,5 @@ def add_protocol_note(
         time_s: Simulated time in seconds.
         callback: Name of the protocol's method that raised it.
     """
-    if not isinstance(exception, KeyboardInterrupt):
-        label = f"{protocol.__name__} {node_id}"
-        exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")
+    label = f"{protocol.__name__} {node_id}"
+    exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

@@ -46,8 +46,8 @@ def test_other_base_exceptions_get_a_note(exception):
     assert notes_on(exception) == notes_on(RuntimeError())
 
 
-def test_ctrl_c_gets_no_note():
-    assert notes_on(KeyboardInterrupt()) == []
+def test_ctrl_c_gets_the_note_of_the_callback_that_does_not_return():
+    assert notes_on(KeyboardInterrupt()) == notes_on(ValueError())
 
 
 def test_in_prototype_mode_the_mobility_handler_has_the_positions():
