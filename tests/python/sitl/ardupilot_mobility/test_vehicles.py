@@ -27,8 +27,9 @@ from python.sitl.ardupilot_mobility.flying import (
 )
 
 
-def test_what_starts_nothing_ends_nothing(toy_copter):
-    """A vehicle that is there already flies, hears a ground station's heartbeats, and stays in the end."""
+def test_a_running_vehicle_is_flown_and_not_ended(toy_copter, monkeypatch):
+    """It gets the heartbeats of a ground station."""
+    monkeypatch.setattr("gradysim.sitl.ardupilot_mobility.real_time._HEARTBEAT_S", 0.1)
     program = toy_copter()
     with socket.create_server(("127.0.0.1", 0)) as probe:
         port = probe.getsockname()[1]
