@@ -4,13 +4,16 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gradysim.protocol.defaults import SPEED_MPS
+from gradysim.protocol.defaults import (
+    AUTOPILOT_USER,
+    LOWEST_AUTOPILOT_SPEED_MPS,
+    SPEED_MPS,
+    is_too_slow_for_autopilot,
+)
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.keys import ARDUPILOT
 from gradysim.scenario.value.setting import Setting
-from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
-from gradysim.sitl.unprivileged import DEFAULT_USER
 
 
 @dataclass(frozen=True)
@@ -24,7 +27,7 @@ class AutopilotSpec:
         parameters_source: Where its parameters were written, or it was chosen.
         program: An arducopter for SITL, or an ArduPilot checkout; None for the environment's.
         user: Whom it belongs to if root runs the simulation; None for root.
-        speed_mps: Ground speed until the protocol sets another, >= `LOWEST_SPEED_MPS`.
+        speed_mps: Ground speed until the protocol sets another, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
         parameters: Of ArduCopter, by name.
     """
 
@@ -33,7 +36,7 @@ class AutopilotSpec:
     user_source: Source
     parameters_source: Source
     program: str | None = None
-    user: str | None = DEFAULT_USER
+    user: str | None = AUTOPILOT_USER
     speed_mps: float = SPEED_MPS
     parameters: Mapping[str, float] = field(default_factory=dict)
 
@@ -48,9 +51,9 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
     if typename is None or typename.value != ARDUPILOT:
         return None
     speed = mobility.get("speed_mps")
-    if speed is not None and is_too_slow(float(speed.value)):
+    if speed is not None and is_too_slow_for_autopilot(float(speed.value)):
         raise ConfigError.at(
-            speed.source, f"too slow for an autopilot; expected at least {LOWEST_SPEED_MPS:g}mps"
+            speed.source, f"too slow for an autopilot; expected at least {LOWEST_AUTOPILOT_SPEED_MPS:g}mps"
         )
     program = autopilot.get("program")
     user = autopilot.get("user")
@@ -61,7 +64,7 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
         user_source=user.source if user else typename.source,
         parameters_source=parameters.source if parameters else typename.source,
         program=str(program.value) or None if program else None,
-        user=str(user.value) or None if user else DEFAULT_USER,
+        user=str(user.value) or None if user else AUTOPILOT_USER,
         speed_mps=float(speed.value) if speed else SPEED_MPS,
         parameters=_parameters(parameters) if parameters else {},
     )
