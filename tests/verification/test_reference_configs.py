@@ -9,7 +9,7 @@ import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.results.run_result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.file.reader import read_ini
 from gradysim.scenario.file.sections import config_names
 from gradysim.scenario.protocol.native import NativeProtocol

@@ -5,8 +5,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gradysim.protocol.position import Position
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.node.autopilot_spec import AutopilotSpec
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import NativeProtocol

@@ -20,7 +20,7 @@ _LONGEST_PID = 2**22
 
 def make_result_dir(directory: Path) -> None:
     """Make the folder of --result-dir. Raises ConfigError, which names the option."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -31,7 +31,7 @@ def make_result_dir(directory: Path) -> None:
 
 def check_may_be_written_to(directory: Path) -> None:
     """Raise ConfigError, which names the option, if no file can be made in it."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     if not os.access(directory, os.W_OK | os.X_OK):
         raise ConfigError(f"--result-dir {directory}: it takes no files from you; expected another folder")
@@ -44,7 +44,7 @@ def check_sqlite(asked: Asked) -> None:
     try:
         import sqlite3  # noqa: F401
     except ImportError as error:
-        from gradysim.scenario.errors.config_error import ConfigError
+        from gradysim.scenario.errors import ConfigError
 
         option = "--scalars" if asked.scalars else f"--vectors {asked.vectors[0]}"
         raise ConfigError(f"{option}: {error}; expected a Python with the module sqlite3") from error
@@ -52,7 +52,7 @@ def check_sqlite(asked: Asked) -> None:
 
 def check_file_names(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> None:
     """Raise ConfigError for a name of a file that is too long for the folder, before the first run begins."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     last = scenarios[-1]  # with the longest number
     folders = (asked.directory, *asked.directory.parents)

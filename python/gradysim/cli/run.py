@@ -65,7 +65,7 @@ def run(
     """Run the runs of a configuration and say what came out."""
     from gradysim.cli.waiting import waiting
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     asked = Asked(result_dir, pcap, fates_at, scalars, vectors)
     output = sys.stdout

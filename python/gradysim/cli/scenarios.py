@@ -19,7 +19,7 @@ def check(
 
     Says on the error output which of `settings` have no effect, because others before them have their keys.
     """
-    from gradysim.scenario.errors.argument_names import ArgumentNames
+    from gradysim.scenario.errors import ArgumentNames
     from gradysim.scenario.load import CheckedScenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")

@@ -41,7 +41,7 @@ def one_after_the_other(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", 
 
 def check_jobs(jobs: int) -> None:
     """Raise ConfigError for a number of runs at once that cannot be, before anything is read."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     if jobs < 1:
         raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
@@ -53,7 +53,7 @@ def several_at_once(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", outp
     """Carry out runs in `jobs` processes; return the exit code of the command."""
     from gradysim.cli.processes import in_processes
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     def work(index: int, interrupt: "StopOnInterrupt", output: TextIO) -> int:
         try:

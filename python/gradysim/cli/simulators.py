@@ -60,7 +60,7 @@ def simulator(mode: Mode, asked: Asked) -> "tuple[Check, Callable[[Scenario], Ru
 
 def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
     """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     for name in names:
         raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")

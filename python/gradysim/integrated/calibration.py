@@ -14,8 +14,7 @@ from gradysim.integrated.ini_terms import in_ini_terms
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import ConfigError, did_you_mean
 from gradysim.scenario.keys.radio import CENTER_FREQUENCY
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario

@@ -8,9 +8,7 @@ from pathlib import Path
 
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.integrated.ini_terms import FIELD, in_ini_terms, key_name, keys_by_target
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.says_in_full import says_in_full
-from gradysim.scenario.errors.sibling_files import file_meant
+from gradysim.scenario.errors import ConfigError, is_fully_qualified, nearest_file
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN
 from gradysim.scenario.value.setting import Setting
@@ -120,7 +118,7 @@ def _for(field: re.Match[str], place: Setting | None) -> str:
     target = field["target"]
     names = [other.path for other in NODE_KEYS if other.target == target]
     names += [other.path.partition(".")[2] for other in NETWORK_KEYS if other.target == target]
-    is_told = any(says_in_full(key, name) for name in names or [target])
+    is_told = any(is_fully_qualified(key, name) for name in names or [target])
     return "" if is_told else f"for {key_name(field)}: "
 
 
@@ -130,7 +128,8 @@ def _file_meant(target: str, setting: Setting) -> str:
     if key is None or not key.kind.is_file or os.path.exists(file):  # False of what no file can be called
         return ""
     written = setting.source.value.strip('"')
-    return file_meant(file, (".csv", ".txt"), written if written.endswith(file.name) else "")
+    match = nearest_file(file, (".csv", ".txt"), written if written.endswith(file.name) else "")
+    return f"; did you mean `{match}`?" if match else ""
 
 
 def _nearest(named: list[str], settings: Mapping[str, Setting]) -> str:

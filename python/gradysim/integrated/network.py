@@ -14,7 +14,7 @@ from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec

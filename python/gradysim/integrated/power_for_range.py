@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at_line
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
 from gradysim.scenario.keys.radio_media import has_radios
 from gradysim.scenario.node.node_spec import NodeSpec

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gradysim.integrated.network import node_config
 from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.keys.interface import IEEE802154
 from gradysim.scenario.keys.radio_media import has_radios
 from gradysim.scenario.node.interface_spec import InterfaceSpec

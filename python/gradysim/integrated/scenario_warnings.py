@@ -9,7 +9,7 @@ from gradysim.integrated.node_kinds import one_of_each_kind
 from gradysim.integrated.radio_warnings import radio_warnings
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.doubts.unread_lines import Chosen, UnreadLines
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.value.setting import Setting
 

@@ -8,7 +8,7 @@ from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.prototype.recorded_nodes import record_node
 from gradysim.results.node_recorder import NodeRecorder
 from gradysim.results.run_file import run_name
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys.mobility import MASSLESS, STATIONARY
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import NativeProtocol, text_of_only_integrated

@@ -13,8 +13,7 @@
 `load` reads one `scenario` after the other, `networks` the part of each, `network`, that runs may share.
 """
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.load import load_scenarios
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.parametrize import parametrize

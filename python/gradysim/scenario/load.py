@@ -6,9 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT, ArgumentNames
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, Source
 from gradysim.scenario.file.reader import Entry, read_ini, read_overrides
 from gradysim.scenario.file.sections import Ranked, search_order, what_to_run_instead
 from gradysim.scenario.keys.options import NETWORK, OPTIONS

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from gradysim.autopilots.scenario_flights import check_autopilots, flights_of
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.sitl.dialect import load_dialect
 
 TESTED = "class Tested(Quiet): pass"

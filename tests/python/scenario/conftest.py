@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.value.pattern import Pattern
 
 PROTOCOLS = """

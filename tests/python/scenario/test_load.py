@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import ConfigError, load_scenarios, networks
-from gradysim.scenario.errors.argument_names import OF_SCRIPT
+from gradysim.scenario.errors import OF_SCRIPT
 from gradysim.scenario.load import CheckedScenarios
 from gradysim.scenario.network import read_network
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario

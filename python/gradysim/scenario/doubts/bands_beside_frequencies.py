@@ -6,7 +6,7 @@ the frequency stands in a section or a file that overrides the band, nothing is 
 
 from collections.abc import Iterable, Iterator
 
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.keys.radio import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY
 from gradysim.scenario.node.node_spec import NodeSpec
 

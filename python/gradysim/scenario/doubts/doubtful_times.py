@@ -10,8 +10,7 @@ of times where nothing else is said, and a `position_jitter` is not.
 import re
 from collections.abc import Iterable, Iterator
 
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import BadValue, Source
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.parameter_unit import unit_of
 from gradysim.scenario.value.expression import parse_value

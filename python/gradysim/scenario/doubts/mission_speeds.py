@@ -12,7 +12,7 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import SetSpeedMobilityCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
 from gradysim.scenario.doubts.protocol_code import called_name, code_of
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.kept_with_class import kept_with_class
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.doubts.protocol_code import code_of
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.kept_with_class import kept_with_class
 

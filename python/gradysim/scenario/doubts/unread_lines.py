@@ -9,7 +9,7 @@ what it is about.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.scenario.keys.interface import written_for
 from gradysim.scenario.keys.key import ReadBy

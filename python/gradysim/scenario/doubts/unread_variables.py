@@ -7,7 +7,7 @@ makes no such runs; that another key says the same shows only when all runs are 
 from collections.abc import Iterable, Iterator, Sequence
 
 from gradysim.scenario.doubts.shadowed_lines import line_that_says_it_instead
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.runs.unread_variables import UnreadVariables
 

@@ -10,10 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.sibling_files import file_meant
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import OF_SCRIPT, ConfigError, Source, nearest_file
 
 GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
@@ -148,9 +145,10 @@ def _text_of(file: Path, asked_by: Source | None) -> str:
     try:
         data = file.read_bytes()
     except OSError as error:
-        hint = file_meant(file, (".ini",))
         reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
-        raise ConfigError(f"{file}: {reason}; expected an .ini file{hint}", asked_by) from error
+        raise ConfigError(
+            f"{file}: {reason}", asked_by, expected="an .ini file", suggestion=nearest_file(file, (".ini",))
+        ) from error
     zero = data.find(b"\0")  # of UTF-16, say; no name of a file has one
     if zero >= 0:
         line = data.count(b"\n", 0, zero) + 1

@@ -3,9 +3,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean, nearest
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.file.reader import GENERAL, Entry, IniFile, Section
 
 _MAX_NAMES = 20
@@ -35,9 +33,11 @@ def search_order(ini: IniFile, config: str) -> list[Section]:
     """
     if config not in ini.sections:
         names = config_names(ini)
-        known = f"expected one of {', '.join(names)}" if names else "the file has no configurations"
         raise ConfigError(
-            f"no configuration `{config}`; {known}{did_you_mean(config, names)}", Source(ini.file, 0)
+            f"no configuration `{config}`",
+            Source(ini.file, 0),
+            expected=f"one of {', '.join(names)}",
+            suggestion=nearest(config, names),
         )
     section = ini.sections[config]
     if (abstract := _own_option(section, "abstract")) and _is_true(abstract):
@@ -121,8 +121,12 @@ def _bases(ini: IniFile, extends: Entry) -> list[str]:
     bases = [base.strip() for base in extends.text.split(",")]
     for base in bases:
         if base not in ini.sections:
-            hint = did_you_mean(base, ini.sections)
-            raise ConfigError(f"extends `{base}`; expected the name of a section{hint}", extends.source)
+            raise ConfigError(
+                f"extends `{base}`",
+                extends.source,
+                expected="the name of a section",
+                suggestion=nearest(base, ini.sections),
+            )
     if len(set(bases)) < len(bases):
         raise ConfigError(f"extends = {extends.text}: expected each section once", extends.source)
     return bases
@@ -145,8 +149,8 @@ def what_to_run_instead(ini: IniFile, config: str, sections: Sequence[Section], 
     """
     unused = unused_sections(ini, sections)
     general_is_empty = not ini.sections[GENERAL].entries
-    match = nearest(GENERAL, unused) if general_is_empty else None
-    if match is not None:
+    match = nearest(GENERAL, unused) if general_is_empty else ""
+    if match:
         return f"; [{match}] at line {ini.sections[match].source.line} is not used: did you mean [{GENERAL}]?"
     names = config_names(ini)
     if config in names:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Self
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.keys.key import Key, ReadBy
 from gradysim.scenario.value.kinds import Kind, Scalar, quantity
 from gradysim.scenario.value.operators import Value

@@ -10,9 +10,7 @@ from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
 from gradysim.scenario.keys.environment import OBSTACLE_KEYS, obstacle_path
@@ -55,12 +53,14 @@ def check_option(entry: Entry) -> None:
     for option, instead in REFUSED_OPTIONS.items():
         if fnmatchcase(key, option):
             raise ConfigError(f"`{key}` is an option that only OMNeT++ has: {instead}", entry.source)
-    hint = did_you_mean(key, [*OPTIONS, *SECTION_OPTIONS, NETWORK, "result-dir"])
+    match = nearest(key, [*OPTIONS, *SECTION_OPTIONS, NETWORK, "result-dir"])
     if re.fullmatch(r"num[A-Z]\w*", key):
-        hint = f"; did you mean `*.{key}`?"
+        match = f"*.{key}"
     raise ConfigError(
-        f"there is no option `{key}`; expected one, or a parameter such as `*.uavs[*].mobility.speed`{hint}",
+        f"there is no option `{key}`",
         entry.source,
+        expected="one, or a parameter such as `*.uavs[*].mobility.speed`",
+        suggestion=match,
     )
 
 

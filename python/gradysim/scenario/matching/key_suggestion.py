@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt, nearest
+from gradysim.scenario.errors import did_you_mean, nearest
 from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
 from gradysim.scenario.keys.interface import WLAN, interface_in, written_for
 from gradysim.scenario.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS
@@ -34,7 +34,7 @@ def unknown_name_text(found: Found, groups: Sequence[Group], network: str) -> st
     group = next((group for group in groups if group.name == match), None)
     if inets and not any(group.name == match for group in groups):
         hint = inets
-    elif match is not None:
+    elif match:
         nearest_parts = [found.parts[0].text, group.written if group else match]
         nearest_parts += [part.text for part in found.parts[2:]]
         hint = f"; did you mean `{'.'.join(nearest_parts)}`?"
@@ -60,7 +60,7 @@ def is_misspelt_class(rest: Pattern | None) -> bool:
     if rest is None or rest.literal is None or rest.literal == PROTOCOL_CLASS.path:
         return False
     paths = [key.path for key in PROTOCOL_KEYS]
-    return rest.literal == "protocol" or misspelt(rest.literal, paths) == PROTOCOL_CLASS.path
+    return rest.literal == "protocol" or nearest(rest.literal, paths, strict=True) == PROTOCOL_CLASS.path
 
 
 def unknown_parameter_text(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:

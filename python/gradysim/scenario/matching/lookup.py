@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import NamedTuple
 
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
+from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.keys.omnetpp_options import (

@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.value.setting import Setting
 

@@ -7,7 +7,7 @@ for all of them.
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import WLAN_KEYS
 from gradysim.scenario.keys.bands import BAND, CHANNELS
 from gradysim.scenario.keys.interface import (

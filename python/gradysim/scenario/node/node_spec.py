@@ -6,8 +6,7 @@ from typing import Any
 
 from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source, did_you_mean
 from gradysim.scenario.node.autopilot_spec import AutopilotSpec
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.protocol.origin import Origin

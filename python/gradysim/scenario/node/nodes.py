@@ -10,9 +10,7 @@ from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import LARGEST_COORDINATE_M
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
-from gradysim.scenario.errors.nearest import nearest
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import BadValue, ConfigError, Source, nearest
 from gradysim.scenario.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID, STATIONARY
@@ -304,8 +302,7 @@ def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -
     try:
         return ChosenProtocol(loader.load(reference, folder), entry.source, loader.files(reference, folder))
     except BadValue as error:
-        expected = f"; expected {error.expected}" if error.expected else ""
-        raise ConfigError.at(entry.source, f"{error.problem}{expected}{error.suggestion}") from error
+        raise error.at(entry.source) from error
 
 
 def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> ChosenProtocol:
@@ -314,8 +311,7 @@ def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> C
         cls = native_protocol(str(settings.scalar(entry, PROTOCOL_TYPENAME.kind)))
         return ChosenProtocol(cls, entry.source)
     except BadValue as error:
-        text = f"{error.problem}; expected one that `gradysim keys protocol` lists{error.suggestion}"
-        raise ConfigError.at(entry.source, text) from error
+        raise error.at(entry.source, expected="one that `gradysim keys protocol` lists") from error
 
 
 def _misspelt_class_error(lookup: Lookup, group: Group, node: str) -> ConfigError | None:
@@ -343,7 +339,9 @@ def _without_index(found: Found, group: Group, network: str) -> Key | None:
 def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:
     keys = {other.name: other.size_key for other in groups if other is not group and other.size is not None}
     match = nearest(group.name, keys)
-    hint = f"; did you mean `*.{keys[match]}`?" if match else ""
-    expected = f'`*.{group.written}.protocol.class = "file.py:Class"`'
-    source = group.size_found.entry.source if group.size_found else None
-    return ConfigError(f"nothing says which protocol {node} runs; expected {expected}{hint}", source)
+    return ConfigError(
+        f"nothing says which protocol {node} runs",
+        group.size_found.entry.source if group.size_found else None,
+        expected=f'`*.{group.written}.protocol.class = "file.py:Class"`',
+        suggestion=f"*.{keys[match]}" if match else "",
+    )

@@ -15,10 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt
-from gradysim.scenario.errors.sibling_files import file_meant
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source, did_you_mean, nearest, nearest_file
 from gradysim.scenario.keys.environment import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
 from gradysim.scenario.obstacle.obstacle_spec import ObstacleSpec
 from gradysim.scenario.obstacle.outline import Ring, crossing_sides, encloses_nothing, misplaced_ring
@@ -76,7 +73,8 @@ def _parse(file: Path) -> Mapping[str, Any]:
     try:
         content = json.loads(file.read_text(encoding="utf-8-sig"), parse_int=_whole_number)
     except OSError as error:
-        hint = file_meant(file, (".geojson", ".json"))
+        match = nearest_file(file, (".geojson", ".json"))
+        hint = f"; did you mean `{match}`?" if match else ""
         raise _BadFileError(f"cannot read it: {error.strerror or error}{hint}") from error
     except UnicodeDecodeError as error:
         raise _BadFileError("it is no text in UTF-8") from error
@@ -193,7 +191,7 @@ def _refuse_misspelt(properties: Mapping[str, Any]) -> None:
     """A property that looks like one of ours is another one only where ours stands beside it."""
     missing = [name for name in _PROPERTIES if properties.get(name) is None]
     for name in properties:
-        if name not in _PROPERTIES and (meant := misspelt(name, missing)):
+        if name not in _PROPERTIES and (meant := nearest(name, missing, strict=True)):
             raise _BadFileError(f"nothing reads its property `{name}`; did you mean `{meant}`?")
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.keys.environment import DEFAULT_MATERIAL
 from gradysim.scenario.obstacle.outline import Ring
 

@@ -5,8 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, rotate_position_2d
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.keys.environment import (
     DEFAULT_MATERIAL,
     NUM_OBSTACLES,

@@ -8,7 +8,7 @@ import inspect
 from types import FunctionType
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 
 _CALLBACKS = {
     name: tuple(inspect.signature(vars(IProtocol)[name]).parameters)

@@ -10,9 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt
-from gradysim.scenario.errors.sibling_files import file_meant
+from gradysim.scenario.errors import BadValue, nearest, nearest_file
 from gradysim.scenario.protocol.contract import check_contract
 from gradysim.scenario.protocol.imported_files import files_of_python, root_of_module
 from gradysim.scenario.protocol.module import BeingLoadedError, ModuleLoader
@@ -40,8 +38,8 @@ class ProtocolLoader:
         """
         place, colon, class_name = reference.rpartition(":")
         if not (colon and place and class_name.isidentifier()):
-            hint = _class_meant(reference, folder)
-            raise BadValue(f"`{reference}` names no class", hint, expected=_REFERENCE)
+            meant = _class_meant(reference, folder)
+            raise BadValue(f"`{reference}` names no class", expected=_REFERENCE, suggestion=meant)
         if not _is_file(place):
             return _protocol_in(_from_name(place, folder, class_name), class_name, place)
         protocol = _protocol_in(self._from_file(place, folder), class_name, place)
@@ -72,8 +70,8 @@ class ProtocolLoader:
         except OSError as error:
             raise BadValue(f"{file}: {error.strerror}") from error
         if not is_file:
-            hint = file_meant(file, (".py",), place)
-            raise BadValue(f"there is no file {file}", hint, expected=_REFERENCE)
+            meant = nearest_file(file, (".py",), place)
+            raise BadValue(f"there is no file {file}", expected=_REFERENCE, suggestion=meant)
         try:
             return self._modules.load(file)
         except KeyboardInterrupt:
@@ -96,8 +94,9 @@ def _from_name(name: str, folder: Path, class_name: str) -> ModuleType:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
         file = f"{name.replace('.', '/')}.py"
-        hint = f"; did you mean `{file}:{class_name}`?" if (folder / file).is_file() else ""
-        raise BadValue(f"this Python finds no module `{error.name}`", hint, expected=_REFERENCE) from error
+        meant = f"{file}:{class_name}" if (folder / file).is_file() else ""
+        text = f"this Python finds no module `{error.name}`"
+        raise BadValue(text, expected=_REFERENCE, suggestion=meant) from error
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -108,7 +107,9 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     cls = getattr(module, name, None)
     if cls is None:
         protocols = _protocols(module)
-        raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or _list(protocols))
+        meant = nearest(name, protocols)
+        hint = "" if meant else _list(protocols)
+        raise BadValue(f"{place} has no class `{name}`", hint, suggestion=meant)
     if not _is_protocol(cls):
         why = "is no protocol, it does not derive from IProtocol"
         if cls is IProtocol:
@@ -125,19 +126,19 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
 
 
 def _class_meant(reference: str, folder: Path) -> str:
-    """A hint for the name of a native protocol, and for one that has a dot in the place of its colon."""
+    """Return what a reference without a colon may mean: another key, or a file and a class; or ""."""
     if is_native_name(reference):
-        return "; did you mean `protocol.typename`?"
+        return "protocol.typename"
     module, _, class_name = reference.rpartition(".")
     file = f"{module.replace('.', '/')}.py"
     is_meant = module and class_name.isidentifier() and class_name != "py" and os.path.isfile(folder / file)
-    return f"; did you mean `{file}:{class_name}`?" if is_meant else ""
+    return f"{file}:{class_name}" if is_meant else ""
 
 
 def _misspelt(protocol: type[IProtocol], missing: list[str]) -> str:
     """A hint at methods of the class that look like missing ones."""
     own = [name for name in dir(protocol) if not name.startswith("_") and name not in dir(IProtocol)]
-    alike = [name for method in missing if (name := misspelt(method, own))]
+    alike = [name for method in missing if (name := nearest(method, own, strict=True))]
     return f"; it has {_calls(alike)}" if alike else ""
 
 

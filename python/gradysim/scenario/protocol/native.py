@@ -14,8 +14,7 @@ from typing import ClassVar
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import BadValue, nearest
 
 _TABLE = "gradysim.integrated.native_protocols"
 """The module with the table. Its layer is above this one, so it is imported only when a file names a native
@@ -93,8 +92,8 @@ def native_protocol(name: str) -> type[NativeProtocol]:
     """Return the native protocol of that name. Raises BadValue, with the nearest name, if there is none."""
     table = native_protocols()
     if name not in table:
-        hint = "; did you mean `protocol.class`?" if ":" in name else did_you_mean(name, table)
-        raise BadValue(f"there is no native protocol `{name}`", hint)
+        meant = "protocol.class" if ":" in name else nearest(name, table)
+        raise BadValue(f"there is no native protocol `{name}`", suggestion=meant)
     return table[name]
 
 

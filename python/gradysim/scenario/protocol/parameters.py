@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import cache
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.protocol.kept_with_class import kept_with_class
 from gradysim.scenario.protocol.native import NativeProtocol
 from gradysim.scenario.protocol.parameter_unit import annotations_of, unit_of
@@ -45,7 +45,7 @@ def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> K
         try:
             return whole.convert(value if unit is None else _without_unit(value, unit))
         except BadValue as error:
-            if isinstance(value, Quantity) and not error.suggestion and not is_native:
+            if isinstance(value, Quantity) and not (error.suggestion or error.hint) and not is_native:
                 hint = f"; for other numbers write `{name}: float = {default}` in the class"
                 raise BadValue(error.problem, hint) from None
             raise

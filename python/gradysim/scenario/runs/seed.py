@@ -3,8 +3,7 @@
 from collections.abc import Mapping
 from operator import index
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import OF_SCRIPT, ConfigError
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.keys.options import LARGEST_SEED, OPTIONS
 from gradysim.scenario.runs.variables import substitute

@@ -8,7 +8,7 @@ import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.keys import NETWORK_MODULES
 from gradysim.scenario.matching.lookup import Lookup, is_ignored, is_option

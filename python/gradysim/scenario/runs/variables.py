@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.matching.lookup import is_ignored

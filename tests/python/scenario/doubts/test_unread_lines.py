@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario.doubts.unread_lines import Chosen, UnreadLines, unmet_choice
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 
 DEFAULTS: dict[str, str | None] = {
     "medium.typename": "Ieee80211ScalarRadioMedium",

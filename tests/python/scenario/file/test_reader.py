@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.file.reader import OVERRIDES, IniFile, read_ini, read_overrides
 
 Write = Callable[..., Path]

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.keys.key import Key, ReadBy
 from gradysim.scenario.keys.shapes import Below, angle, bit_rate, level
 from gradysim.scenario.value.expression import parse_value

@@ -3,7 +3,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.matching.key_check import NoSuchNodeError
 
 

@@ -3,7 +3,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 NODES = "expected one of `groundStation`, `uavs[*]`"
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.keys.key import Key

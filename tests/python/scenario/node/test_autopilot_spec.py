@@ -4,7 +4,7 @@ import pickle
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 FLOWN = '*.uavs[0].mobility.typename = "ArdupilotMobility"'
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 
 def test_of_two_keys_for_one_field_the_first_in_search_order_counts(folder: Any) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.protocol.contract import check_contract
 from python.quiet_protocol import Quiet
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
+from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.protocol.loader import ProtocolLoader
 
 

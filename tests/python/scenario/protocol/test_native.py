@@ -3,7 +3,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.protocol.native import NativeProtocol, native_protocol, text_of_only_integrated
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")

@@ -2,8 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.runs.constraint import Constraint
 

@@ -3,7 +3,7 @@ import re
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.kinds import (
     Kind,

@@ -3,8 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.value.kinds import choice, file_name, integer, number, quantity, text
 from gradysim.scenario.value.parameter_context import ParameterContext
