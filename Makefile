@@ -87,6 +87,9 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
 	$(BIN)/python tests/fingerprints/update.py
 
+golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages about mistakes in scenarios.
+	REWRITE_GOLDEN=1 $(PYTHON) -m pytest -q tests/python/scenario/test_messages.py
+
 clean:  ## Remove what was built; .venv stays.
 	rm -rf build dist $(STAMPS)/editable
 

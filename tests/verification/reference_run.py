@@ -8,7 +8,7 @@ import gradysim.integrated.run
 from gradysim import _netsim
 from gradysim.results.run_result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import native_protocol
 from gradysim.scenario.protocol.origin import origin_of
 

@@ -10,8 +10,7 @@ import gradysim.prototype.run
 from gradysim.results.run_result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import config_names
+from gradysim.scenario.ini import config_names, read_ini
 from gradysim.scenario.protocol.native import NativeProtocol
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference

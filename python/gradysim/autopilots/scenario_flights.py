@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.protocol.position import Position
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.node.autopilot_spec import AutopilotSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
 from gradysim.scenario.protocol.native import NativeProtocol
 from gradysim.scenario.scenario import Scenario
 from gradysim.sitl.arducopter import find_arducopter

@@ -35,7 +35,7 @@ def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "lis
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
-    from gradysim.scenario.file.reader import Entry, read_overrides
+    from gradysim.scenario.ini import Entry, read_overrides
 
     first: dict[str, Entry] = {}
     for entry in read_overrides(file, settings, option):

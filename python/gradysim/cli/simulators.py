@@ -9,7 +9,7 @@ from gradysim.cli.asked import Asked
 
 if TYPE_CHECKING:
     from gradysim.cli.supervised_run import Run
-    from gradysim.scenario.node.node_spec import NodeSpec
+    from gradysim.scenario.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
 
 

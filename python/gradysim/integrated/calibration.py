@@ -16,7 +16,7 @@ from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import ConfigError, did_you_mean
 from gradysim.scenario.keys.radio import CENTER_FREQUENCY
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
 if TYPE_CHECKING:

@@ -17,8 +17,7 @@ from gradysim.scenario.keys.key import ReadBy
 from gradysim.scenario.keys.radio import OF_802154
 from gradysim.scenario.keys.radio_media import has_radios
 from gradysim.scenario.lint import Finding, by_line
-from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.value.setting import Setting
 

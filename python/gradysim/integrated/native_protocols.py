@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, cast
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import NativeParameter, NativeProtocol
 from gradysim.scenario.protocol.parametrize import parametrize
 from gradysim.scenario.value.setting import Setting

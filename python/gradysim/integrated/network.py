@@ -16,8 +16,7 @@ from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
-from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.value.setting import Setting

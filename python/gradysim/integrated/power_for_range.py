@@ -8,7 +8,7 @@ from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
 from gradysim.scenario.keys.radio_media import has_radios
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, NodeConfig

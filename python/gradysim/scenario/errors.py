@@ -4,7 +4,8 @@
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -121,7 +122,7 @@ def _restored(
 
 
 class ConfigErrors(ConfigError):  # noqa: N818 - several of them
-    """All mistakes of a file. As an error by itself it is the first of them.
+    """All mistakes of a file, one for each entry. As an error by itself it is the first of them.
 
     Attributes:
         errors: The mistakes, by file and line.
@@ -129,7 +130,9 @@ class ConfigErrors(ConfigError):  # noqa: N818 - several of them
 
     def __init__(self, errors: Iterable[ConfigError]) -> None:
         """Take at least one error. Those without a place come first, then overrides, then lines."""
-        unique = {str(error): error for error in errors}
+        unique: dict[object, ConfigError] = {}
+        for error in errors:
+            unique.setdefault(error.source if error.key else str(error), error)
         self.errors = sorted(unique.values(), key=_place)
         first = self.errors[0]
         super().__init__(
@@ -149,6 +152,40 @@ class ConfigErrors(ConfigError):  # noqa: N818 - several of them
 
 def _place(error: ConfigError) -> tuple[str, int]:
     return (str(error.file or ""), error.line)
+
+
+class ErrorCollector:
+    """Mistakes that are reported together.
+
+    Attributes:
+        errors: Those found so far.
+    """
+
+    def __init__(self) -> None:
+        """Start without any."""
+        self.errors: list[ConfigError] = []
+
+    def add(self, error: ConfigError) -> None:
+        """Add a mistake, or several."""
+        self.errors += error.errors if isinstance(error, ConfigErrors) else [error]
+
+    @contextmanager
+    def collecting(self) -> Iterator[None]:
+        """Add the ConfigError that ends the block."""
+        try:
+            yield
+        except ConfigError as error:
+            self.add(error)
+
+    def combined(self) -> ConfigError:
+        """Return the errors, at least one, as one: the error itself if there is only one."""
+        several = ConfigErrors(self.errors)
+        return several if len(several.errors) > 1 else several.errors[0]
+
+    def raise_all(self) -> None:
+        """Raise the errors, if there are any."""
+        if self.errors:
+            raise self.combined()
 
 
 class BadValue(ValueError):  # noqa: N818 - becomes a ConfigError where the place is known

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue, Source
-from gradysim.scenario.file.reader import Entry, Section
+from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.keys.radio import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY
 from gradysim.scenario.keys.radio_media import has_radios
-from gradysim.scenario.matching.lookup import is_ignored, is_option
-from gradysim.scenario.matching.pattern_index import PatternIndex
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.lookup import is_ignored, is_option
+from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.pattern_index import PatternIndex
 from gradysim.scenario.protocol.parameter_unit import annotations_of, unit_of
 from gradysim.scenario.runs.unread_variables import UnreadVariables
 from gradysim.scenario.scenario import Scenario

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from gradysim.scenario.errors import ConfigError, nearest
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
 ALL = "all"

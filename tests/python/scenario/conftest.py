@@ -67,6 +67,12 @@ class Folder:
         self.write("test.ini", BASE + added)
         return load_scenarios(self.ini, config, "0", overrides)[0]
 
+    def mistake(self, added: str = "", config: str = "General", *overrides: str) -> ConfigError:
+        """Return the error of the base with some more lines."""
+        with pytest.raises(ConfigError) as caught:
+            self.load(added, config, *overrides)
+        return caught.value
+
     def error(self, added: str = "", config: str = "General", *overrides: str) -> str:
         """The text of the error, the folder left out."""
         with pytest.raises(ConfigError) as caught:

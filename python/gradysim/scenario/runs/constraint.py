@@ -8,7 +8,7 @@ import re
 from collections.abc import Mapping
 
 from gradysim.scenario.errors import BadValue, ConfigError
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.operators import text_of
 from gradysim.scenario.value.quoted import is_quoted

@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation, Overflow
 
 from gradysim.scenario.errors import ConfigError, Source, nearest
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.matching.lookup import is_ignored
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.lookup import is_ignored
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.quoted import is_quoted, unquoted
 

@@ -9,7 +9,7 @@ from itertools import islice
 from typing import NamedTuple
 
 from gradysim.scenario.errors import ConfigError, Source, nearest
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys.options import OPTIONS
 from gradysim.scenario.runs.constraint import Constraint
 from gradysim.scenario.runs.iterations import (

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from operator import index
 
 from gradysim.scenario.errors import OF_SCRIPT, ConfigError
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys.options import LARGEST_SEED, OPTIONS
 from gradysim.scenario.runs.variables import substitute
 from gradysim.scenario.value.setting import read_scalar

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gradysim.scenario.errors import BadValue, Source, is_fully_qualified
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.kinds import Kind, Scalar
 from gradysim.scenario.value.operators import Value, text_of

@@ -69,7 +69,7 @@ def test_a_typename_as_class_is_an_error_that_names_the_key_for_it(folder: Any) 
 
 def test_an_unknown_parameter_is_an_error_with_the_nearest_name(folder: Any) -> None:
     text = folder.error(BEACONS + "*.uavs[*].protocol.intervall = 1s\n", "X")
-    assert text.startswith("test.ini:8: `intervall` is no parameter of BeaconProtocol; expected one of ")
+    assert text.startswith("test.ini:8: `intervall` is not a parameter of BeaconProtocol; expected one of ")
     assert text.endswith("did you mean `*.uavs[*].protocol.interval`?")
 
 

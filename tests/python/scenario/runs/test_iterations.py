@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.runs.iterations import (
     IterationVariable,
     check_lock_step,

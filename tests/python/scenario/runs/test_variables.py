@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.runs.variables import depends_on_run, run_variables, substitute
 
 

@@ -3,7 +3,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario.node.interface_spec import InterfaceSpec
+from gradysim.scenario.node_spec import InterfaceSpec
 from gradysim.scenario.scenario import Scenario
 
 LINE = """\

@@ -1,8 +1,8 @@
-"""Nodes in a grid, row after row, each node in the middle of its cell, as by INET's StaticGridMobility.
+"""Places nodes in a grid, as INET's StaticGridMobility does: row by row, each node in the center of its cell.
 
-x = marginX + (column + 1/2) separationX and y = marginY + (row + 1/2) separationY, in metres, where column
-and row are the remainder and the quotient of index / columns. There is no area that would say how far apart
-they are, so that is asked for.
+x = marginX + (column + 1/2) separationX and y = marginY + (row + 1/2) separationY, in meters, where column
+and row are the remainder and the quotient of index / columns. Scenarios have no area that would give the
+separation, so it must be set.
 """
 
 import math
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.matching.groups import Group
+from gradysim.scenario.groups import Group
 from gradysim.scenario.value.setting import Setting
 
 GRID_FIELDS = ("num_hosts", "columns", "rows", "margin_{}", "separation_{}")
@@ -22,11 +22,11 @@ AXES_OF_GRID = ("x", "y")
 
 @dataclass(frozen=True)
 class Grid:
-    """Where the nodes of one group start.
+    """The initial positions of the nodes of one group.
 
     Attributes:
-        columns: How many nodes are in a row, along x.
-        margins_m: Where the first cell begins: x and y.
+        columns: Number of nodes in a row, along x.
+        margins_m: Start of the first cell: x and y.
         separations_m: Width of a cell along x and y.
     """
 
@@ -42,9 +42,9 @@ class Grid:
 
 
 def read_grid(settings: Mapping[str, Setting], group: Group, line: Source) -> Grid:
-    """Return the grid of a group. `line` is one that asks for it.
+    """Return the grid of a group. `line` is a line that asks for it.
 
-    Raises ConfigError if it has too few cells, or a separation is missing that it takes.
+    Raises ConfigError if the grid has too few cells or needs a separation that is not set.
     """
     size = group.size or 1
     hosts = _integer(settings, "num_hosts", size)
@@ -55,12 +55,13 @@ def read_grid(settings: Mapping[str, Setting], group: Group, line: Source) -> Gr
     if hosts < size:
         raise ConfigError.at(
             settings["num_hosts"].source,
-            f"{group.written} are {size} nodes; expected as many, or no such line",
+            f"{group.written} has {size} nodes",
+            expected="as many, or no such line",
         )
     if rows * columns < hosts:
         which = settings["rows"] if "rows" in settings else settings["columns"]
         raise ConfigError.at(
-            which.source, f"{rows} rows of {columns} columns have no room for {hosts} nodes; expected more"
+            which.source, f"{rows} rows of {columns} columns have no room for {hosts} nodes", expected="more"
         )
     grid = Grid(columns, _pair(settings, "margin"), _pair(settings, "separation"))
     last = (min(columns, hosts) - 1, (hosts - 1) // columns)
@@ -68,13 +69,13 @@ def read_grid(settings: Mapping[str, Setting], group: Group, line: Source) -> Gr
         field = f"separation_{axis}"
         if cell > 0 and field not in settings:
             key = f"`*.{group.written}.mobility.separation{axis.upper()} = 50m`"
-            raise ConfigError(f"nothing says how far apart the nodes of a grid are; expected {key}", line)
+            raise ConfigError("nothing sets the separation of the nodes in a grid", line, expected=key)
         farthest_m = grid.coordinate_m(cell if axis == "x" else cell * columns, axis)
         if not abs(farthest_m) <= LARGEST_COORDINATE_M:
             text = f"a node would start at {axis} = {farthest_m:.12g}m"
             far = settings.get(field, settings.get(f"margin_{axis}"))
             place = line if far is None else far.source
-            raise ConfigError.at(place, f"{text}; expected at most {LARGEST_COORDINATE_M}m from 0m")
+            raise ConfigError.at(place, text, expected=f"at most {LARGEST_COORDINATE_M}m from 0m")
     return grid
 
 

@@ -91,10 +91,8 @@ def test_more_columns_than_nodes_take_no_separation(folder: Any) -> None:
 
 @pytest.mark.parametrize("line", ["columns = 2", "marginX = 3m", 'typename = "StaticGridMobility"'])
 def test_a_grid_without_a_separation_is_an_error_at_its_line(folder: Any, line: str) -> None:
-    assert folder.error(f"*.uavs[*].mobility.{line}\n").startswith(
-        "test.ini:6: nothing says how far apart the nodes of a grid are; expected"
-        " `*.uavs[*].mobility.separationX = 50m`"
-    )
+    error = folder.mistake(f"*.uavs[*].mobility.{line}\n")
+    assert (error.line, error.expected) == (6, "`*.uavs[*].mobility.separationX = 50m`")
 
 
 def test_one_row_takes_one_separation(folder: Any) -> None:
@@ -105,7 +103,7 @@ def test_one_row_takes_one_separation(folder: Any) -> None:
 @pytest.mark.parametrize(
     ("line", "text"),
     [
-        ("numHosts = 1", "uavs[*] are 2 nodes; expected as many, or no such line"),
+        ("numHosts = 1", "uavs[*] has 2 nodes; expected as many, or no such line"),
         ("columns = 0", "expected a whole number"),
         (
             "rows = 1\n*.uavs[*].mobility.columns = 1",

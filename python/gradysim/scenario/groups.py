@@ -1,19 +1,20 @@
-"""Finds the groups of nodes that a configuration names, and how many nodes each has.
+"""Finds the groups of nodes of a configuration, and the number of nodes of each.
 
 `*.numUavs = 2` or `*.uavs.count = 2` makes uavs[0] and uavs[1]. A name without a count is a single node
-without an index, if its protocol is given by that name: `*.groundStation.protocol.class = ...`. Groups
-come in the order in which they are first named, [General] first, then the bases from the last to the first,
-the own section and the command line; that is the order of node ids.
+without an index, if its protocol is given by that name: `*.groundStation.protocol.class = ...`. Groups are
+ordered by the first line that names them: [General] first, then the bases from the last to the first, the own
+section and the command line. This is the order of node ids.
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from gradysim.scenario.errors import ErrorCollector
 from gradysim.scenario.keys import NETWORK_MODULES
 from gradysim.scenario.keys.interface import NUM_WLAN_INTERFACES
 from gradysim.scenario.keys.node import GROUP_SIZE, PROTOCOL_KEYS
 from gradysim.scenario.keys.omnetpp_options import IGNORED_MODULES
-from gradysim.scenario.matching.lookup import Found, Lookup
+from gradysim.scenario.lookup import Found, Lookup
 from gradysim.scenario.value.pattern import Pattern, compile_pattern
 from gradysim.scenario.value.setting import SettingReader
 
@@ -27,8 +28,8 @@ class Group:
     Attributes:
         name: The name without an index.
         size: The number of nodes, or None for a single node without an index.
-        size_found: The entry that gives the number; None for a single node.
-        size_key: The key below the network by which the size can be given: "numUavs".
+        size_found: The entry that sets the number; None for a single node.
+        size_key: The key below the network that sets the size: "numUavs".
     """
 
     name: str
@@ -37,27 +38,30 @@ class Group:
     size_key: str
 
     def node_names(self) -> list[str]:
-        """Names of the nodes in the order of their indices."""
+        """Return the names of the nodes by index."""
         return [self.name] if self.size is None else [f"{self.name}[{index}]" for index in range(self.size)]
 
     @property
     def written(self) -> str:
-        """The name as people write it in a pattern for all nodes of the group."""
+        """The name in a pattern for all nodes of the group: "uavs[*]"."""
         return self.name if self.size is None else f"{self.name}[*]"
 
 
 def find_groups(lookup: Lookup, settings: SettingReader) -> list[Group]:
-    """All groups, in the order of their node ids. Raises ConfigError if a number of nodes is none."""
+    """Return all groups, in the order of their node ids. Raises ConfigError for bad numbers of nodes."""
     mentions = _Mentions(sorted(lookup.found, key=lambda found: (-found.rank, found.order)))
     groups = []
+    errors = ErrorCollector()
     for name, size_key in mentions.size_keys().items():
         entries = [lookup.first(size_key), lookup.first(name, GROUP_SIZE.path)]
         given = sorted((found for found in entries if found), key=lambda found: found.order)
         if given and not given[0].is_default:
-            size = int(settings.scalar(given[0].entry, GROUP_SIZE.kind, f"{name}.{GROUP_SIZE.path}"))
-            groups.append(Group(name, size, given[0], size_key))
+            with errors.collecting():
+                size = int(settings.scalar(given[0].entry, GROUP_SIZE.kind, f"{name}.{GROUP_SIZE.path}"))
+                groups.append(Group(name, size, given[0], size_key))
         elif name in mentions.with_class:
             groups.append(Group(name, None, None, size_key))
+    errors.raise_all()
     return groups
 
 
@@ -81,9 +85,9 @@ class _Mentions:
                     self.with_class.add(name)
 
     def size_keys(self) -> dict[str, str]:
-        """Names of groups, each with the key that gives its size.
+        """Return {name of a group: the key that sets its size}.
 
-        `*.numUavs` is for one group: of several that differ in case only, the first that is given a protocol.
+        `*.numUavs` is for one group: of several that differ only in case, the first one with a protocol.
         """
         groups = [name for name in self._names if not _is_size_key(name)]
         groups.sort(key=lambda name: name not in self._with_protocol)
@@ -103,7 +107,7 @@ class _Mentions:
 
 
 def _names_single(found: Found) -> bool:
-    """Whether the entry's name below the network has no index."""
+    """Return whether the entry's name below the network has no index."""
     return "[" not in _below_network(found)[0].text
 
 
@@ -112,7 +116,7 @@ def _is_size_key(name: str) -> bool:
 
 
 def _name_and_rest(found: Found) -> tuple[str | None, str | None]:
-    """The group that an entry names (None if not literally), and its literal rest (None if it has none)."""
+    """Return the group that an entry names literally, or None, and its literal rest, or None."""
     name, *rest = _below_network(found)
     group, bracket, _ = name.literal_prefix().partition("[")
     if not group or not (bracket or name.literal):
@@ -121,7 +125,7 @@ def _name_and_rest(found: Found) -> tuple[str | None, str | None]:
 
 
 def _below_network(found: Found) -> list[Pattern]:
-    """The parts below the network; `**.` at the start stands for the network here."""
+    """Return the parts below the network; `**.` at the start stands for the network here."""
     if found.parts is None and found.entry.key.startswith("**."):
         below = compile_pattern(f"*.{found.entry.key[3:]}").split()
         return below[1:] if below else [Pattern(())]

@@ -1,32 +1,29 @@
-"""Builds the nodes of a scenario: for each node the entries in force, and what they say.
+"""Builds the nodes of a scenario from the entries in force for each of them.
 
-Nodes with the same entries in force share the mappings made of them, so that a thousand of them cost little
+Nodes with the same entries in force share the mappings made from them, so a thousand such nodes cost little
 more than one.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import LARGEST_COORDINATE_M
-from gradysim.scenario.errors import BadValue, ConfigError, Source, nearest
+from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
+from gradysim.scenario.groups import Group
+from gradysim.scenario.interfaces import InterfaceBuilder
 from gradysim.scenario.keys import NODE_KEYS, WLAN_KEYS
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID, STATIONARY
 from gradysim.scenario.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
-from gradysim.scenario.matching.groups import Group
-from gradysim.scenario.matching.key_suggestion import is_misspelt_class
-from gradysim.scenario.matching.lookup import Candidates, Found, Lookup
-from gradysim.scenario.matching.struct_reader import read_struct
-from gradysim.scenario.node.autopilot_spec import AutopilotSpec, read_autopilot
-from gradysim.scenario.node.grid import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
-from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.node.interfaces import InterfaceBuilder
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
+from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
+from gradysim.scenario.placement import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
 from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import native_protocol
 from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.unknown_keys import is_misspelled_class
 from gradysim.scenario.value.kinds import Kind
 from gradysim.scenario.value.setting import Setting, SettingReader
 
@@ -37,10 +34,13 @@ _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
 @dataclass(frozen=True, eq=False)
 class _Shared:
-    """What nodes with the same entries in force have in common; row is start and step for each axis.
+    """What nodes with the same entries in force have in common.
 
-    `steps` are the entries that say the steps. On an axis without a row they start in a grid, which
-    `grid_settings` and the size of their group make; `grid_line` is where it is asked for.
+    Attributes:
+        row: Start and step in meters for each axis, or None on an axis of a grid.
+        steps: The entries of the steps.
+        grid_settings: Settings of the grid. Its size also depends on the group.
+        grid_line: The place that asks for the grid, or None.
     """
 
     protocol_parameters: Mapping[str, object]
@@ -58,7 +58,7 @@ class _Shared:
 
 @dataclass(frozen=True, eq=False)
 class ChosenProtocol:
-    """The protocol of some nodes, the line that says so, and the files that it consists of."""
+    """The protocol of some nodes, the line that chooses it, and its files."""
 
     cls: type[IProtocol]
     source: Source
@@ -66,27 +66,50 @@ class ChosenProtocol:
 
 
 def load_protocols(
-    lookup: Lookup, groups: list[Group], settings: SettingReader, loader: ProtocolLoader
+    lookup: Lookup,
+    groups: list[Group],
+    settings: SettingReader,
+    loader: ProtocolLoader,
+    errors: ErrorCollector,
 ) -> dict[str, ChosenProtocol]:
-    """The protocol of each node, by name. Raises ConfigError if a node has none or it does not load."""
+    """Return the protocol of each node, by name.
+
+    Groups with a node that has no protocol, or one that does not load, are left out. `errors` takes the
+    reason. Missing protocols are not reported after other errors, as they often follow from a wrong name.
+    """
+    has_errors = bool(errors.errors)
     candidates = [(key, lookup.candidates(key.path)) for key in PROTOCOL_KEYS]
     protocols: dict[str, ChosenProtocol] = {}
     by_entry: dict[Found, ChosenProtocol] = {}
+
+    def of_node(group: Group, name: str) -> ChosenProtocol:
+        given = [
+            (found.order, key, found)
+            for key, of_key in candidates
+            if (found := of_key.first(name)) is not None and not found.is_default
+        ]
+        if not given:
+            error = _misspelled_class_error(lookup, group, name)
+            raise error or _no_class_error(group, groups, name)
+        _, key, found = min(given, key=lambda each: each[0])
+        if found not in by_entry:
+            load = _load_class if key is PROTOCOL_CLASS else _native_class
+            by_entry[found] = load(found, settings, loader)
+        return by_entry[found]
+
     for group in groups:
-        for name in group.node_names():
-            given = [
-                (found.order, key, found)
-                for key, of_key in candidates
-                if (found := of_key.first(name)) is not None and not found.is_default
-            ]
-            if not given:
-                raise _misspelt_class_error(lookup, group, name) or _no_class_error(group, groups, name)
-            _, key, found = min(given, key=lambda each: each[0])
-            if found not in by_entry:
-                load = _load_class if key is PROTOCOL_CLASS else _native_class
-                by_entry[found] = load(found, settings, loader)
-            protocols[name] = by_entry[found]
+        try:
+            protocols |= {name: of_node(group, name) for name in group.node_names()}
+        except _MissingProtocolError as error:
+            if not has_errors:
+                errors.add(error)
+        except ConfigError as error:
+            errors.add(error)
     return protocols
+
+
+class _MissingProtocolError(ConfigError):
+    """Nothing says which protocol a node runs."""
 
 
 def build_nodes(
@@ -95,16 +118,19 @@ def build_nodes(
     protocols: Mapping[str, ChosenProtocol],
     interface_counts: Mapping[str, int],
     settings: SettingReader,
+    errors: ErrorCollector,
 ) -> tuple[NodeSpec, ...]:
-    """All nodes, in the order of their ids. Raises ConfigError for a value that is none."""
-    builder = _NodeBuilder(lookup, settings)
+    """Return all nodes with a protocol, in the order of their ids. `errors` takes the errors of values."""
+    builder = _NodeBuilder(lookup, settings, errors)
     nodes: list[NodeSpec] = []
     for group in groups:
         for index, name in enumerate(group.node_names()):
+            if name not in protocols:
+                break
             shared = builder.shared(name, protocols[name], interface_counts[name])
             grid = builder.grid(shared, group)
             x, y, z = (
-                _coordinate(name, index, axis, row, step)
+                builder.coordinate_m(name, index, axis, row, step)
                 if row is not None
                 else grid.coordinate_m(index, axis)
                 for axis, row, step in zip(_AXES, shared.row, shared.steps, strict=True)
@@ -130,16 +156,17 @@ def build_nodes(
 
 
 class _NodeBuilder:
-    def __init__(self, lookup: Lookup, settings: SettingReader) -> None:
+    def __init__(self, lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> None:
         self._lookup = lookup
         self._settings = settings
+        self._errors = errors
         self._keys = [
             (key, candidates)
             for key in NODE_KEYS
             if key not in (*PROTOCOL_KEYS, *WLAN_KEYS) and (candidates := lookup.candidates(key.path))
         ]
         self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
-        self._interfaces = InterfaceBuilder(lookup, settings)
+        self._interfaces = InterfaceBuilder(lookup, settings, errors)
         self._shared: dict[object, _Shared] = {}
         self._grids: dict[tuple[_Shared, str], Grid] = {}
 
@@ -164,25 +191,49 @@ class _NodeBuilder:
                 {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},
                 wlan,
                 protocol.source,
-                {
-                    parameter: self._settings.setting(entry.entry, kind, f"{name}.protocol.{parameter}")
-                    for (parameter, kind, _), entry in zip(parameters, found_parameters, strict=True)
-                    if entry and not entry.is_default
-                },
+                self._parameter_settings(name, parameters, found_parameters),
             )
             shared = _with_mappings_of(shared, made) if shared else made
             self._shared[in_force] = shared
         return shared
 
+    def _parameter_settings(
+        self,
+        name: str,
+        parameters: Sequence[tuple[str, Kind, Candidates]],
+        found: Sequence[Found | None],
+    ) -> dict[str, Setting]:
+        read: dict[str, Setting] = {}
+        for (parameter, kind, _), entry in zip(parameters, found, strict=True):
+            if entry and not entry.is_default:
+                with self._errors.collecting():
+                    path = f"{name}.protocol.{parameter}"
+                    read[parameter] = self._settings.setting(entry.entry, kind, path)
+        return read
+
     def grid(self, shared: _Shared, group: Group) -> Grid:
-        """Return the grid of those nodes of a group; one that nobody reads if they are in none."""
+        """Return the grid of those nodes of a group; an empty one if they are not in a grid."""
         if shared.grid_line is None:
             return _NO_GRID
         grid = self._grids.get((shared, group.name))
         if grid is None:
-            grid = read_grid(shared.grid_settings, group, shared.grid_line)
+            grid = _NO_GRID
+            with self._errors.collecting():
+                grid = read_grid(shared.grid_settings, group, shared.grid_line)
             self._grids[shared, group.name] = grid
         return grid
+
+    def coordinate_m(
+        self, node: str, index: int, axis: str, row: tuple[float, float], step: Found | None
+    ) -> float:
+        """Return the initial coordinate of a node on one axis of a row."""
+        coordinate = row[0] + index * row[1]
+        if step is None or abs(coordinate) <= LARGEST_COORDINATE_M:
+            return coordinate
+        text = f"{node} starts at {axis} = {coordinate:.12g}m"
+        expected = f"at most {LARGEST_COORDINATE_M}m from 0m"
+        self._errors.add(ConfigError.at(step.entry.source, text, expected=expected))
+        return 0.0
 
     def _make(
         self,
@@ -199,16 +250,20 @@ class _NodeBuilder:
         def path_of(key: Key) -> str:
             return f"{name}.{key.path}"
 
-        mobility = read_struct("mobility", found, self._settings, path_of)
+        mobility = read_struct("mobility", found, self._settings, path_of, self._errors)
         typename = mobility.get("typename")
         is_static_grid = typename is not None and typename.value == STATIC_GRID
         if is_static_grid:
             mobility["typename"] = replace(mobility["typename"], value=STATIONARY)
             position[STATIC_GRID] = found[_TYPENAME]
+        error_count = len(self._errors.errors)
         position_settings = self._position(found, position, path_of)
+        has_position = len(self._errors.errors) == error_count
         values = {field: float(setting.value) for field, setting in position_settings.items()}
-        autopilot_settings = read_struct("autopilot", found, self._settings, path_of)
-        autopilot = read_autopilot(mobility, autopilot_settings)
+        autopilot_settings = read_struct("autopilot", found, self._settings, path_of, self._errors)
+        autopilot = None
+        with self._errors.collecting():
+            autopilot = read_autopilot(mobility, autopilot_settings)
         if autopilot is not None:
             mobility["typename"] = replace(mobility["typename"], value=MASSLESS)
         row = tuple(_axis_row(axis, position, values) for axis in _AXES)
@@ -221,9 +276,9 @@ class _NodeBuilder:
             row,
             steps,
             position_settings,
-            first.entry.source if first else None,
+            first.entry.source if first and has_position else None,
             mobility=mobility,
-            node=read_struct("node", found, self._settings, path_of),
+            node=read_struct("node", found, self._settings, path_of, self._errors),
             wlan=wlan,
             autopilot=autopilot,
             idle_autopilot=autopilot_settings if autopilot is None else {},
@@ -232,18 +287,18 @@ class _NodeBuilder:
     def _position(
         self, found: Mapping[Key, Found], by_field: Mapping[str, Found], path_of: Callable[[Key], str]
     ) -> dict[str, Setting]:
-        """What the entries say of where a node starts; those that are not in force are only checked."""
+        """Read the settings of a node's initial position; those that are not in force are only checked."""
         idle = {field for axis in _AXES for field in _idle_fields(axis, by_field)}
         checked = {key: entry for key, entry in found.items() if key.field in idle}
         others = {key: entry for key, entry in found.items() if key.field not in idle}
-        return {
-            **(read_struct("position", checked, self._settings.for_checks(), path_of) if checked else {}),
-            **read_struct("position", others, self._settings, path_of),
-        }
+        settings: dict[str, Setting] = {}
+        if checked:
+            settings = read_struct("position", checked, self._settings.for_checks(), path_of, self._errors)
+        return settings | read_struct("position", others, self._settings, path_of, self._errors)
 
 
 def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
-    """The same for a node with the same entries in force, sharing what is equal in both."""
+    """Return `made` with the mappings of `other` where they are equal."""
     return replace(
         made,
         protocol_sources=other.protocol_sources,
@@ -253,7 +308,7 @@ def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
 
 
 def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:
-    """The entries that place nodes in a grid along an axis."""
+    """Return the entries that place nodes in a grid along an axis."""
     if axis not in AXES_OF_GRID:
         return []
     fields = (STATIC_GRID, *(field.format(axis) for field in GRID_FIELDS))
@@ -261,7 +316,7 @@ def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:
 
 
 def _idle_fields(axis: str, found: Mapping[str, Found]) -> set[str]:
-    """The fields that say nothing of where nodes start on an axis, as others are in force there."""
+    """Return the fields without effect on the initial position along an axis."""
     initial, row = {f"initial_{axis}"}, {f"line_start_{axis}", f"line_step_{axis}"}
     grid = {field.format(axis) for field in GRID_FIELDS if "{" in field}
     orders = {field: entry.order for field, entry in found.items() if field in initial | row}
@@ -273,7 +328,7 @@ def _idle_fields(axis: str, found: Mapping[str, Found]) -> set[str]:
 def _axis_row(
     axis: str, found: Mapping[str, Found], values: Mapping[str, float]
 ) -> tuple[float, float] | None:
-    """Start and step along one axis in metres; None in a grid. Of all three the first entry is in force."""
+    """Return start and step along one axis in meters; None in a grid. The first entry of all is in force."""
     initial = found.get(f"initial_{axis}")
     row = [entry.order for field in ("start", "step") if (entry := found.get(f"line_{field}_{axis}"))]
     grid = [entry.order for entry in _grid_entries(axis, found)]
@@ -282,17 +337,6 @@ def _axis_row(
     if initial is not None and all(initial.order < order for order in row):
         return values.get(f"initial_{axis}", 0.0), 0.0
     return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
-
-
-def _coordinate(node: str, index: int, axis: str, row: tuple[float, float], step: Found | None) -> float:
-    """Where a node starts on one axis in metres. Raises ConfigError if its step leads too far."""
-    coordinate = row[0] + index * row[1]
-    if step is not None and not abs(coordinate) <= LARGEST_COORDINATE_M:
-        text = (
-            f"{node} starts at {axis} = {coordinate:.12g}m; expected at most {LARGEST_COORDINATE_M}m from 0m"
-        )
-        raise ConfigError.at(step.entry.source, text)
-    return coordinate
 
 
 def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> ChosenProtocol:
@@ -314,22 +358,24 @@ def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> C
         raise error.at(entry.source, expected="one that `gradysim keys protocol` lists") from error
 
 
-def _misspelt_class_error(lookup: Lookup, group: Group, node: str) -> ConfigError | None:
-    """The error about the line that was meant to say it; None if there is none."""
+def _misspelled_class_error(lookup: Lookup, group: Group, node: str) -> ConfigError | None:
+    """Return the error for the line that was meant to set the protocol; None if there is none."""
     for found in lookup.found:
         meant = _without_index(found, group, lookup.network)
         name, rest = found.name_pattern(), found.rest_pattern()
         if meant is None and name is not None and (name.matches(node) or name.matches(group.name)):
-            meant = PROTOCOL_CLASS if is_misspelt_class(rest) else None
+            meant = PROTOCOL_CLASS if is_misspelled_class(rest) else None
         if meant is not None:
-            expected = f"`*.{group.written}.{meant.path}`"
-            problem = f"`{found.entry.key}` matches no parameter, and nothing says which protocol {node} runs"
-            return ConfigError(f"{problem}; expected {expected}", found.entry.source)
+            return _MissingProtocolError(
+                f"`{found.entry.key}` matches no parameter, and nothing says which protocol {node} runs",
+                found.entry.source,
+                expected=f"`*.{group.written}.{meant.path}`",
+            )
     return None
 
 
 def _without_index(found: Found, group: Group, network: str) -> Key | None:
-    """The key by which an entry says what the nodes of a group run, but for `[*]` after the group's name."""
+    """Return the key that an entry would set if it had `[*]` after the group's name."""
     if found.is_default or group.written == group.name:
         return None
     matches = found.pattern.matches
@@ -339,7 +385,7 @@ def _without_index(found: Found, group: Group, network: str) -> Key | None:
 def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:
     keys = {other.name: other.size_key for other in groups if other is not group and other.size is not None}
     match = nearest(group.name, keys)
-    return ConfigError(
+    return _MissingProtocolError(
         f"nothing says which protocol {node} runs",
         group.size_found.entry.source if group.size_found else None,
         expected=f'`*.{group.written}.protocol.class = "file.py:Class"`',

@@ -1,14 +1,18 @@
+"""Fields of a struct, from the entries in force."""
+
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.matching.lookup import Lookup, network_name
+from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.keys.key import Key
+from gradysim.scenario.lookup import Lookup, network_name, read_struct
+from gradysim.scenario.value.kinds import number, quantity
 from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.value.setting import SettingReader
 
 
 def entries(*keys: str) -> list[Ranked]:
@@ -49,9 +53,7 @@ def test_the_name_of_the_network_has_no_variables() -> None:
     network = Entry("network", "${x=A, B}", Source(Path("a.ini"), 9, "network", "${x=A, B}"), "General")
     with pytest.raises(ConfigError) as caught:
         network_name(network)
-    assert str(caught.value) == (
-        "a.ini:9: network = ${x=A, B}: it is the same in all runs; expected a name without variables"
-    )
+    assert caught.value.line == 9
 
 
 @pytest.mark.parametrize(
@@ -69,9 +71,7 @@ def test_what_is_no_name_of_a_network_is_refused(text: str) -> None:
     network = Entry("network", text, Source(Path("a.ini"), 9, "network", text), "General")
     with pytest.raises(ConfigError) as caught:
         network_name(network)
-    assert str(caught.value) == (
-        f"a.ini:9: network = {text}: expected the name of a network, such as `Network` or `package.Network`"
-    )
+    assert (caught.value.line, caught.value.value) == (9, text)
 
 
 def test_what_omnetpp_alone_reads_is_left_out() -> None:
@@ -112,3 +112,45 @@ def test_agrees_with_matching_whole_paths_one_by_one(keys: list[str], name: str,
         None,
     )
     assert in_force(Lookup(entries(*keys)), name, rest) == expected
+
+
+POWER = Key("radio.power", "radio.power_w", quantity("W"), "")
+LEVEL = Key("radio.level", "radio.power_w", quantity("W"), "")  # another key for the same field
+GAIN = Key("radio.gain", "radio.gain", number(), "")
+SPEED = Key("mobility.speed", "mobility.speed_mps", quantity("mps"), "")
+
+
+def radio(*lines: str, node: str = "uavs[0]") -> dict[str, object]:
+    """The fields of a node's radio that lines of a file set."""
+    entries = [line.partition("=") for line in lines]
+    lookup = Lookup(
+        [
+            Ranked(0, Entry(key, text, Source(Path("a.ini"), number, key), "General"))
+            for number, (key, _, text) in enumerate(entries)
+        ]
+    )
+    found = {key: lookup.first(node, key.path) for key in (POWER, LEVEL, GAIN, SPEED)}
+    found = {key: entry for key, entry in found.items() if entry is not None}
+    errors = ErrorCollector()
+    settings = read_struct("radio", found, SettingReader(), lambda key: f"{node}.{key.path}", errors)
+    errors.raise_all()
+    return {field: setting.value for field, setting in settings.items()}
+
+
+def test_only_what_is_set_of_that_struct_is_a_field() -> None:
+    assert radio("*.uavs[*].radio.gain=3", "*.uavs[*].mobility.speed=4mps") == {"gain": 3}
+
+
+def test_of_two_keys_for_one_field_the_first_line_is_in_force() -> None:
+    power, level = "*.uavs[*].radio.power=1W", "*.uavs[*].radio.level=2W"
+    assert (radio(power, level), radio(level, power)) == ({"power_w": 1}, {"power_w": 2})
+
+
+def test_a_default_that_comes_first_keeps_the_other_line_out() -> None:
+    assert radio("*.uavs[*].radio.level=default", "*.uavs[*].radio.power=1W") == {}
+
+
+def test_each_node_draws_its_own() -> None:
+    """The path of the parameter is what tells the nodes from each other."""
+    line = "*.uavs[*].radio.gain=uniform(0, 1)"
+    assert len({radio(line, node=f"uavs[{number}]")["gain"] for number in range(3)}) == 3

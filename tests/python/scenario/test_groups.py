@@ -3,9 +3,9 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.matching.groups import Group, find_groups
-from gradysim.scenario.matching.lookup import Lookup
+from gradysim.scenario.groups import Group, find_groups
+from gradysim.scenario.ini import Entry
+from gradysim.scenario.lookup import Lookup
 from gradysim.scenario.value.setting import SettingReader
 
 
