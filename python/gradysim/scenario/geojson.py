@@ -21,7 +21,7 @@ from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean, nearest, nearest_file
-from gradysim.scenario.keys.environment import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
+from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
 from gradysim.scenario.lookup import Lookup
 from gradysim.scenario.obstacles import (
     Corner,

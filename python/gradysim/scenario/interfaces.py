@@ -6,27 +6,25 @@ Interfaces with the same entries in force share one InterfaceSpec, also those of
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from gradysim.scenario.bands import BAND, CHANNELS
 from gradysim.scenario.errors import ConfigError, ErrorCollector
 from gradysim.scenario.groups import Group
-from gradysim.scenario.keys import WLAN_KEYS
-from gradysim.scenario.keys.bands import BAND, CHANNELS
-from gradysim.scenario.keys.interface import (
-    IEEE802154,
-    INTERFACE_TYPENAME,
-    NUM_WLAN_INTERFACES,
-    at_interface,
-)
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.radio import (
+from gradysim.scenario.keys import (
     BAND_BESIDE_FREQUENCY,
     BAND_NAME,
     BAND_OF_CHANNEL,
     CENTER_FREQUENCY,
     CHANNEL_NUMBER,
+    IEEE802154,
+    INTERFACE_TYPENAME,
+    NUM_WLAN_INTERFACES,
     OF_802154,
+    WLAN_KEYS,
+    at_interface,
 )
 from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
 from gradysim.scenario.node_spec import STRUCTS, InterfaceSpec
+from gradysim.scenario.schema import Key
 from gradysim.scenario.value.setting import SettingReader
 
 

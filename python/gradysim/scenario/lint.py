@@ -9,8 +9,7 @@ from pathlib import Path
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue, Source
 from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.keys.radio import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY
-from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY, has_radios
 from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.pattern_index import PatternIndex

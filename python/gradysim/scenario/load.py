@@ -8,9 +8,9 @@ from typing import Any
 
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector, Source
 from gradysim.scenario.ini import Entry, Ranked, read_ini, read_overrides, search_order, what_to_run_instead
-from gradysim.scenario.keys.options import NETWORK, OPTIONS
 from gradysim.scenario.lookup import is_option, network_name, options_in_force
 from gradysim.scenario.network import Network, Networks
+from gradysim.scenario.options import NETWORK, OPTIONS
 from gradysim.scenario.runs.iterations import name_iterations
 from gradysim.scenario.runs.labels import free_text, with_labels
 from gradysim.scenario.runs.numbered_runs import numbered_runs

@@ -13,15 +13,16 @@ from typing import NamedTuple
 
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector
 from gradysim.scenario.ini import Entry, Ranked
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.omnetpp_options import (
+from gradysim.scenario.options import (
     IGNORED_BEGINNINGS,
     IGNORED_ENDS,
     IGNORED_MODULES,
     IGNORED_OPTIONS,
+    NETWORK,
+    OPTIONS,
 )
-from gradysim.scenario.keys.options import NETWORK, OPTIONS
 from gradysim.scenario.pattern_index import PatternIndex
+from gradysim.scenario.schema import Key
 from gradysim.scenario.value.parameter_context import differs_between_parameters
 from gradysim.scenario.value.pattern import Pattern, compile_pattern
 from gradysim.scenario.value.setting import Setting, SettingReader

@@ -12,7 +12,6 @@ from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry, Ranked
 from gradysim.scenario.interfaces import interface_counts
 from gradysim.scenario.keys import NETWORK_KEYS
-from gradysim.scenario.keys.key import Key
 from gradysim.scenario.lookup import Lookup, is_ignored, is_option, read_struct
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.nodes import build_nodes, load_protocols
@@ -24,6 +23,7 @@ from gradysim.scenario.runs.iterations import IterationVariable
 from gradysim.scenario.runs.unread_variables import UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.runs.variables import depends_on_run, substitute, substituted
 from gradysim.scenario.scenario import CommunicationMediumSpec
+from gradysim.scenario.schema import Key
 from gradysim.scenario.unknown_keys import (
     NoSuchNodeError,
     ProtocolAndInterfaces,

@@ -9,7 +9,7 @@ from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean
-from gradysim.scenario.keys.mobility import ARDUPILOT
+from gradysim.scenario.keys import ARDUPILOT
 from gradysim.scenario.protocol.origin import Origin
 from gradysim.scenario.protocol.parameters import can_be_set, parameters_of
 from gradysim.scenario.protocol.portable import class_from, portable

@@ -13,16 +13,24 @@ from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.groups import Group
 from gradysim.scenario.interfaces import InterfaceBuilder
-from gradysim.scenario.keys import NODE_KEYS, WLAN_KEYS
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID, STATIONARY
-from gradysim.scenario.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
+from gradysim.scenario.keys import (
+    MASSLESS,
+    MOBILITY_KEYS,
+    NODE_KEYS,
+    PROTOCOL_CLASS,
+    PROTOCOL_KEYS,
+    PROTOCOL_TYPENAME,
+    STATIC_GRID,
+    STATIONARY,
+    WLAN_KEYS,
+)
 from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
 from gradysim.scenario.placement import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
 from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import native_protocol
 from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.schema import Key
 from gradysim.scenario.unknown_keys import is_misspelled_class
 from gradysim.scenario.value.kinds import Kind
 from gradysim.scenario.value.setting import Setting, SettingReader

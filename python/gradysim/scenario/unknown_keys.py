@@ -13,13 +13,23 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.groups import Group
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
-from gradysim.scenario.keys.environment import OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.keys.interface import WLAN, at_interface, interface_in, written_for
-from gradysim.scenario.keys.node import GROUP_SIZE, PROTOCOL_CLASS, PROTOCOL_KEYS
-from gradysim.scenario.keys.omnetpp_options import REFUSED_OPTIONS
-from gradysim.scenario.keys.options import NETWORK, OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.keys import (
+    GROUP_SIZE,
+    NETWORK_KEYS,
+    NETWORK_MODULES,
+    NODE_KEYS,
+    OBSTACLE_KEYS,
+    PROTOCOL_CLASS,
+    PROTOCOL_KEYS,
+    WLAN,
+    WLAN_KEYS,
+    at_interface,
+    interface_in,
+    obstacle_path,
+    written_for,
+)
 from gradysim.scenario.lookup import Found, Lookup, is_ignored
+from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
 from gradysim.scenario.pattern_index import TextIndex
 from gradysim.scenario.protocol.parameter_unit import annotations_of
 from gradysim.scenario.protocol.parameters import parameters_of

@@ -6,7 +6,7 @@ import pytest
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.keys.options import OPTIONS
+from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.value.expression import parse_value
 
 PACKETS = '    def handle_packet(self, message): raise RuntimeError("spoilt")'

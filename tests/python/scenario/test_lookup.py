@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.ini import Entry, Ranked
-from gradysim.scenario.keys.key import Key
 from gradysim.scenario.lookup import Lookup, network_name, read_struct
+from gradysim.scenario.schema import Key
 from gradysim.scenario.value.kinds import number, quantity
 from gradysim.scenario.value.pattern import compile_pattern
 from gradysim.scenario.value.setting import SettingReader

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys.options import OPTIONS
+from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.runs.constraint import Constraint
 from gradysim.scenario.runs.iterations import (
     MAX_VALUES,

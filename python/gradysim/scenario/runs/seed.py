@@ -5,7 +5,7 @@ from operator import index
 
 from gradysim.scenario.errors import OF_SCRIPT, ConfigError
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys.options import LARGEST_SEED, OPTIONS
+from gradysim.scenario.options import LARGEST_SEED, OPTIONS
 from gradysim.scenario.runs.variables import substitute
 from gradysim.scenario.value.setting import read_scalar
 

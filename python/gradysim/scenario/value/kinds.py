@@ -17,6 +17,7 @@ from gradysim.scenario.value.units import UNITS, Dimension
 Scalar = float | int | str | bool
 
 MAX_INTEGER = 2**31 - 1
+_STRONGEST_W = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,24 +86,54 @@ def coordinate() -> Kind:
     return quantity("m", at_least=-LARGEST_COORDINATE_M, at_most=LARGEST_COORDINATE_M)
 
 
-def number(at_least: float | None = None, above: float | None = None, at_most: float | None = None) -> Kind:
-    """A finite number without a unit, of a range."""
+def angle() -> Kind:
+    """How something is turned, in radians."""
+    return quantity("rad", shown="deg")
+
+
+def level(zero: bool = False) -> Kind:
+    """A power at a receiver, in watts; `zero` is allowed or not.
+
+    At most 1 W (30 dBm): more than any radio receives, and less than the usual levels without their minus
+    sign. The engine has no such bound: in networks built in Python, radios may stand side by side.
+    """
+    power = quantity("W", at_least=0, shown="dBm") if zero else quantity("W", above=0, shown="dBm")
+
+    def convert(value: Value) -> Scalar:
+        power_w = power.convert(value)
+        if float(power_w) > _STRONGEST_W:
+            raise BadValue(f"`{value}` is more than any radio receives", "; is a minus sign missing?")
+        return power_w
+
+    return replace(power, expected=f"{power.expected} and at most {_STRONGEST_W}W", convert=convert)
+
+
+def number(
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
+    special: float | None = None,
+) -> Kind:
+    """A finite number without a unit, of a range; `special` is allowed beside it."""
 
     def convert(value: Value) -> float:
         result = float(_plain(_quantity_of(value)).number)
-        _check_range(result, value, at_least, above, at_most, None)
+        _check_range(result, value, at_least, above, at_most, special)
         return result
 
+    expected = "a plain number" + _range_text(at_least, above, at_most, "")
     return Kind(
-        "a plain number" + _range_text(at_least, above, at_most, ""),
+        expected + (f", or {special:g}" if special is not None else ""),
         convert,
         unit="number",
         show=lambda value: f"{value:g}",
     )
 
 
-def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> Kind:
-    """A whole number, written without a point; what the engine takes as an int, if nothing else is said."""
+def integer(
+    at_least: int | None = None, at_most: int | None = MAX_INTEGER, special: int | None = None
+) -> Kind:
+    """An integer, written without a point, of a range; `special` is allowed beside it."""
 
     def convert(value: Value) -> int:
         result = _plain(_quantity_of(value)).number
@@ -111,15 +142,16 @@ def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> K
                 hint = f"; did you mean `{int(result)}`, or `int(...)` of an expression?"
                 raise BadValue("it is a floating-point number", hint)
             raise BadValue(f"`{value}` is no whole number")
-        _check_range(result, value, at_least, None, at_most, None)
+        _check_range(result, value, at_least, None, at_most, special)
         return result
 
-    return Kind("a whole number" + _range_text(at_least, None, at_most, ""), convert, unit="whole number")
+    expected = "a whole number" + _range_text(at_least, None, at_most, "")
+    return Kind(expected + (f", or {special}" if special is not None else ""), convert, unit="whole number")
 
 
-def whole_bytes() -> Kind:
+def whole_bytes(at_least: int = 0, at_most: int = MAX_INTEGER) -> Kind:
     """A size, converted to a whole number of bytes."""
-    size = quantity("B", at_least=0, at_most=MAX_INTEGER)
+    size = quantity("B", at_least=at_least, at_most=at_most)
 
     def convert(value: Value) -> int:
         result = float(size.convert(value))
@@ -130,13 +162,13 @@ def whole_bytes() -> Kind:
     return replace(size, convert=convert)
 
 
-def power_ratio() -> Kind:
-    """A level in decibels, converted to a linear ratio of powers."""
-    level = quantity("dB", at_least=-300, at_most=300)
+def power_ratio(at_least_db: float = -300) -> Kind:
+    """A ratio of powers in decibels, converted to a linear one."""
+    decibels = quantity("dB", at_least=at_least_db, at_most=300)
     return replace(
-        level,
-        convert=lambda value: ratio_from_db(float(level.convert(value))),
-        show=lambda ratio: level.show(db_from_ratio(float(ratio))),
+        decibels,
+        convert=lambda value: ratio_from_db(float(decibels.convert(value))),
+        show=lambda ratio: decibels.show(db_from_ratio(float(ratio))),
     )
 
 
