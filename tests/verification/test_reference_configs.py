@@ -7,7 +7,7 @@ import pytest
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.ini import config_names, read_ini

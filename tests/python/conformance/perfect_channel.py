@@ -8,7 +8,7 @@ import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario.errors import Source
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
