@@ -59,7 +59,7 @@ def test_a_band_alone_is_its_first_channel() -> None:
 def test_the_nearest_name_is_suggested() -> None:
     with pytest.raises(BadValue) as caught:
         first_channel_of_band().convert(parse_value('"5 GHz (20MHz)"'))
-    assert "5 GHz (20 MHz)" in caught.value.hint
+    assert "5 GHz (20 MHz)" == caught.value.suggestion
 
 
 @pytest.mark.parametrize(("number", "centre_mhz"), [(11, 2405), (12, 2410), (20, 2450), (26, 2480)])
