@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from gradysim.protocol.position import Position
 from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
-from gradysim.scenario.protocol.native import NativeProtocol
 from gradysim.scenario.scenario import Scenario
 from gradysim.sitl.arducopter import find_arducopter
 from gradysim.sitl.dialect import load_dialect

@@ -16,7 +16,7 @@
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.load import load_scenarios
 from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.value.setting import Setting
 

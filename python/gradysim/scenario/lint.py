@@ -12,8 +12,8 @@ from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY, has_radios
 from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.parameters import annotations_of, unit_of
 from gradysim.scenario.pattern_index import PatternIndex
-from gradysim.scenario.protocol.parameter_unit import annotations_of, unit_of
 from gradysim.scenario.runs.unread_variables import UnreadVariables
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.value.expression import parse_value

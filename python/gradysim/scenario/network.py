@@ -13,11 +13,11 @@ from gradysim.scenario.ini import Entry, Ranked
 from gradysim.scenario.interfaces import interface_counts
 from gradysim.scenario.keys import NETWORK_KEYS
 from gradysim.scenario.lookup import Lookup, is_ignored, is_option, read_struct
+from gradysim.scenario.native_protocols import file_of_native
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.nodes import build_nodes, load_protocols
 from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
-from gradysim.scenario.protocol.loader import ProtocolLoader
-from gradysim.scenario.protocol.native import file_of_native
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.runs.file_hashes import FileHashes
 from gradysim.scenario.runs.iterations import IterationVariable
 from gradysim.scenario.runs.unread_variables import UnreadVariables, line_instead, unread_variables

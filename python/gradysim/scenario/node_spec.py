@@ -10,9 +10,8 @@ from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean
 from gradysim.scenario.keys import ARDUPILOT
-from gradysim.scenario.protocol.origin import Origin
-from gradysim.scenario.protocol.parameters import can_be_set, parameters_of
-from gradysim.scenario.protocol.portable import class_from, portable
+from gradysim.scenario.parameters import can_be_set, parameters_of
+from gradysim.scenario.protocol_modules import Origin, origin_of
 from gradysim.scenario.value.setting import Setting
 from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
 from gradysim.sitl.unprivileged import DEFAULT_USER
@@ -181,9 +180,9 @@ class NodeSpec:
 
     def __reduce__(self) -> tuple[object, ...]:
         """Support pickle: other processes load the protocol from its file."""
-        return _from_fields, ({**vars(self), "protocol": portable(self.protocol)},)
+        return _from_fields, ({**vars(self), "protocol": origin_of(self.protocol) or self.protocol},)
 
 
 def _from_fields(fields: dict[str, Any]) -> NodeSpec:
     protocol: type[IProtocol] | Origin = fields["protocol"]
-    return NodeSpec(**{**fields, "protocol": class_from(protocol)})
+    return NodeSpec(**{**fields, "protocol": protocol.load() if isinstance(protocol, Origin) else protocol})

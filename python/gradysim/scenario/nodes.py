@@ -25,11 +25,11 @@ from gradysim.scenario.keys import (
     WLAN_KEYS,
 )
 from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
+from gradysim.scenario.native_protocols import native_protocol
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
+from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.placement import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
-from gradysim.scenario.protocol.loader import ProtocolLoader
-from gradysim.scenario.protocol.native import native_protocol
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.schema import Key
 from gradysim.scenario.unknown_keys import is_misspelled_class
 from gradysim.scenario.value.kinds import Kind

@@ -30,9 +30,8 @@ from gradysim.scenario.keys import (
 )
 from gradysim.scenario.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.parameters import annotations_of, parameters_of
 from gradysim.scenario.pattern_index import TextIndex
-from gradysim.scenario.protocol.parameter_unit import annotations_of
-from gradysim.scenario.protocol.parameters import parameters_of
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.pattern import Pattern, compile_pattern
 
