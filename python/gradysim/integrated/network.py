@@ -52,15 +52,17 @@ def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:
     """Return the errors of the medium and of one node of each kind together with the first error."""
     errors = ErrorCollector()
     errors.add(first)
-    medium: MediumConfig | None = None
-    with errors.collecting():
+    network: Network | None = None
+    with errors.collecting(), errors_at(settings_by_target("medium", scenario.medium)):
         medium = medium_config(scenario)
+        network = load_netsim().Network(medium, scenario.seed)
+        powers = PowersForRanges(medium)
     for spec in one_of_each_kind(scenario.nodes):
         with errors.collecting():
-            config = node_config(spec)
-            if medium is not None:
-                with node_errors_at(spec, scenario.medium):
-                    PowersForRanges(medium).set_powers(config, spec)
+            if network is None:
+                node_config(spec)
+            else:
+                add_node(network, spec, powers, scenario.medium)
     return errors.combined()
 
 
