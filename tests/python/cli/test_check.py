@@ -56,9 +56,7 @@ def test_errors_of_all_lines_are_reported_in_their_order(
 def test_errors_of_the_engine_are_reported_for_each_struct(
     file: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    file.write_text(
-        BASE + "*.uavs[0].wlan[*].bitrate = 3.14Mbps\n*.uavs[1].wlan[*].bitrate = 1.23Mbps\n"
-    )
+    file.write_text(BASE + "*.uavs[0].wlan[*].bitrate = 3.14Mbps\n*.uavs[1].wlan[*].bitrate = 1.23Mbps\n")
     assert main(["check", str(file)]) == 2
     assert lines_of(capfd.readouterr().out, file) == [4, 5]
 
