@@ -4,11 +4,11 @@
 """
 
 import re
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
+from types import TracebackType
 from typing import Self
 
 _LONGEST_VALUE = 200
@@ -169,13 +169,20 @@ class ErrorCollector:
         """Add a mistake, or several."""
         self.errors += error.errors if isinstance(error, ConfigErrors) else [error]
 
-    @contextmanager
-    def collecting(self) -> Iterator[None]:
-        """Add the ConfigError that ends the block."""
-        try:
-            yield
-        except ConfigError as error:
-            self.add(error)
+    def collecting(self) -> Self:
+        """Return a context manager that adds the ConfigError that ends its block."""
+        return self
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self, _type: type[BaseException] | None, error: BaseException | None, _traceback: TracebackType | None
+    ) -> bool:
+        if not isinstance(error, ConfigError):
+            return False
+        self.add(error)
+        return True
 
     def combined(self) -> ConfigError:
         """Return the errors, at least one, as one: the error itself if there is only one."""

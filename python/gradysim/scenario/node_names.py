@@ -11,7 +11,7 @@ ALL = "all"
 
 
 def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
-    """Return the nodes of these names, each once, in the order of ids; none for names that it has not.
+    """Return the nodes with these names, each once, in the order of ids. Unknown names are ignored.
 
     `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `ALL`.
     """
@@ -20,9 +20,9 @@ def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
 
 
 def check_node_names(scenarios: Sequence[Scenario], names: Iterable[str], option: str) -> None:
-    """Raise ConfigError for the first name that none of these runs of a configuration has.
+    """Raise ConfigError for the first name that exists in none of these runs of a configuration.
 
-    `option` is what the names were given to, `--pcap`.
+    `option` is the option that has the names, `--pcap`.
     """
     networks = list({id(scenario.nodes): scenario for scenario in scenarios}.values())
     for name in names:
