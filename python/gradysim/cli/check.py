@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.arguments import FileArgument, SetOption
 from gradysim.cli.exit_code import MISTAKE, OK, say_mistake
-from gradysim.cli.run_options import ModeOption
-from gradysim.cli.scenarios import check, placed
+from gradysim.cli.options import FileArgument, Mode, SetOption
+from gradysim.cli.runs import check, placed
 from gradysim.cli.warnings import findings_of
 
 if TYPE_CHECKING:
@@ -35,7 +34,7 @@ def check_file(
     /,
     *,
     config: ConfigsOption = None,
-    mode: ModeOption = "integrated",
+    mode: Annotated[Mode, Parameter(help="The mode to check for, as of `gradysim run`.")] = "integrated",
     settings: SetOption = (),
 ) -> int:
     """Report all errors and warnings of a file, sorted by line."""
@@ -63,7 +62,7 @@ def check_file(
 
 
 def _checked(
-    file: "Path", config: str, mode: ModeOption, settings: "Sequence[str]", errors: "ErrorCollector"
+    file: "Path", config: str, mode: Mode, settings: "Sequence[str]", errors: "ErrorCollector"
 ) -> "list[Finding]":
     """Check one configuration. Returns the lint findings; `errors` takes the errors."""
     if mode == "prototype":
