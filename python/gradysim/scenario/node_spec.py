@@ -6,15 +6,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gradysim.protocol.checked_values import checked_point
-from gradysim.protocol.defaults import SPEED_MPS
+from gradysim.protocol.defaults import (
+    AUTOPILOT_USER,
+    LOWEST_AUTOPILOT_SPEED_MPS,
+    SPEED_MPS,
+    is_too_slow_for_autopilot,
+)
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean
 from gradysim.scenario.keys import ARDUPILOT
 from gradysim.scenario.parameters import can_be_set, parameters_of
 from gradysim.scenario.protocol_modules import Origin, origin_of
 from gradysim.scenario.value.setting import Setting
-from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
-from gradysim.sitl.unprivileged import DEFAULT_USER
 
 
 @dataclass(frozen=True)
@@ -65,7 +68,7 @@ class AutopilotSpec:
         parameters_source: The place of its parameters, or `source`.
         program: An arducopter for SITL, or an ArduPilot checkout; None for that of the environment.
         user: The user that it runs as if root runs the simulation; None for root.
-        speed_mps: Ground speed until the protocol sets another, >= `LOWEST_SPEED_MPS`.
+        speed_mps: Ground speed until the protocol sets another, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
         parameters: Of ArduCopter, by name.
     """
 
@@ -74,7 +77,7 @@ class AutopilotSpec:
     user_source: Source
     parameters_source: Source
     program: str | None = None
-    user: str | None = DEFAULT_USER
+    user: str | None = AUTOPILOT_USER
     speed_mps: float = SPEED_MPS
     parameters: Mapping[str, float] = field(default_factory=dict)
 
@@ -89,9 +92,9 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
     if typename is None or typename.value != ARDUPILOT:
         return None
     speed = mobility.get("speed_mps")
-    if speed is not None and is_too_slow(float(speed.value)):
+    if speed is not None and is_too_slow_for_autopilot(float(speed.value)):
         raise ConfigError.at(
-            speed.source, "too slow for an autopilot", expected=f"at least {LOWEST_SPEED_MPS:g}mps"
+            speed.source, "too slow for an autopilot", expected=f"at least {LOWEST_AUTOPILOT_SPEED_MPS:g}mps"
         )
     program = autopilot.get("program")
     user = autopilot.get("user")
@@ -102,7 +105,7 @@ def read_autopilot(mobility: Mapping[str, Setting], autopilot: Mapping[str, Sett
         user_source=user.source if user else typename.source,
         parameters_source=parameters.source if parameters else typename.source,
         program=str(program.value) or None if program else None,
-        user=str(user.value) or None if user else DEFAULT_USER,
+        user=str(user.value) or None if user else AUTOPILOT_USER,
         speed_mps=float(speed.value) if speed else SPEED_MPS,
         parameters=_parameters(parameters) if parameters else {},
     )
@@ -177,6 +180,12 @@ class NodeSpec:
                 )
         place = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
         object.__setattr__(self, "initial_position", place)
+
+    @property
+    def has_telemetry(self) -> bool:
+        """Whether the telemetry interval is not 0."""
+        interval = self.mobility.get("telemetry_interval_s")
+        return interval is None or interval.value != 0
 
     def __reduce__(self) -> tuple[object, ...]:
         """Support pickle: other processes load the protocol from its file."""
