@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.encapsulator.failure import add_protocol_note
-from gradysim.encapsulator.garbage_collection import garbage_left_alone
+from gradysim.encapsulator.interface import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.encapsulator.watched_provider import watch_tracked_variables
+from gradysim.encapsulator.run_context import gc_paused
+from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.integrated.autopilot_nodes import AutopilotNodes
 from gradysim.integrated.capture import (
     capture_errors,
@@ -90,7 +90,7 @@ class IntegratedRun(ScenarioRun):
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = frozenset(checked_ids("fates_at", fates_at, len(scenario.nodes)))
         files = checked_captures(captures or {}, scenario)
-        with garbage_left_alone():
+        with gc_paused():
             self._network, self._nodes = build_network(scenario)
         start_captures(self._network, scenario, files)
         # Protocols and network form a cycle; `execute` breaks it, but may never be called.
@@ -123,6 +123,7 @@ class IntegratedRun(ScenarioRun):
                 steer=self._autopilots.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
+            encapsulator.provider.has_telemetry = spec.has_telemetry
             if recorder is not None:
                 _record_tracked_variables(encapsulator, node, recorder)
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))

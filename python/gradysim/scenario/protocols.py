@@ -8,7 +8,7 @@ import traceback
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.interface import IProtocol, is_protocol_class
 from gradysim.scenario.errors.config_error import BadValue
 from gradysim.scenario.errors.nearest import did_you_mean, misspelt
 from gradysim.scenario.errors.sibling_files import file_meant
@@ -104,11 +104,11 @@ def _import_module(name: str, folder: Path, class_name: str) -> ModuleType:
 
 def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     cls = getattr(module, name, None)
-    protocols = [key for key, value in vars(module).items() if _is_protocol(value)]
+    protocols = [key for key, value in vars(module).items() if is_protocol_class(value)]
     others = f"; there are {', '.join(protocols)}" if protocols else ""
     if cls is None:
         raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or others)
-    if not _is_protocol(cls):
+    if not is_protocol_class(cls):
         why = "is not a protocol: it does not derive from IProtocol"
         if cls is IProtocol:
             why = "is not a protocol but the interface that protocols derive from"
@@ -136,10 +136,6 @@ def _class_meant(reference: str, folder: Path) -> str:
 
 def _calls(methods: list[str]) -> str:
     return ", ".join(f"{method}()" for method in methods)
-
-
-def _is_protocol(value: object) -> bool:
-    return isinstance(value, type) and issubclass(value, IProtocol) and value is not IProtocol
 
 
 def _error_text(error: BaseException, folder: Path | None = None) -> str:

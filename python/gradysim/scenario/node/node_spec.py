@@ -51,6 +51,12 @@ class NodeSpec:
     autopilot: AutopilotSpec | None = None
     idle_autopilot: Mapping[str, Setting] = field(default_factory=dict)
 
+    @property
+    def has_telemetry(self) -> bool:
+        """Whether the telemetry interval is not 0."""
+        interval = self.mobility.get("telemetry_interval_s")
+        return interval is None or interval.value != 0
+
     def __post_init__(self) -> None:
         """Check what scripts replace. Raises TypeError and ValueError, which name the node."""
         if not isinstance(self.protocol, type):

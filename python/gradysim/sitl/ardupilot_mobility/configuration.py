@@ -5,6 +5,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.protocol.defaults import (
     AUTOPILOT_USER,
     LOWEST_AUTOPILOT_SPEED_MPS,
@@ -12,8 +13,7 @@ from gradysim.protocol.defaults import (
     is_too_slow_for_autopilot,
 )
 from gradysim.protocol.position import Position
-from gradysim.simulator.number_range import is_in_range
-from gradysim.simulator.reference_coordinates import check_reference
+from gradysim.simulator.validation import check_reference
 from gradysim.sitl.connection import parse_address
 
 

@@ -6,10 +6,10 @@ from typing import Any
 
 from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.messages.mobility import MobilityCommand
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import IAsyncNodeHandler
 from gradysim.simulator.node import Node
+from gradysim.simulator.validation import checked_configuration
 from gradysim.sitl import SitlError
 from gradysim.sitl.ardupilot_mobility.configuration import (
     ArdupilotMobilityConfiguration,

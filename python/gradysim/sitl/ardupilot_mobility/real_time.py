@@ -13,7 +13,7 @@ from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.simulator.event import EventLoop
-from gradysim.simulator.handler.mobility.update_times import UpdateTimes
+from gradysim.simulator.handler.mobility.updates import UpdateTimes
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl import SitlError

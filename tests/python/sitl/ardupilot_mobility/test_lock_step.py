@@ -79,7 +79,7 @@ def test_an_autopilot_that_dies_ends_the_simulation(toy_copter):
 
 def test_a_command_that_means_nothing_is_refused(toy_copter):
     tested = flyer(at_0=SetSpeedMobilityCommand(-1))
-    assert failure_of(toy_copter(), tested, real_time=False).startswith("node 0 was given the speed -1")
+    assert failure_of(toy_copter(), tested, real_time=False).startswith("node 0 got the speed -1")
 
 
 def test_a_command_before_take_off_is_refused(toy_copter):
