@@ -37,7 +37,7 @@ so.
 
 A key that matches no parameter is an error. A line for a model that is not chosen, such as `pathLoss.sigma`
 with `FreeSpacePathLoss`, is a warning of `gradysim run`: nothing reads it. There is no warning if at least
-one node reads the line, if `typename = ""` turns the model off, or in prototype mode, which has no such models.
+one node reads the line, if `typename = ""` turns the model off, or in prototype mode.
 
 This page is made by `gradysim keys --markdown`."""
 
