@@ -61,7 +61,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     from gradysim.cli.runner import ForkExecutor
     from gradysim.cli.waiting import waiting
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError, ErrorCollector
 
     bar = not options.quiet and not options.as_json
     try:
@@ -87,8 +87,11 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             with waiting(f"reading {file}", shown=bar):
                 scenarios = placed(checked, scenarios)
             with waiting(f"checking {options.config}", shown=bar):
+                errors = ErrorCollector()
                 for scenario in scenarios:
-                    check_network(scenario, is_built_next=len(scenarios) == 1)
+                    with errors.collecting():
+                        check_network(scenario, is_built_next=len(scenarios) == 1)
+                errors.raise_all()
             tell(findings_of(scenarios, options.mode))
     except (ConfigError, CompiledPartMissingError, OSError) as mistake:
         return say_mistake(mistake)
@@ -213,7 +216,7 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
 
 def check_jobs(jobs: int) -> None:
     """Raise ConfigError for a number of runs at once that cannot be, before anything is read."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     if jobs < 1:
         raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
