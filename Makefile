@@ -148,10 +148,14 @@ $(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/pyth
 # `"editable": true` if gradysim is installed so; another `pip install` of it in .venv would put a copy in its place.
 is_editable = $(shell grep -hos '"editable": true' $(VENV)/lib/python*/site-packages/gradysim-*.dist-info/direct_url.json)
 
-# Editable: Python sources are used where they lie, the compiled module is rebuilt here when a source of it changes. New
-# packages are only found after another installation.
-$(STAMPS)/editable: pyproject.toml $(cpp_engine) $(python_packages) $(if $(is_editable),,again) | $(STAMPS)/build
+# Whether the packages are those of the last installation: it lists them, so new and removed ones need another.
+installed_packages = $(shell cat $(STAMPS)/packages 2>/dev/null)
+is_current = $(and $(is_editable),$(if $(filter-out $(installed_packages),$(python_packages))$(filter-out $(python_packages),$(installed_packages)),,same))
+
+# Editable: Python sources are used where they are. The compiled module is rebuilt here when one of its sources changes.
+$(STAMPS)/editable: pyproject.toml $(cpp_engine) $(if $(is_current),,again) | $(STAMPS)/build
 	$(call need,$(BIN)/python -c 'import os$(comma)sys$(comma)sysconfig; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))',python3-dev)
 	$(BIN)/pip install --quiet --no-build-isolation --editable .
+	@echo $(python_packages) >$(STAMPS)/packages
 	@$(BIN)/python -m compileall -q python  # where PYTHONDONTWRITEBYTECODE is set, each start would do it
 	@touch $@
