@@ -1,6 +1,7 @@
 """The command `gradysim`.
 
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
+    gradysim check FILE.ini [-c CONFIG]
     gradysim runs FILE.ini [-c CONFIG]
     gradysim means DIR [QUANTITY...] [--csv]
     gradysim keys [PATTERN] [--markdown]
@@ -20,14 +21,8 @@ from typing import TYPE_CHECKING
 from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.cli.calibrate import calibrate_power
-from gradysim.cli.exit_code import (
-    INTERRUPTED,
-    MISTAKE,
-    OK,
-    abandon_output,
-    is_about_output,
-    say_mistake,
-)
+from gradysim.cli.check import check_file
+from gradysim.cli.exit_code import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.run import run
@@ -65,6 +60,7 @@ app = App(
     error_formatter=mistake_in_arguments,
 )
 app.command(run)
+app.command(check_file, name="check")
 app.command(list_runs, name="runs")
 app.command(print_means, name="means")
 app.command(list_keys, name="keys")
@@ -73,7 +69,7 @@ app.command(calibrate_power, name="calibrate")
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (that of this process by default) and return the exit code."""
-    if sys.stdout is None:  # closed by whoever started the command
+    if sys.stdout is None:  # the caller closed it
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
@@ -83,7 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         try:
             code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
         finally:
-            sys.stdout.flush()  # here, where it is known what to do if nobody takes it
+            sys.stdout.flush()  # here, where an output that takes no more is handled
     except CycloptsError:  # cyclopts has said what is wrong
         return MISTAKE
     except KeyboardInterrupt:
@@ -96,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not is_about_output(error):
             return say_mistake(error)
         abandon_output()
-        if isinstance(error, BrokenPipeError):  # who reads the output, such as `head`, has had enough
+        if isinstance(error, BrokenPipeError):  # the reader, such as `head`, has closed the pipe
             return OK
         print(f"standard output: {error.strerror}", file=sys.stderr)
         return MISTAKE

@@ -1,13 +1,45 @@
 """`gradysim keys`: the keys of .ini files."""
 
 import sys
-from typing import Annotated
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from gradysim.cli.exit_code import MISTAKE, OK
 
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from gradysim.scenario.key_list import KeySection
+
 _PATTERN = "Part of a key, of its values or of its meaning; or a key with *."
+
+
+HEADINGS = ("key", "unit or value", "default", "meaning")
+
+INTRODUCTION = """# Keys of .ini files
+
+The keys that an `.ini` file may set. `gradysim keys` prints this page. `gradysim keys ardupilot` prints the
+keys that contain this word in their name, values or meaning. `gradysim keys "*.power"` prints those that end
+so.
+
+- `nodes` stands for the name of a group, `*` for any index.
+- Values may have other units of the same dimension: a power in `mW` or `dBm`, a time in `ms` or `h`.
+- If two lines match, the first one is in force. Write `*.uavs[0].mobility.speed` above
+  `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that has no effect because of a line above it.
+- A list of values, `${10ms, 50ms}`, makes one run for each (docs/guides/results.md).
+- Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/guides/values.md).
+- A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file.
+- Options of OMNeT++ alone are ignored: how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
+  `*.visualizer.**`), and what it records where (`result-dir`, `**.vector-recording`). Of `network` only the
+  name is used.
+
+A key that matches no parameter is an error. A line for a model that is not chosen, such as `pathLoss.sigma`
+with `FreeSpacePathLoss`, is a warning of `gradysim run`: nothing reads it. There is no warning if at least
+one node reads the line, if `typename = ""` turns the model off, or in prototype mode.
+
+This page is made by `gradysim keys --markdown`."""
 
 
 def list_keys(
@@ -17,7 +49,6 @@ def list_keys(
     markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
 ) -> int:
     """List the keys of .ini files: unit, default, meaning."""
-    from gradysim.cli import key_table
     from gradysim.scenario.key_list import key_meant, key_sections, matching
     from gradysim.scenario.native_protocols import native_protocols
 
@@ -35,11 +66,51 @@ def list_keys(
         )
         return MISTAKE
     if markdown:
-        print(key_table.markdown(sections), end="")
+        print(markdown_page(sections), end="")
     elif sys.stdout.isatty():
         from gradysim.cli.console import console
 
-        console().print(key_table.rich_tables(sections))
+        console().print(rich_tables(sections))
     else:
-        print(key_table.plain_text(sections), end="")
+        print(plain_text(sections), end="")
     return OK
+
+
+def rich_tables(sections: "Iterable[KeySection]") -> "RenderableType":
+    """Return a table per section."""
+    from rich import box
+    from rich.console import Group
+    from rich.table import Table
+    from rich.text import Text
+
+    parts: list[RenderableType] = []
+    for section in sections:
+        table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+        for heading, ratio in zip(HEADINGS, (6, 3, 3, 5), strict=True):
+            table.add_column(heading, overflow="fold", ratio=ratio)
+        for row in section.rows:
+            table.add_row(*map(Text, (row.key, row.unit, row.default, row.meaning)))
+        parts += [Text(section.title, style="bold"), table, Text()]
+    return Group(*parts)
+
+
+def plain_text(sections: "Iterable[KeySection]") -> str:
+    """Return one line per key, its four columns separated by tabs, for other programs."""
+    rows = [row for section in sections for row in section.rows]
+    return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{row.meaning}\n" for row in rows)
+
+
+def markdown_page(sections: "Iterable[KeySection]") -> str:
+    """Return the page docs/guides/keys.md."""
+    parts = [INTRODUCTION]
+    for section in sections:
+        lines = [f"| {' | '.join(HEADINGS)} |", "|---|---|---|---|"]
+        lines += [
+            f"| `{row.key}` | {row.unit} | {_code(row.default)} | {row.meaning} |" for row in section.rows
+        ]
+        parts += [f"## {section.title}", "\n".join(lines)]
+    return "\n\n".join(parts) + "\n"
+
+
+def _code(default: str) -> str:
+    return default if not default or (" " in default and '"' not in default) else f"`{default}`"
