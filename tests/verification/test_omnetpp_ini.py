@@ -5,9 +5,8 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import Ranked, search_order
-from gradysim.scenario.matching.lookup import is_option
+from gradysim.scenario.ini import Ranked, read_ini, search_order
+from gradysim.scenario.lookup import is_option
 from gradysim.scenario.runs.iterations import name_iterations, text_of_iterations
 from gradysim.scenario.runs.numbered_runs import numbered_runs
 from gradysim.scenario.runs.variables import run_variables, substitute

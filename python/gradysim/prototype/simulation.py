@@ -8,10 +8,10 @@ from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.results.files import run_name
 from gradysim.results.recorder import NodeRecorder
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import MASSLESS, STATIONARY
 from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_integrated
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger

@@ -10,7 +10,7 @@ which is meant (channel 36: 5180 MHz).
 
 from dataclasses import replace
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.kinds import Kind, Scalar, choice, integer
 from gradysim.scenario.value.operators import Value
@@ -29,7 +29,9 @@ def _channel_of_2_4_ghz() -> Kind:
         try:
             channel = int(index.convert(value))
         except BadValue as error:
-            raise BadValue(error.problem, error.suggestion or _hint_at_5_ghz(value)) from None
+            raise BadValue(
+                error.problem, error.hint or _hint_at_5_ghz(value), suggestion=error.suggestion
+            ) from None
         return 2.484e9 if channel == 13 else 2.412e9 + 5e6 * channel
 
     def show(carrier_hz: Scalar) -> str:

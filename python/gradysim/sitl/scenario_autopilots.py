@@ -5,11 +5,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gradysim.protocol.position import Position
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.native_protocols import NativeProtocol
-from gradysim.scenario.node.autopilot_spec import AutopilotSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.sitl import SitlError
 from gradysim.sitl.arducopter import find_arducopter

@@ -29,7 +29,7 @@ from gradysim.protocol.messages.mobility import (
     SetVelocityMobilityCommand,
 )
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.value.setting import Setting
 from python.quiet_protocol import Quiet
 

@@ -12,7 +12,7 @@ import gradysim.prototype.run
 from gradysim.protocol.position import geo_to_cartesian
 from gradysim.results.result import NodeResult, RunResult
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 PROTOCOLS = """
 from gradys_embedded.protocol.interface import IProtocol

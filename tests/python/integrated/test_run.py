@@ -5,7 +5,7 @@ import pytest
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.value.expression import parse_value
 

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.sitl.mavlink import load_dialect
 from gradysim.sitl.scenario_autopilots import check_autopilots, flights_of
 

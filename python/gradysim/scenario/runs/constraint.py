@@ -7,8 +7,8 @@ their texts take their places.
 import re
 from collections.abc import Mapping
 
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import BadValue, ConfigError
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.operators import text_of
 from gradysim.scenario.value.quoted import is_quoted
@@ -51,8 +51,6 @@ class Constraint:
                 return value
             raise BadValue(f"`{text_of(value)}` is neither true nor false")
         except BadValue as error:
-            raise ConfigError.at(
-                self.source,
-                f"{error.problem} in `{text}`; expected comparisons such as `$x < $y && $y != 3`"
-                f"{error.suggestion}",
-            ) from error
+            expected = "comparisons such as `$x < $y && $y != 3`"
+            problem = error.with_problem(f"{error.problem} in `{text}`")
+            raise problem.at(self.source, expected=expected) from error

@@ -10,12 +10,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation, Overflow
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.matching.lookup import is_ignored
+from gradysim.scenario.errors import ConfigError, Source, nearest
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.lookup import is_ignored
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.quoted import is_quoted, unquoted
 
@@ -278,7 +275,7 @@ def _check_names(
             continue
         for match in re.finditer(r"\$\{([^{}]*)\}", entry.text):
             if match[1] not in (*variables, *PREDEFINED):
-                raise ConfigError.at(entry.source, _unknown(match[1], known, left_out))
+                raise _unknown(entry.source, match[1], known, left_out)
     for variable in variables.values():
         if variable.follows in PREDEFINED and variable.follows != REPETITION:
             raise ConfigError.at(
@@ -286,7 +283,7 @@ def _check_names(
                 f"`{variable.follows}` has no list of values; expected `{REPETITION}` or one that has",
             )
         if variable.follows and variable.follows not in (*variables, REPETITION):
-            raise ConfigError.at(variable.source, _unknown(variable.follows, known, left_out))
+            raise _unknown(variable.source, variable.follows, known, left_out)
 
 
 def check_lock_step(variables: Sequence[IterationVariable]) -> None:
@@ -302,17 +299,20 @@ def check_lock_step(variables: Sequence[IterationVariable]) -> None:
             )
 
 
-def _unknown(name: str, known: Sequence[str], left_out: Sequence[Entry]) -> str:
+def _unknown(source: Source, name: str, known: Sequence[str], left_out: Sequence[Entry]) -> ConfigError:
     for entry in left_out:
         if re.search(rf"\$\{{\s*{name}\s*=", entry.text):
-            return (
-                f"`{name}` has its values at {entry.source}, which another value of `{entry.key}` overrides;"
-                f" expected a value here that does without it, or `${{{name}=...}}` there"
+            return ConfigError.at(
+                source,
+                f"`{name}` has its values at {entry.source}, which another value of `{entry.key}` overrides",
+                expected=f"a value here that does without it, or `${{{name}=...}}` there",
             )
     listed = ", ".join(f"`${{{other}}}`" for other in known)
-    return (
-        f"there is no variable `{name}`; expected one of {listed}, or values such as `${{{name}=1, 2, 5}}`"
-        f"{did_you_mean(name, known)}"
+    return ConfigError.at(
+        source,
+        f"there is no variable `{name}`",
+        expected=f"one of {listed}, or values such as `${{{name}=1, 2, 5}}`",
+        suggestion=nearest(name, known),
     )
 
 

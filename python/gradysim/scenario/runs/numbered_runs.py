@@ -8,10 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from typing import NamedTuple
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import ConfigError, Source, nearest
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.runs.constraint import Constraint
 from gradysim.scenario.runs.iterations import (
@@ -96,7 +94,9 @@ def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | Non
             known = ", ".join([*by_name, f"{_THE_OTHERS} for the others"])
             raise ConfigError.at(
                 wanted.source,
-                f"there is no variable `{name}`; expected some of {known}{did_you_mean(name, by_name)}",
+                f"there is no variable `{name}`",
+                expected=f"some of {known}",
+                suggestion=nearest(name, by_name),
             )
     if _THE_OTHERS not in named:
         named.append(_THE_OTHERS)

@@ -4,9 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 from operator import index
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import OF_SCRIPT, ConfigError, Source
 
 _RANGE = re.compile(r"\s*(\d{1,9})\s*(?:(?:\.\.|-)\s*(\d{1,9})\s*)?", re.ASCII)
 

@@ -3,9 +3,8 @@
 from collections.abc import Mapping
 from operator import index
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import OF_SCRIPT, ConfigError
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.options import LARGEST_SEED, OPTIONS
 from gradysim.scenario.runs.variables import substitute
 from gradysim.scenario.value.setting import read_scalar

@@ -8,10 +8,10 @@ import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import Source
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import NETWORK_MODULES
-from gradysim.scenario.matching.lookup import Lookup, is_ignored, is_option
+from gradysim.scenario.lookup import Lookup, is_ignored, is_option
 from gradysim.scenario.runs.iterations import IterationVariable
 from gradysim.scenario.runs.settings_hash import OF_NO_RUN
 

@@ -9,10 +9,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.matching.lookup import is_ignored
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.lookup import is_ignored
 from gradysim.scenario.runs.iterations import file_names_of_iterations, text_of_iterations
 
 _VARIABLE = re.compile(r"\$\{([^{}]*)\}")

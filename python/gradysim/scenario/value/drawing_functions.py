@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.operators import Value
 from gradysim.scenario.value.parameter_stream import ParameterStream
 from gradysim.scenario.value.quantity import Number, Quantity
@@ -70,7 +70,7 @@ def draw(name: str, given: Sequence[Value], stream: ParameterStream) -> Quantity
         if not math.isfinite(number):
             raise OverflowError
     except BadValue as error:
-        raise BadValue(f"`{name}`: {error.problem}", error.suggestion, expected=error.expected) from None
+        raise error.with_problem(f"`{name}`: {error.problem}") from None
     except (OverflowError, ZeroDivisionError):
         raise BadValue(f"`{name}`: it has drawn a number that is too large") from None
     return Quantity(number, others[0].unit)

@@ -21,8 +21,7 @@ from contextlib import contextmanager
 from fractions import Fraction
 from functools import lru_cache
 
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import BadValue, nearest
 from gradysim.scenario.value.drawing_functions import DRAWING_FUNCTIONS
 from gradysim.scenario.value.expression_tree import (
     Node,
@@ -189,8 +188,9 @@ class _Parser:
         if name == INDEX:
             raise BadValue(f"`{name}` is no function", f"; did you mean `{name}`, without parentheses?")
         if name not in _FUNCTION_NAMES:
-            hint = did_you_mean(name, _FUNCTION_NAMES) or f"; there are {', '.join(sorted(_FUNCTION_NAMES))}"
-            raise BadValue(f"there is no function `{name}`", hint)
+            meant = nearest(name, _FUNCTION_NAMES)
+            hint = "" if meant else f"; there are {', '.join(sorted(_FUNCTION_NAMES))}"
+            raise BadValue(f"there is no function `{name}`", hint, suggestion=meant)
         if name in DRAWING_FUNCTIONS:  # counted from the left, whether or not they draw
             place = self._draws
             self._draws += 1

@@ -5,7 +5,7 @@
 
 from collections.abc import Callable, Sequence
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.drawing_functions import draw
 from gradysim.scenario.value.functions import SELECT, SELECT_WRITTEN, call, place_of
 from gradysim.scenario.value.operators import OPERATORS, Value, number, power, text_of, truth
@@ -91,7 +91,7 @@ def selection(values: Sequence[Node]) -> Node:
         try:
             place = place_of(index(parameter), len(items))
         except BadValue as error:
-            raise BadValue(f"`{SELECT}`: {error.problem}", error.suggestion) from None
+            raise error.with_problem(f"`{SELECT}`: {error.problem}") from None
         return items[place](parameter)
 
     return node

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.operators import Value, number, text_of
 from gradysim.scenario.value.quantity import Number, Quantity, is_finite
 
@@ -38,7 +38,7 @@ def call(name: str, values: Sequence[Value]) -> Value:
     try:
         return function.apply(values)
     except BadValue as error:
-        raise BadValue(f"`{name}`: {error.problem}", error.suggestion) from None
+        raise error.with_problem(f"`{name}`: {error.problem}") from None
 
 
 def _of_plain_numbers(function: Callable[..., float]) -> Callable[[Sequence[Value]], Value]:

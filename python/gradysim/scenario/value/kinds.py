@@ -8,8 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt
+from gradysim.scenario.errors import BadValue, nearest
 from gradysim.scenario.value.decibels import db_from_ratio, ratio_from_db
 from gradysim.scenario.value.operators import Value
 from gradysim.scenario.value.quantity import Quantity
@@ -206,9 +205,9 @@ def choice(*names: str, otherwise: str = "") -> Kind:
     def convert(value: Value) -> str:
         name = _text_of(value)
         if name not in names:
-            means_another = otherwise and name and misspelt(name, names) is None
-            hint = f"; {otherwise}" if means_another else did_you_mean(name, names)
-            raise BadValue(f"`{name}` is not known", hint)
+            if otherwise and name and not nearest(name, names, strict=True):
+                raise BadValue(f"`{name}` is not known", f"; {otherwise}")
+            raise BadValue(f"`{name}` is not known", suggestion=nearest(name, names))
         return name
 
     quoted = [_quoted(name) for name in names]

@@ -6,7 +6,7 @@ one: in `uavs[3].mobility.speed` the module is `mobility`, its parent `uavs[3]`,
 
 import re
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.parameter_stream import ParameterStream
 from gradysim.scenario.value.quoted import QUOTED

@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from functools import cache, cached_property
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 
 _NUMBER_RANGE = re.compile(r"(?:\[(\d*)\.\.(\d*)\])|(?:\{(\d*)\.\.(\d*)\})", re.ASCII)
 

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.decibels import db_from_ratio, ratio_from_db
 from gradysim.scenario.value.units import Dimension, Unit
 

@@ -2,7 +2,7 @@
 
 import re
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.drawing_functions import drawing_function_in
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.kinds import Kind

@@ -7,7 +7,7 @@ the place of the one on the keyboard.
 import re
 import unicodedata
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 
 _LIST = "; a list of values is written `${1ms, 2ms}`"
 _SPELT = {"and": "&&", "or": "||", "not": "!"}

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import BadValue, nearest
 
 
 class Dimension(Enum):
@@ -101,5 +100,5 @@ def unit_named(name: str) -> Unit:
     """
     unit = UNITS.get(name)
     if unit is None:
-        raise BadValue(f"there is no unit `{name}`", did_you_mean(name, UNITS))
+        raise BadValue(f"there is no unit `{name}`", suggestion=nearest(name, UNITS))
     return unit

@@ -4,9 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.runs.iterations import (
     IterationVariable,
     check_lock_step,

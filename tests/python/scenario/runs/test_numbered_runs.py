@@ -3,7 +3,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 
 def test_a_constraint_chooses_combinations_and_numbers_close_up(folder: Any) -> None:

@@ -3,9 +3,8 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.runs.variables import depends_on_run, run_variables, substitute
 
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.drawing_functions import DRAWING_FUNCTIONS, drawing_function_in
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.parameter_context import ParameterContext

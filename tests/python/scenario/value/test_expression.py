@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.parameter_context import ParameterContext
 from gradysim.scenario.value.quantity import Quantity

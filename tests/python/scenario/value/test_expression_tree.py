@@ -4,7 +4,7 @@ from typing import NoReturn
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression_tree import (
     Node,
     called,

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.functions import FUNCTIONS, call
 from gradysim.scenario.value.operators import text_of

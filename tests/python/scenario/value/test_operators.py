@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression import parse_value
 from gradysim.scenario.value.operators import OPERATORS, Value, text_of
 from gradysim.scenario.value.quantity import Quantity

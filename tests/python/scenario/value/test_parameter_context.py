@@ -2,7 +2,7 @@ import re
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.drawing_functions import DRAWING_FUNCTIONS
 from gradysim.scenario.value.parameter_context import ParameterContext, differs_between_parameters
 from gradysim.scenario.value.parameter_stream import ParameterStream

@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.expression import parse_value
 
 LIST = "; a list of values is written `${1ms, 2ms}`"
@@ -25,7 +25,7 @@ def test_what_other_grammars_have_there(text: str, hint: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(text)
     assert caught.value.problem.endswith(" is not understood there")
-    assert caught.value.suggestion == hint
+    assert caught.value.hint == hint
 
 
 @pytest.mark.parametrize(
@@ -51,4 +51,4 @@ def test_a_character_that_looks_like_another_is_named(text: str, problem: str) -
 def test_a_micro_has_a_letter_of_its_own(micro: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(f"100{micro}s")
-    assert caught.value.suggestion == "; a micro is `u`, as in `us`"
+    assert caught.value.hint == "; a micro is `u`, as in `us`"

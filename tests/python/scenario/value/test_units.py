@@ -2,7 +2,7 @@ from fractions import Fraction
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.value.units import UNITS, Dimension, unit_named
 
 
