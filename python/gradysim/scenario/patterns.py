@@ -1,13 +1,18 @@
 """Patterns of keys, matched against full paths such as `Network.uavs[3].mobility.speed`.
 
-`*` is any text without a dot, `**` any text, `?` one character but a dot, `{a-z}` one of the characters,
-`{^a-z}` one other character, `{3..5}` a number of the range, `[3..5]` the same in brackets (either end may be
-left open), and a backslash takes the meaning from the character after it.
+| element | matches |
+|---|---|
+| `*`, `**` | any text without a dot, any text |
+| `?` | one character that is not a dot |
+| `{a-z}`, `{^a-z}` | one of the characters, one other character |
+| `[3..5]`, `{3..5}` | a number of the range in brackets, without them; either end may be left open |
+| `\\x` | the character x itself |
 """
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 
 from gradysim.scenario.errors.config_error import BadValue
 
@@ -16,10 +21,13 @@ _NUMBER_RANGE = re.compile(r"(?:\[(\d*)\.\.(\d*)\])|(?:\{(\d*)\.\.(\d*)\})", re.
 _MOST_DIGITS = 18
 """Of the ends of a range. The regular expression grows with their square, and no node has such an index."""
 
+_MOST_WILDCARDS = 4
+"""Of a pattern that is matched by one regular expression, whose time may grow with this power of the length."""
+
 
 @dataclass(frozen=True)
 class Token:
-    """One element of a pattern: its text, its regular expression, and its character if it is just one."""
+    """One element of a pattern: its text, its regular expression, and its character if it is literal."""
 
     text: str
     regex: str
@@ -45,7 +53,10 @@ class Pattern:
         return None if None in characters else "".join(character or "" for character in characters)
 
     @cached_property
-    def _regex(self) -> re.Pattern[str]:
+    def _regex(self) -> re.Pattern[str] | None:
+        """The regular expression; None for a pattern that might backtrack for too long."""
+        if sum(token.text in ("*", "**") for token in self.tokens) > _MOST_WILDCARDS:
+            return None
         return re.compile("".join(token.regex for token in self.tokens), re.DOTALL)
 
     @cached_property
@@ -62,9 +73,11 @@ class Pattern:
 
     def matches(self, path: str) -> bool:
         """Whether the whole of `path` matches."""
-        if self.literal is not None:  # to compile a regular expression takes longer than reading the line
+        if self.literal is not None:  # compiling a regular expression takes longer than reading the line
             return path == self.literal
-        return self._regex.fullmatch(path) is not None
+        if self._regex is not None:
+            return self._regex.fullmatch(path) is not None
+        return len(path) in _ends_of_matches(self.tokens, path)
 
     def literal_prefix(self) -> str:
         """The text that everything that matches begins with."""
@@ -112,6 +125,31 @@ class Pattern:
         return [Pattern(tuple(part)) for part in parts]
 
 
+def _ends_of_matches(tokens: Iterable[Token], path: str) -> set[int]:
+    """Where matches that start at 0 end. Takes time in proportion to the product of both lengths."""
+    ends = {0}
+    for token in tokens:
+        if token.text == "**":
+            ends = set(range(min(ends), len(path) + 1)) if ends else ends
+        elif token.text == "*":
+            reached: set[int] = set()
+            for end in sorted(ends):
+                if end not in reached:
+                    dot = path.find(".", end)
+                    reached.update(range(end, (len(path) if dot < 0 else dot) + 1))
+            ends = reached
+        else:
+            element = _compiled(token.regex)
+            ends = {match.end() for end in ends if (match := element.match(path, end))}
+    return ends
+
+
+@cache
+def _compiled(regex: str) -> re.Pattern[str]:
+    return re.compile(regex, re.DOTALL)
+
+
+@lru_cache(maxsize=4096)  # each run of a study has the same keys
 def compile_pattern(text: str) -> Pattern:
     """Compile the text of a key.
 
