@@ -6,8 +6,8 @@
 #include <pybind11/stl.h>
 
 #include "netsim/error.hpp"
-#include "netsim/medium/propagation.hpp"
 #include "netsim/phy/antenna.hpp"
+#include "netsim/propagation/propagation.hpp"
 #include "proxy_protocol/bindings.hpp"
 
 namespace py = pybind11;

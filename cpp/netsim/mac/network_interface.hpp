@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <map>
 
+#include "netsim/interface_id.hpp"
 #include "netsim/mac/frame.hpp"
-#include "netsim/medium/interface_id.hpp"
 #include "netsim/trace/message_fates.hpp"
 
 namespace netsim {

@@ -9,9 +9,9 @@
 #include <memory>
 
 #include "netsim/config/mac_config.hpp"
+#include "netsim/interface_id.hpp"
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/mac/frame.hpp"
-#include "netsim/medium/interface_id.hpp"
 #include "netsim/phy/modes.hpp"
 
 namespace netsim {

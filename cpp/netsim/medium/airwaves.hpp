@@ -11,11 +11,12 @@
 #include <memory>
 #include <vector>
 
+#include "netsim/carrier_sense/energy_ring.hpp"
 #include "netsim/kernel/event_queue.hpp"
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/medium/energy_ring.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/links.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

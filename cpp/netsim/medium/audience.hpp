@@ -2,9 +2,9 @@
 #pragma once
 
 #include "netsim/medium/neighbours.hpp"
-#include "netsim/medium/ppdu_format.hpp"
 #include "netsim/medium/receiver.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/propagation/ppdu_format.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

@@ -8,11 +8,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "netsim/carrier_sense/energy_forecast.hpp"
+#include "netsim/carrier_sense/energy_outlooks.hpp"
+#include "netsim/carrier_sense/energy_ring.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/medium/airwaves.hpp"
-#include "netsim/medium/energy_forecast.hpp"
-#include "netsim/medium/energy_outlooks.hpp"
-#include "netsim/medium/energy_ring.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/links.hpp"
 
 namespace netsim {

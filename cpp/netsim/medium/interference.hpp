@@ -8,7 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "netsim/medium/transmission.hpp"
+#include "netsim/medium/arrival.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

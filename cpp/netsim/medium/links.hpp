@@ -12,12 +12,13 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/medium/antennas.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/audience.hpp"
 #include "netsim/medium/odometer.hpp"
-#include "netsim/medium/propagation.hpp"
 #include "netsim/medium/receiver.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/propagation/antennas.hpp"
+#include "netsim/propagation/propagation.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

@@ -18,12 +18,13 @@
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/medium/airwaves.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/background_noise.hpp"
 #include "netsim/medium/energy_watch.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/links.hpp"
 #include "netsim/medium/receiver.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/propagation/transmission.hpp"
 #include "netsim/trace/frame_fates.hpp"
 
 namespace netsim {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "netsim/geometry/position.hpp"
-#include "netsim/medium/interface_id.hpp"
+#include "netsim/interface_id.hpp"
 #include "netsim/medium/odometer.hpp"
 
 namespace netsim {

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/mobility/trajectory.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "netsim/config/interface_config.hpp"
-#include "netsim/medium/ppdu_format.hpp"
 #include "netsim/phy/modes.hpp"
+#include "netsim/propagation/ppdu_format.hpp"
 
 namespace netsim {
 

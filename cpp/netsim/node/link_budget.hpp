@@ -14,9 +14,9 @@
 
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/node_config.hpp"
-#include "netsim/medium/propagation.hpp"
 #include "netsim/phy/error_rate.hpp"
 #include "netsim/phy/modes.hpp"
+#include "netsim/propagation/propagation.hpp"
 
 namespace netsim {
 

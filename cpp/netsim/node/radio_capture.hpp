@@ -10,6 +10,7 @@
 
 #include <string>
 
+#include "netsim/medium/arrival.hpp"
 #include "netsim/phy/radio_observer.hpp"
 #include "netsim/trace/octets.hpp"
 #include "netsim/trace/pcap_writer.hpp"

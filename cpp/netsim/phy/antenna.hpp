@@ -17,7 +17,7 @@
 #include <memory>
 
 #include "netsim/config/antenna_config.hpp"
-#include "netsim/medium/antenna_pattern.hpp"
+#include "netsim/propagation/antenna_pattern.hpp"
 
 namespace netsim {
 

@@ -6,7 +6,8 @@
 
 #include "netsim/config/radio_config.hpp"
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/medium/arrival.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

@@ -17,7 +17,7 @@
 #include <string_view>
 
 #include "netsim/kernel/sim_time.hpp"
-#include "netsim/medium/ppdu_format.hpp"
+#include "netsim/propagation/ppdu_format.hpp"
 
 namespace netsim {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "netsim/error.hpp"
-#include "netsim/medium/transmission.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

@@ -29,6 +29,7 @@
 
 #include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/random.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/phy/modes.hpp"
 #include "netsim/phy/present_arrivals.hpp"

@@ -8,13 +8,13 @@
 #include <memory>
 
 #include "netsim/config/radio_config.hpp"
-#include "netsim/medium/antenna_pattern.hpp"
 #include "netsim/medium/medium.hpp"
-#include "netsim/medium/transmission.hpp"
 #include "netsim/phy/error_rate.hpp"
 #include "netsim/phy/frame_capture.hpp"
 #include "netsim/phy/preamble_detection.hpp"
 #include "netsim/phy/reception.hpp"
+#include "netsim/propagation/antenna_pattern.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

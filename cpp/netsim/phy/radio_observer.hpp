@@ -1,7 +1,8 @@
 // Somebody who looks on at one radio: capture files. Changes nothing, and a radio without one pays one test per frame.
 #pragma once
 
-#include "netsim/medium/transmission.hpp"
+#include "netsim/medium/arrival.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 

@@ -11,6 +11,7 @@
 // part (in mode "min": in the frame).
 #pragma once
 
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/phy/error_rate.hpp"
 #include "netsim/phy/modes.hpp"

@@ -35,7 +35,7 @@ from gradysim.cli.run_options import (
 from gradysim.cli.scenarios import check, placed
 from gradysim.cli.several_runs import check_jobs, one_after_the_other, several_at_once
 from gradysim.cli.simulators import check_names, simulator
-from gradysim.cli.warnings import tell, warnings_of_lines, warnings_of_networks, warnings_of_seeds
+from gradysim.cli.warnings import findings_of, tell, warnings_of_seeds
 from gradysim.cli.written_files import write_files
 
 if TYPE_CHECKING:
@@ -92,16 +92,16 @@ def run(
                 check_may_be_written_to(asked.directory)
             with waiting(f"reading {file}", shown=bar):
                 scenarios = placed(checked, scenarios)
-            tell(warnings_of_lines(scenarios))
             with waiting(f"checking {config}", shown=bar):
                 for scenario in scenarios:
                     check_network(scenario, is_built_next=len(scenarios) == 1)
-            if mode == "integrated":
-                tell(warnings_of_networks(scenarios))
+            tell(findings_of(scenarios, mode))
 
             def carry_out(scenario: "Scenario", interrupt: "StopOnInterrupt", output: TextIO) -> int:
                 with back_afterwards():
                     outcome = run_one(build, scenario, interrupt, bar=bar)
+                if scenario is scenarios[0]:
+                    tell(outcome.findings)
                 write = partial(write_files, scenario, asked=asked)
                 return report(outcome, output, write, as_json=as_json, quiet=quiet)
 

@@ -8,8 +8,8 @@ from gradysim.cli.warnings import tell
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
-    from gradysim.scenario.doubts.unread_variables import unread_variables
     from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.lint import unread_variables
     from gradysim.scenario.runs.iterations import text_of_iterations
 
     try:

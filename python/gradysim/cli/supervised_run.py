@@ -1,6 +1,6 @@
 """One run as the command line carries it out: nothing that was computed is lost, however the run ends."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -10,6 +10,7 @@ from gradysim.cli.progress import RunProgress
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.results.run_result import RunResult
 from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.lint import Finding
 from gradysim.scenario.scenario import Scenario
 
 
@@ -26,6 +27,9 @@ class Run(Protocol):
     def result(self) -> RunResult:
         """Return what has been computed up to now."""
 
+    def findings(self) -> list[Finding]:
+        """Return what lint checks found in the protocols up to now."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -35,11 +39,13 @@ class Outcome:
         result: None if the run could not even be built.
         failure: What a protocol raised, in a callback or when it was made.
         interrupted: Whether Ctrl-C ended it.
+        findings: What lint checks found in the protocols.
     """
 
     result: RunResult | None
     failure: BaseException | None = None
     interrupted: bool = False
+    findings: Sequence[Finding] = ()
 
 
 def carry_out(
@@ -67,8 +73,8 @@ def carry_out(
             with RunProgress(progress_console, title, scenario.sim_time_limit_s) as bar:
                 run.execute(bar.update, should_stop)
     except KeyboardInterrupt:
-        return Outcome(run.result(), interrupted=True)
+        return Outcome(run.result(), interrupted=True, findings=run.findings())
     except BaseException as failure:  # SystemExit and asyncio.CancelledError are no Exception
-        return Outcome(run.result(), failure=failure)
+        return Outcome(run.result(), failure=failure, findings=run.findings())
     result = run.result()
-    return Outcome(result, interrupted=result.interrupted)
+    return Outcome(result, interrupted=result.interrupted, findings=run.findings())

@@ -1,15 +1,16 @@
-"""What is told before runs that go on all the same."""
+"""Warnings of `gradysim run`. They do not stop it."""
 
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from gradysim.scenario.lint import Finding
     from gradysim.scenario.scenario import Scenario
 
 
-def tell(warnings: Iterable[str]) -> None:
-    """Say each of them on the error output."""
+def tell(warnings: "Iterable[str | Finding]") -> None:
+    """Print each of them to the error output."""
     for warning in warnings:
         print(warning, file=sys.stderr)
 
@@ -26,39 +27,13 @@ def warnings_of_seeds(scenarios: "Sequence[Scenario]") -> Iterator[str]:
         )
 
 
-def warnings_of_lines(scenarios: "Sequence[Scenario]") -> Iterator[str]:
-    """Yield a line for each line of the file that is probably not meant so, once for all runs."""
-    from gradysim.scenario.doubts.bands_beside_frequencies import bands_beside_frequencies
-    from gradysim.scenario.doubts.doubtful_times import doubtful_times
-    from gradysim.scenario.doubts.mission_speeds import mission_speeds
-    from gradysim.scenario.doubts.overwritten_parameters import overwritten_parameters
-    from gradysim.scenario.doubts.plugins_without_telemetry import plugins_without_telemetry
-    from gradysim.scenario.doubts.shadowed_lines import shadowed_lines
-    from gradysim.scenario.doubts.shared_containers import shared_containers
-    from gradysim.scenario.doubts.unread_variables import unread_variables
-    from gradysim.scenario.keys.radio_media import has_radios
+def findings_of(scenarios: "Sequence[Scenario]", mode: str) -> "list[Finding]":
+    """Return what the lint checks find in the lines of a configuration, in their order."""
+    from gradysim.scenario.lint import by_line, lint
 
-    first = scenarios[0]
-    medium = first.medium.get("typename")
-    has_powers = medium is None or has_radios(medium.value)
-    yield from shadowed_lines(first.sections, has_powers=has_powers)
-    yield from unread_variables(first.unread_variables, first.lines)
-    networks = {id(scenario.nodes): scenario.nodes for scenario in scenarios}.values()
-    about_nodes = (
-        bands_beside_frequencies,
-        doubtful_times,
-        mission_speeds,
-        overwritten_parameters,
-        plugins_without_telemetry,
-        shared_containers,
-    )
-    for doubts in about_nodes:
-        yield from dict.fromkeys(text for nodes in networks for text in doubts(nodes))
+    findings = lint(scenarios)
+    if mode == "integrated":
+        from gradysim.integrated.lint import lint_networks
 
-
-def warnings_of_networks(scenarios: "Sequence[Scenario]") -> Iterator[str]:
-    """Yield a line for each line that no model reads, and the like, once for all runs of integrated mode."""
-    from gradysim.integrated.scenario_warnings import scenario_warnings
-
-    different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}
-    yield from scenario_warnings(different.values())
+        findings += lint_networks(scenarios)
+    return by_line(findings)

@@ -18,7 +18,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec
-from gradysim.scenario.obstacle.obstacle_spec import ObstacleSpec
+from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.value.setting import Setting
 

@@ -36,6 +36,7 @@ from gradysim.results.run_account import RunAccount
 from gradysim.results.run_file import run_name
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
+from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol.parametrize import parametrize
 from gradysim.scenario.protocol.siblings import siblings_importable
 from gradysim.scenario.scenario import Scenario
@@ -87,6 +88,7 @@ class IntegratedRun:
         """
         self._account = RunAccount(scenario)
         self._scenario = scenario
+        self._lint = RunLint(scenario)
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
@@ -160,6 +162,7 @@ class IntegratedRun:
             try:
                 self._handlers.initialize()
                 network.initialize()
+                self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
                 self._flown.initialize()
                 account.complete = run_in_slices(self._advance(), lambda: network.now, progress, should_stop)
             except KeyboardInterrupt as pressed:
@@ -194,6 +197,10 @@ class IntegratedRun:
         if factor == 0:
             return lambda max_events: handlers.run_until(limit_s, max_events)
         return RealTimeRun(handlers.run_until, limit_s, factor, lambda: handlers.held_up_s).advance
+
+    def findings(self) -> list[Finding]:
+        """Return what lint checks found in the protocols up to now."""
+        return self._lint.findings()
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""

@@ -15,6 +15,7 @@ from gradysim.results.node_results import node_results
 from gradysim.results.run_account import RunAccount
 from gradysim.results.run_result import RunResult
 from gradysim.results.slices import run_in_slices
+from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol.siblings import siblings_importable
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
@@ -47,6 +48,7 @@ class PrototypeRun:
         """
         self._account = RunAccount(scenario)
         self._scenario = scenario
+        self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         siblings = siblings_importable(node.protocol for node in scenario.nodes)
         with garbage_left_alone(), siblings, global_random_of(scenario.seed):
@@ -70,6 +72,8 @@ class PrototypeRun:
         interrupt: KeyboardInterrupt | None = None
         with account.of_execution(), siblings, global_random_of(self._scenario.seed):
             try:
+                simulator.run_events(0)  # only initializes the protocols
+                self._lint.after_initialize(node.protocol_encapsulator.protocol for node in simulator.nodes)
                 account.complete = run_in_slices(
                     lambda max_events: not simulator.run_events(max_events),
                     lambda: simulator.current_time,
@@ -81,6 +85,10 @@ class PrototypeRun:
             simulator.finalize(complete=account.complete)
             if interrupt is not None:
                 raise interrupt
+
+    def findings(self) -> list[Finding]:
+        """Return what lint checks found in the protocols up to now."""
+        return self._lint.findings()
 
     def result(self) -> RunResult:
         """Return what has been computed up to now."""

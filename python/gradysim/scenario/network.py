@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.sections import Ranked
+from gradysim.scenario.geojson import read_obstacle_files
 from gradysim.scenario.keys import NETWORK_KEYS
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.groups import find_groups
@@ -20,8 +22,7 @@ from gradysim.scenario.matching.struct_reader import read_struct
 from gradysim.scenario.node.interfaces import interface_counts
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.node.nodes import build_nodes, load_protocols
-from gradysim.scenario.obstacle.obstacle_spec import ObstacleSpec
-from gradysim.scenario.obstacle.obstacles import obstacle_count, obstacle_files, read_obstacles
+from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
 from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import file_of_native
 from gradysim.scenario.runs.file_hashes import FileHashes
@@ -93,14 +94,14 @@ def read_network(
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
     )
     nodes = build_nodes(lookup, groups, protocols, counts, settings)
-    obstacles = read_obstacles(
-        lookup,
-        settings,
-        (latitude, longitude, altitude) if {"latitude_deg", "longitude_deg"} <= reference.keys() else None,
+    is_placed = {"latitude_deg", "longitude_deg"} <= reference.keys()
+    obstacles = read_obstacles(lookup, settings)
+    obstacle_files = read_obstacle_files(
+        lookup, settings, (latitude, longitude, altitude) if is_placed else None
     )
     chosen = set(protocols.values())
     files = [file for protocol in chosen for file in protocol.files]
-    files += [*obstacle_files(lookup, settings), *settings.files()]
+    files += [*obstacle_files, *settings.files()]
     return Network(
         nodes=nodes,
         medium=read_struct("medium", found, settings, _path_of),
@@ -108,7 +109,7 @@ def read_network(
             **{field: float(setting.value) for field, setting in communication.items()}
         ),
         reference_coordinates=(latitude, longitude, altitude),
-        obstacles=obstacles,
+        obstacles=(*obstacles, *chain.from_iterable(obstacle_files.values())),
         file_hashes=hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
         lines_of_other_runs=lines_of_other_runs,
         lookup=lookup,

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/mac/dcf.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "support/air.hpp"
 
 namespace netsim {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/mac/dcf.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "support/air.hpp"
 #include "support/dcf_instants.hpp"
 

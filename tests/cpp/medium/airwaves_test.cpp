@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "netsim/medium/arrival.hpp"
+
 namespace netsim {
 namespace {
 

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "netsim/medium/arrival.hpp"
 #include "support/air.hpp"
 
 namespace netsim {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/kernel/random.hpp"
+#include "netsim/medium/arrival.hpp"
 
 namespace netsim {
 namespace {

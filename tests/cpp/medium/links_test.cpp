@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "netsim/medium/arrival.hpp"
+
 namespace netsim {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/kernel/random.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "support/air.hpp"
 
 namespace netsim {

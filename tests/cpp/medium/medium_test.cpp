@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "netsim/medium/arrival.hpp"
 #include "support/air.hpp"
 
 namespace netsim {

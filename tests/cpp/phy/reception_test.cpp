@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/kernel/random.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/phy/modes.hpp"
 
 namespace netsim {

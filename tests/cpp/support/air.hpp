@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "netsim/mac/dcf.hpp"
+#include "netsim/medium/arrival.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/phy/radio.hpp"
 #include "support/radio_log.hpp"

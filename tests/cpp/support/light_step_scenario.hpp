@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "netsim/medium/path_loss.hpp"
+#include "netsim/propagation/path_loss.hpp"
 #include "support/random_scenario.hpp"
 
 namespace netsim::test {

@@ -80,61 +80,34 @@ def test_a_range_beside_a_power_is_told_where_it_stands_for_one(
     assert capsys.readouterr().err.count("Range` has no effect: line") == told
 
 
-def test_a_time_in_metres_is_told_once_for_all_runs(
+def test_a_time_in_meters_is_reported_once_for_all_runs(
     make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     make_scenario("class Tested(Talker): interval = 1.0")
     interval = "*.uavs[*].protocol.interval=5m"
     arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", interval, "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    assert capsys.readouterr().err.count("`interval` is given in `m`, and by its name it is a time") == 1
-
-
-def test_a_speed_that_missions_override_is_told_once_for_all_runs(
-    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    make_scenario(
-        "from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin\n"
-        "class Tested(Talker):\n"
-        "    def initialize(self): MissionMobilityPlugin(self).start_mission([(9, 9, 9)])"
-    )
-    arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", "**.speed=12mps", "--quiet"]
-    assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    told = "--set **.speed=12mps: warning: missions of Tested do not fly at this speed, but at 5 m/s"
-    assert capsys.readouterr().err.count(told) == 1
-
-
-def test_a_parameter_that_the_protocol_sets_itself_is_told_once_for_all_runs(
-    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    make_scenario("class Tested(Talker):\n    retries = 3\n    def __init__(self): self.retries = 5")
-    setting = "**.retries = ${2, 4}"
-    assert main(["run", str(tmp_path / "test.ini"), "--mode", "prototype", "--set", setting, "--quiet"]) == 0
-    assert capsys.readouterr().err.count("has no effect: `__init__` of Tested sets `self.retries`") == 1
-
-
-def test_a_list_that_nodes_share_is_told_once_for_all_runs(
-    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    make_scenario("class Tested(Talker):\n    known = []\n    def finish(self): self.known.append(1)")
-    arguments = ["--mode", "prototype", "--set", "repeat=2", "--quiet"]
-    assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    assert capsys.readouterr().err.count("`known` in the body of Tested is one list for all nodes") == 1
+    assert capsys.readouterr().err.count("warning: `interval` is given in `m`") == 1
 
 
 @both_modes
-def test_a_plugin_without_telemetry_is_told_once_for_all_runs(
+def test_a_parameter_that_the_protocol_sets_itself_is_reported_once_for_all_runs(
     make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str], mode: str
 ) -> None:
-    make_scenario(
-        "from gradysim.protocol.plugin.random_mobility import RandomMobilityPlugin\n"
-        "class Tested(Talker):\n"
-        "    def initialize(self): RandomMobilityPlugin(self).initiate_random_trip()"
-    )
-    arguments = ["--mode", mode, "--set", "repeat=2", "--set", "**.telemetryInterval=0s", "--quiet"]
+    make_scenario("class Tested(Talker):\n    retries = 3\n    def __init__(self): self.retries = 5")
+    setting = "**.retries=${2, 4}"
+    assert main(["run", str(tmp_path / "test.ini"), "--mode", mode, "--set", setting, "--quiet"]) == 0
+    assert capsys.readouterr().err.count(f"--set {setting}: warning: `retries` of Tested") == 1
+
+
+@both_modes
+def test_a_list_that_nodes_share_is_reported_once_for_all_runs(
+    make_scenario: Callable[..., Scenario], tmp_path: Path, capsys: pytest.CaptureFixture[str], mode: str
+) -> None:
+    make_scenario("class Tested(Talker):\n    known = []\n    def finish(self): self.known.append(1)")
+    arguments = ["--mode", mode, "--set", "repeat=2", "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    told = "--set **.telemetryInterval=0s: warning: uavs will not get beyond the first waypoint"
-    assert capsys.readouterr().err.count(told) == 1
+    assert capsys.readouterr().err.count("warning: `known` in the class body of Tested") == 1
 
 
 def test_a_band_that_says_nothing_is_told_once_for_all_runs(gradysim):

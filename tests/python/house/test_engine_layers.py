@@ -8,8 +8,21 @@ import pytest
 
 ENGINE = Path("cpp/netsim")
 # From the bottom up: a folder includes its own files and those of the folders before it. "" is the engine's
-# root (units.hpp, error.hpp).
-LAYERS = ["", "kernel", "geometry", "config", "mobility", "trace", "medium", "phy", "mac", "node"]
+# root (units.hpp, error.hpp, interface_id.hpp).
+LAYERS = [
+    "",
+    "kernel",
+    "geometry",
+    "config",
+    "mobility",
+    "trace",
+    "propagation",
+    "carrier_sense",
+    "medium",
+    "phy",
+    "mac",
+    "node",
+]
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 PYTHON = re.compile(r"pybind11|\bPython\.h\b|\bPyObject\b|\bproxy_protocol\b")
 

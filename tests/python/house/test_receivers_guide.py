@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
-from gradysim.integrated.scenario_warnings import scenario_warnings
+from gradysim.integrated.lint import lint_networks
 from gradysim.scenario import load_scenarios
 
 
@@ -25,7 +25,7 @@ def test_its_lines_and_its_table_run(root: Path, guide: str, tmp_path: Path) -> 
     file = tmp_path / "all.ini"
     file.write_text(f"[General]\n{lines}\ninclude {root}/configs/reference/jittered.ini\n")
     (scenario,) = load_scenarios(file, overrides=["sim-time-limit = 2.1s"])
-    assert not scenario_warnings([scenario])
+    assert not lint_networks([scenario])
     fates = gradysim.integrated.run.run(scenario).fates["frames"]["broadcast"]
     assert fates["delivered"] > 0
     assert fates["preamble_undetected"] > 0

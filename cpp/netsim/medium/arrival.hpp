@@ -1,0 +1,22 @@
+// A transmission as one receiver gets it.
+#pragma once
+
+#include "netsim/geometry/position.hpp"
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/propagation/transmission.hpp"
+
+namespace netsim {
+
+struct OnAir;  // airwaves.hpp
+
+struct Arrival {
+    const Transmission* transmission = nullptr;
+    SimTime start;
+    SimTime end;
+    double power_w = 0;
+    Position place{};       // of the receiver, when the transmission started
+    bool lockable = false;  // strong enough for the receiver, on its channel and in a format that it knows
+    const OnAir* on_air = nullptr;  // what the medium notes of the transmission: handed through
+};
+
+}  // namespace netsim

@@ -1,0 +1,50 @@
+// The antennas of all radios: what both ends of a link add to it, or take from it. Used by the medium.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "netsim/propagation/antenna_pattern.hpp"
+#include "netsim/propagation/transmission.hpp"
+
+namespace netsim {
+
+class Antennas {
+public:
+    // Those of radios 0, 1, … The trajectory is their node's.
+    void add(const MountedAntenna& antenna, const Trajectory& trajectory) {
+        const bool is_isotropic = antenna.pattern == nullptr;
+        all_isotropic_ = all_isotropic_ && is_isotropic;
+        mounted_.push_back(is_isotropic ? nullptr : std::make_unique<Mounted>(antenna, &trajectory));
+    }
+
+    // Then every gain is 1.
+    bool all_isotropic() const { return all_isotropic_; }
+    double max_gain(RadioId radio) const { return mounted_[radio] ? mounted_[radio]->antenna.max_gain() : 1; }
+
+    // Of the sender towards the receiver, and of the receiver, at `place` when the transmission starts, towards the
+    // sender. Both are turned as they are at that time.
+    double gain(const Transmission& sent, RadioId receiver, const Position& place) const {
+        const Position way = place - sent.origin;
+        return gain_towards(way, sent.radio, sent.start) * gain_towards(way * -1, receiver, sent.start);
+    }
+
+private:
+    struct Mounted {
+        Mounted(const MountedAntenna& mounted_antenna, const Trajectory* its_trajectory)
+            : antenna(mounted_antenna), trajectory(its_trajectory) {}
+
+        MountedAntenna antenna;
+        const Trajectory* trajectory;
+    };
+
+    double gain_towards(const Position& way, RadioId radio, SimTime time) const {
+        const Mounted* mounted = mounted_[radio].get();
+        return mounted == nullptr ? 1 : mounted->antenna.gain_towards(way, *mounted->trajectory, time);
+    }
+
+    std::vector<std::unique_ptr<Mounted>> mounted_;  // null: isotropic
+    bool all_isotropic_ = true;
+};
+
+}  // namespace netsim

@@ -1,0 +1,125 @@
+#include "netsim/propagation/fading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "netsim/units.hpp"
+
+namespace netsim {
+
+namespace {
+
+// Exceeded once in 10⁹ draws of a standard normal number.
+constexpr double rare_normal = 5.9978070150076869;
+// And by the power of a complex Gaussian of mean power 1, which is exponentially distributed: 9 ln 10.
+constexpr double rare_scattered = 9 * std::numbers::ln10;
+
+double normal_density(double x) {
+    return std::exp(-x * x / 2) * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
+}
+
+// Of a standard normal number, to be at least `x`.
+double normal_above(double x) {
+    return std::erfc(x / std::numbers::sqrt2) / 2;
+}
+
+// Of a pair of standard normal numbers, to lie less than `radius` from (−line, 0): over the height r sin θ of a chord of
+// that disc, half as long as r cos θ, the density of the height times the chance of lying between the chord's ends. As a function
+// of θ that is smooth and periodic, so that a few equal steps are exact to many digits.
+double chance_within(double radius, double line) {
+    constexpr int steps = 16;
+    constexpr double far = 8;  // no pair lies that high
+    const double width =
+        (radius > far ? std::asin(far / radius) : std::numbers::pi / 2) / static_cast<double>(steps);
+    double sum = 0;
+    for (int step = 0; step < steps; ++step) {
+        const double angle = width * (step + 0.5);
+        const double half_chord = radius * std::cos(angle);
+        sum += normal_density(radius * std::sin(angle)) * half_chord *
+               (normal_above(line - half_chord) - normal_above(line + half_chord));
+    }
+    return 2 * width * sum;  // above the middle, and below
+}
+
+}  // namespace
+
+Fading::Fading(const MediumConfig& config, std::uint64_t seed)
+    : gaussians_(seed, SimTime::from_seconds(config.coherence_time())) {
+    double farthest = 0;  // from 0, of the pairs that are not cut off
+    if (config.path_loss == "LogNormalShadowing") {
+        kind_ = Kind::log_normal;
+        sigma_ = config.sigma_db * std::numbers::ln10 / 10;
+        farthest = rare_normal;
+    } else if (config.path_loss == "RayleighFading" || config.path_loss == "RicianFading") {
+        kind_ = Kind::rician;
+        k_ = config.path_loss == "RicianFading" ? ratio_from_db(config.k_db) : 0;
+        farthest = std::sqrt(2 * rare_scattered);
+    } else if (config.path_loss == "NakagamiFading") {
+        kind_ = Kind::nakagami;
+        shape_ = config.shape_factor;
+        if (shape_ != 1) {
+            gamma_.emplace(shape_);
+        }
+        farthest = rare_normal;
+    } else {
+        return;
+    }
+    // All rise with the first number, and none has more of two numbers than of one at the same distance from 0.
+    const auto most_gain = [this](double from_0) { return untruncated({from_0, 0}); };
+    most_ = most_gain(farthest);
+    rare_ = RareGains(most_gain, farthest);
+}
+
+double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission,
+                    double least) const {
+    if (kind_ == Kind::none) {
+        return 1;
+    }
+    const auto normal = gaussians_.at_if_beyond(rare_.chance_beyond(least), a, b, time, transmission);
+    return normal ? std::min(untruncated(*normal), most_) : 0;
+}
+
+double Fading::chance_of(double gain) const {
+    if (gain > most_) {
+        return 0;
+    }
+    switch (kind_) {
+        case Kind::log_normal:
+            return sigma_ > 0 ? normal_above(std::log(gain) / sigma_) : 1;
+        case Kind::rician:
+            return k_ > 0 ? 1 - chance_within(std::sqrt(2 * (k_ + 1) * gain), std::sqrt(2 * k_))
+                          : std::exp(-gain);
+        case Kind::nakagami:
+            return gamma_ ? gamma_->distribution().above(shape_ * gain) : std::exp(-gain);
+        case Kind::none:
+            break;
+    }
+    return 1;
+}
+
+double Fading::mean() const {
+    // All means are 1, but for this one, to which what is cut off matters if sigma is large.
+    return kind_ == Kind::log_normal ? std::exp(sigma_ * sigma_ / 2) * normal_above(sigma_ - rare_normal) +
+                                           most_ * normal_above(rare_normal)
+                                     : 1;
+}
+
+double Fading::untruncated(const GaussianPair& normal) const {
+    switch (kind_) {
+        case Kind::log_normal:
+            return std::exp(sigma_ * normal.first);
+        case Kind::rician: {
+            const double in_phase = normal.first + std::sqrt(2 * k_);
+            return (in_phase * in_phase + normal.second * normal.second) / (2 * (k_ + 1));
+        }
+        case Kind::nakagami:
+            return gamma_ ? gamma_->of_normal(normal.first) / shape_
+                          : -std::log(std::erfc(normal.first / std::numbers::sqrt2) / 2);
+        case Kind::none:
+            break;
+    }
+    return 1;
+}
+
+}  // namespace netsim

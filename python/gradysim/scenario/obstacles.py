@@ -1,0 +1,272 @@
+"""Obstacles: the data of one, the checks of its outline, and how .ini files describe them."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
+from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors.source import Source
+from gradysim.scenario.keys.environment import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
+from gradysim.scenario.keys.key import Key
+from gradysim.scenario.matching.lookup import Lookup
+from gradysim.scenario.value.setting import Setting, SettingReader
+
+Corner = tuple[float, float]
+"""x and y in meters."""
+
+Ring = tuple[Corner, ...]
+"""Corners of a closed line. The last corner is joined to the first."""
+
+Side = tuple[int, int]
+"""A side of an outline: the number of its ring and of the corner where it begins."""
+
+_TOUCH_M = 0.1
+"""Sides that overlap by no more than this only touch.
+
+It is a unit of the sixth decimal of a degree. GeoJSON files mostly have no more decimals (RFC 7946, section
+11.2), so rounding moves a courtyard at a wall this far.
+"""
+
+_BOX_ONLY = ("min_x", "max_x", "min_y", "max_y", "heading_rad")
+
+
+@dataclass(frozen=True)
+class ObstacleSpec:
+    """A body with vertical walls.
+
+    Attributes:
+        name: Name in messages: "obstacle[0]", or file and feature.
+        rings: The footprint. Rings within the first one are courtyards.
+        base_m: z of the floor in meters.
+        top_m: z of the roof in meters.
+        source: Where it was written, or where its file was named.
+        material: Name in the engine's table of materials.
+        relative_permittivity: Replaces that of the material; -1 keeps it.
+        conductivity_spm: Replaces that of the material, in S/m; -1 keeps it.
+        sources: Where its values were written, by the targets of their keys.
+    """
+
+    name: str
+    rings: tuple[Ring, ...]
+    base_m: float
+    top_m: float
+    source: Source
+    material: str = DEFAULT_MATERIAL
+    relative_permittivity: float = -1.0
+    conductivity_spm: float = -1.0
+    sources: Mapping[str, Source] = field(default_factory=dict)
+
+
+def obstacle_count(lookup: Lookup, settings: SettingReader) -> int:
+    """Return `environment.numObstacles`, the number of obstacles in the .ini file."""
+    setting = read_setting(lookup, settings, NUM_OBSTACLES, NUM_OBSTACLES.path)
+    return int(setting.value) if setting else 0
+
+
+def read_obstacles(lookup: Lookup, settings: SettingReader) -> tuple[ObstacleSpec, ...]:
+    """Return the obstacles that the .ini file describes.
+
+    Raises:
+        ConfigError: A value is missing or wrong.
+    """
+    count = lookup.first(*NUM_OBSTACLES.path.split(".", 1))
+    count_source = count.entry.source if count else None
+    obstacles = []
+    for index in range(obstacle_count(lookup, settings)):
+        values = {
+            key.field: setting
+            for key in OBSTACLE_KEYS
+            if (setting := read_setting(lookup, settings, key, obstacle_path(key, index)))
+        }
+        source = next(iter(values.values())).source if values else count_source
+        assert source is not None
+        obstacles.append(_obstacle(f"obstacle[{index}]", values, source))
+    return tuple(obstacles)
+
+
+def read_setting(lookup: Lookup, settings: SettingReader, key: Key, path: str) -> Setting | None:
+    """Return the value of a parameter of the network; None if nothing sets it."""
+    found = lookup.first(*path.split(".", 1))
+    return None if found is None or found.is_default else settings.setting(found.entry, key.kind, path)
+
+
+def _obstacle(name: str, values: Mapping[str, Setting], source: Source) -> ObstacleSpec:
+    base_m, top_m = _span(name, values, "z", source)
+    if "typename" not in values or values["typename"].value == "box":
+        _refuse(name, values, ("points",), 'only a prism has points; expected `typename = "prism"`')
+        ring = _box(name, values, source)
+    else:
+        _refuse(name, values, _BOX_ONLY, 'a prism has points; expected `typename = "box"`, or points')
+        if "points" not in values:
+            expected = f'`*.environment.{name}.points = "0 0 10 0 10 5"`'
+            raise ConfigError(f"{name} has no points; expected {expected}", source)
+        ring = _prism(values["points"])
+    own = {
+        property_name: float(values[property_name].value)
+        for property_name in ("relative_permittivity", "conductivity_spm")
+        if property_name in values
+    }
+    material = str(values["material"].value) if "material" in values else DEFAULT_MATERIAL
+    sources = {f"obstacle.{target}": setting.source for target, setting in values.items()}
+    return ObstacleSpec(name, (ring,), base_m, top_m, source, material, **own, sources=sources)
+
+
+def _span(name: str, values: Mapping[str, Setting], axis: str, source: Source) -> tuple[float, float]:
+    """Return the two limits of an obstacle along an axis, in meters."""
+    for end in ("min", "max"):
+        if f"{end}_{axis}" not in values:
+            key = f"{end}{axis.upper()}"
+            raise ConfigError(f"{name} has no {key}; expected `*.environment.{name}.{key} = 10m`", source)
+    low, high = (float(values[f"{end}_{axis}"].value) for end in ("min", "max"))
+    if not low < high:
+        text = f"expected more than min{axis.upper()}, {low:g}m"
+        raise ConfigError.at(values[f"max_{axis}"].source, text)
+    return low, high
+
+
+def _refuse(name: str, values: Mapping[str, Setting], fields: tuple[str, ...], why: str) -> None:
+    for setting in (values[name] for name in fields if name in values):
+        raise ConfigError.at(setting.source, f"{name}: {why}")
+
+
+def _box(name: str, values: Mapping[str, Setting], source: Source) -> Ring:
+    (west, east), (south, north) = (_span(name, values, axis, source) for axis in "xy")
+    corners = ((west, south), (east, south), (east, north), (west, north))
+    heading = values.get("heading_rad")
+    if heading is None or heading.value == 0:
+        return corners
+    x, y = (west + east) / 2, (south + north) / 2
+    turned = [
+        rotate_position_2d((corner[0] - x, corner[1] - y, 0.0), math.degrees(float(heading.value)))
+        for corner in corners
+    ]
+    ring = tuple((x + dx, y + dy) for dx, dy, _ in turned)
+    _check_within_scene(ring, heading.source)
+    return ring
+
+
+def _prism(points: Setting) -> Ring:
+    try:
+        numbers = [float(word) for word in str(points.value).split()]
+    except ValueError:
+        numbers = []
+    if len(numbers) < 6 or len(numbers) % 2 or not all(map(math.isfinite, numbers)):
+        text = 'expected x and y in meters for at least 3 corners: "0 0 10 0 10 5"'
+        raise ConfigError.at(points.source, text)
+    ring = tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    _check_within_scene(ring, points.source)
+    if encloses_nothing(ring):
+        raise ConfigError.at(points.source, "expected corners that are not on one line")
+    if crossing := crossing_sides([ring]):
+        one, other = (
+            "from ({:g}, {:g}) to ({:g}, {:g})".format(*ring[corner], *ring[(corner + 1) % len(ring)])
+            for _, corner in crossing
+        )
+        text = f"the side {one} crosses the side {other}; expected corners in their order around the obstacle"
+        raise ConfigError.at(points.source, text)
+    return ring
+
+
+def _check_within_scene(ring: Ring, source: Source) -> None:
+    for x, y in ring:
+        if max(abs(x), abs(y)) > LARGEST_COORDINATE_M:
+            text = f"the corner ({x:g}, {y:g}) is too far away"
+            raise ConfigError.at(source, f"{text}; expected x and y of at most {LARGEST_COORDINATE_M} m")
+
+
+def encloses_nothing(ring: Ring) -> bool:
+    """Return whether all corners lie on one line."""
+    (x, y), *others = ring
+    offsets = [(other_x - x, other_y - y) for other_x, other_y in others]
+    dx, dy = max(offsets, key=lambda offset: math.hypot(*offset))
+    return all(dx * offset_y == dy * offset_x for offset_x, offset_y in offsets)
+
+
+def crossing_sides(rings: Sequence[Ring]) -> tuple[Side, Side] | None:
+    """Return two sides of one outline that cross; None if none do.
+
+    Sides that touch do not cross: those of a courtyard at the wall, or those around a repeated corner.
+    """
+    sides = [
+        (min(begin[0], end[0]), max(begin[0], end[0]), begin, end, (ring, corner))
+        for ring, corners in enumerate(rings)
+        for corner, (begin, end) in enumerate(zip(corners, (*corners[1:], corners[0]), strict=True))
+    ]
+    sides.sort(key=lambda side: side[0])
+    for index, (_, highest_x, begin, end, one) in enumerate(sides, start=1):
+        for lowest_x, _, other_begin, other_end, other in sides[index:]:
+            if lowest_x > highest_x:
+                break
+            if sides_cross(begin, end, other_begin, other_end):
+                return min(one, other), max(one, other)
+    return None
+
+
+def sides_cross(begin: Corner, end: Corner, other_begin: Corner, other_end: Corner) -> bool:
+    """Return whether two sides reach beyond each other."""
+    return _are_apart(begin, end, other_begin, other_end) and _are_apart(other_begin, other_end, begin, end)
+
+
+def _are_apart(begin: Corner, end: Corner, one: Corner, other: Corner) -> bool:
+    """Return whether the line through `begin` and `end` passes between the two other corners."""
+    dx, dy = end[0] - begin[0], end[1] - begin[1]
+    least = _TOUCH_M * math.hypot(dx, dy)
+    of_one = dx * (one[1] - begin[1]) - dy * (one[0] - begin[0])
+    of_other = dx * (other[1] - begin[1]) - dy * (other[0] - begin[0])
+    return (of_one > least and of_other < -least) or (of_one < -least and of_other > least)
+
+
+def misplaced_ring(rings: Sequence[Ring]) -> tuple[int, int] | None:
+    """Return an inner ring that is not within the first ring, or that is within another inner ring.
+
+    The pair holds its number and that of the other ring. None if all rings are where they belong. The sides
+    of the rings must not cross. They may touch.
+    """
+    samples = [[*ring, _point_within(ring)] for ring in rings]
+    spans = [(min(ring)[0], max(ring)[0]) for ring in rings]  # in x
+    for inner in range(1, len(rings)):
+        if any(_depth_m(point, rings[0]) < -_TOUCH_M for point in samples[inner]):
+            return inner, 0
+        for other in range(1, inner):
+            if spans[inner][1] < spans[other][0] or spans[other][1] < spans[inner][0]:
+                continue
+            for within, around in ((inner, other), (other, inner)):
+                if any(_depth_m(point, rings[around]) > _TOUCH_M for point in samples[within]):
+                    return within, around
+    return None
+
+
+def _depth_m(point: Corner, ring: Ring) -> float:
+    """Return the distance of a point to a ring: positive inside of it, negative outside."""
+    x, y = point
+    is_within = False
+    nearest_m = math.inf
+    begin_x, begin_y = ring[-1]
+    for end_x, end_y in ring:
+        dx, dy = end_x - begin_x, end_y - begin_y
+        if (begin_y > y) != (end_y > y) and x < begin_x + dx * (y - begin_y) / dy:
+            is_within = not is_within
+        square = dx * dx + dy * dy
+        along = ((x - begin_x) * dx + (y - begin_y) * dy) / square if square else 0.0
+        along = min(max(along, 0.0), 1.0)
+        nearest_m = min(nearest_m, math.hypot(begin_x + along * dx - x, begin_y + along * dy - y))
+        begin_x, begin_y = end_x, end_y
+    return nearest_m if is_within else -nearest_m
+
+
+def _point_within(ring: Ring) -> Corner:
+    """Return a point inside of a ring and far from its sides: the middle of a long stretch at one y."""
+    heights = sorted({y for _, y in ring})
+    low, high = max(pairwise(heights), key=lambda pair: pair[1] - pair[0])
+    y = (low + high) / 2
+    xs = sorted(
+        begin[0] + (end[0] - begin[0]) * (y - begin[1]) / (end[1] - begin[1])
+        for begin, end in zip(ring, (*ring[1:], ring[0]), strict=True)
+        if (begin[1] > y) != (end[1] > y)
+    )
+    stretches = zip(xs[::2], xs[1::2], strict=True)
+    # A ring that is thinner than the resolution of a float has no such stretch.
+    west, east = max(stretches, key=lambda pair: pair[1] - pair[0], default=(ring[0][0], ring[0][0]))
+    return (west + east) / 2, y
