@@ -5,17 +5,16 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+from gradysim.scenario.expressions import ParameterContext, parse_value
 from gradysim.scenario.file.reader import read_ini
 from gradysim.scenario.file.sections import Ranked, search_order
+from gradysim.scenario.functions import Value
 from gradysim.scenario.matching.lookup import is_option
+from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.runs.iterations import name_iterations, text_of_iterations
 from gradysim.scenario.runs.numbered_runs import numbered_runs
 from gradysim.scenario.runs.variables import run_variables, substitute
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.operators import Value
-from gradysim.scenario.value.parameter_context import ParameterContext
-from gradysim.scenario.value.pattern import compile_pattern
-from gradysim.scenario.value.quantity import Quantity
+from gradysim.scenario.units import Quantity
 from verification.finding import Finding
 from verification.reference_data import rows
 

@@ -11,7 +11,7 @@ from gradysim.cli.exit_code import OK, say_mistake
 from gradysim.cli.scenarios import check
 
 if TYPE_CHECKING:
-    from gradysim.scenario.value.kinds import Kind, Scalar
+    from gradysim.scenario.parameter_types import ParameterType, Scalar
 
 
 def calibrate_power(
@@ -44,8 +44,8 @@ def calibrate_power(
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.parameter_types import quantity, whole_bytes
     from gradysim.scenario.runs.iterations import text_of_iterations
-    from gradysim.scenario.value.kinds import quantity, whole_bytes
 
     try:
         scenario = check(file, config, "0", settings).scenarios[0]
@@ -75,10 +75,10 @@ def calibrate_power(
     return OK
 
 
-def option_value(option: str, text: str, kind: "Kind") -> "Scalar":
+def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
     """Return the value that an option says. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors.config_error import BadValue, ConfigError
-    from gradysim.scenario.value.expression import parse_value
+    from gradysim.scenario.expressions import parse_value
 
     try:
         return kind.convert(parse_value(text))

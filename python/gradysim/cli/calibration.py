@@ -7,7 +7,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.calibration import Calibration
-from gradysim.scenario.value.decibels import db_from_ratio, dbm_from_w
+from gradysim.scenario.units import db_from_ratio, dbm_from_w
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

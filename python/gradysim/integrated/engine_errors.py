@@ -13,7 +13,7 @@ from gradysim.scenario.errors.says_in_full import says_in_full
 from gradysim.scenario.errors.sibling_files import file_meant
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 _COMPARED_WITH = {
     "antenna.length_m": ("radio.carrier_hz",),

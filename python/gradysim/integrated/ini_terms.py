@@ -11,7 +11,7 @@ from functools import cache
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.scenario.keys.interface import written_for
 from gradysim.scenario.keys.key import Key
-from gradysim.scenario.value.units import UNITS
+from gradysim.scenario.units import UNITS
 
 FIELD = re.compile(
     r"(?P<interface>\bwlan\[\d+\]\.)?\b(?P<target>"

@@ -20,7 +20,7 @@ from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig

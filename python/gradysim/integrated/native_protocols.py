@@ -10,7 +10,7 @@ from gradysim.protocol.interface import IProvider
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import NativeParameter, NativeProtocol
 from gradysim.scenario.protocol.parametrize import parametrize
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim

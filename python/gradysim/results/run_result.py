@@ -13,7 +13,7 @@ from typing import Any, Literal
 from gradysim.protocol.plain_value import plain_value
 from gradysim.results.delays import Delays
 from gradysim.results.vector import Vector
-from gradysim.scenario.value.quoted import is_quoted, unquoted
+from gradysim.scenario.functions import is_quoted, unquoted
 
 Mode = Literal["integrated", "prototype"]
 Fates = Mapping[str, Mapping[str, Mapping[str, int]]]

@@ -23,8 +23,9 @@ _MOST_INTEGERS = 2**64
 _MOST_TO_ADD = 10_000
 """Random numbers that one draw adds up."""
 _FARTHEST = 3.0
-"""Standard deviations by which the mean of `truncnormal` may be negative. Beyond that fewer than one number in
-a thousand would be left."""
+"""Standard deviations by which the mean of `truncnormal` may be negative.
+
+Beyond that fewer than one number in a thousand would be left."""
 
 
 class ParameterStream:

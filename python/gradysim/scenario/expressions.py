@@ -1,4 +1,4 @@
-"""Reads values of .ini files: quantities with units, strings in quotes, true and false, and expressions of them.
+"""Reads values of .ini files: quantities with units, strings in quotes, true and false, and expressions.
 
 The grammar is OMNeT++'s, without operators of bits and functions of strings, files and units:
 

@@ -19,7 +19,7 @@ from gradysim.scenario.units import Number, Quantity, is_finite
 Value = Quantity | str | bool
 
 QUOTED = r'"(?:[^"\\]|\\.)*"'
-"""Regular expression of a string in quotes, for re.DOTALL. A backslash takes the meaning from the next character."""
+"""Regular expression, for re.DOTALL, of a string in quotes. A backslash escapes the next character."""
 
 _ONE_STRING = re.compile(QUOTED, re.DOTALL)
 _ESCAPED = re.compile(r"\\(.)", re.DOTALL)

@@ -9,20 +9,18 @@ from pathlib import Path
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors.config_error import BadValue
 from gradysim.scenario.errors.source import Source
+from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
 from gradysim.scenario.file.reader import Entry, Section
 from gradysim.scenario.keys.radio import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY
 from gradysim.scenario.keys.radio_media import has_radios
 from gradysim.scenario.matching.lookup import is_ignored, is_option
 from gradysim.scenario.matching.pattern_index import PatternIndex
 from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.protocol.parameter_unit import annotations_of, unit_of
 from gradysim.scenario.runs.unread_variables import UnreadVariables
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.parameter_context import ParameterContext, differs_between_parameters
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
-from gradysim.scenario.value.quantity import Quantity
-from gradysim.scenario.value.units import Dimension
+from gradysim.scenario.units import Dimension, Quantity
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from gradysim.scenario.runs.seed import check_seeds_of_runs, seed_of_file, whole
 from gradysim.scenario.runs.settings_hash import entries_of_the_hash, settings_hash
 from gradysim.scenario.runs.variables import run_variables, substitute, substituted
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.value.setting import read_scalar
+from gradysim.scenario.settings import read_scalar
 
 
 def load_scenarios(

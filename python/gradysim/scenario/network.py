@@ -27,7 +27,7 @@ from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import file_of_native
 from gradysim.scenario.runs.file_hashes import FileHashes
 from gradysim.scenario.scenario import CommunicationMediumSpec
-from gradysim.scenario.value.setting import Setting, SettingReader
+from gradysim.scenario.settings import Setting, SettingReader
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
@@ -15,8 +16,7 @@ from gradysim.scenario.runs.file_hashes import FileHashes
 from gradysim.scenario.runs.iterations import IterationVariable
 from gradysim.scenario.runs.unread_variables import UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.runs.variables import depends_on_run, substitute, substituted
-from gradysim.scenario.value.drawing_functions import drawing_function_in
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 
 class _Read(NamedTuple):
@@ -46,7 +46,7 @@ class Networks:
         self._loader, self._hashes = ProtocolLoader(), FileHashes(folder)
         parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
         self._varying = [entry for entry in parameters if depends_on_run(entry)]
-        self._always_draws = any(drawing_function_in(entry.text) for entry in parameters)
+        self._always_draws = any(distribution_in(entry.text) for entry in parameters)
         self._last: _Read | None = None
         self._of_other_runs: list[Sequence[Source]] = []
         self._read: set[Source] = set()
@@ -67,7 +67,7 @@ class Networks:
         texts, last = self._texts(variables), self._last
         if last is None or texts != last.texts:
             return self._read_network(texts, variables, seed), True
-        if seed == last.seed or not (self._always_draws or any(map(drawing_function_in, texts))):
+        if seed == last.seed or not (self._always_draws or any(map(distribution_in, texts))):
             return last.network, True
         if last.settings.is_right_for_all_seeds():
             return last.network, False

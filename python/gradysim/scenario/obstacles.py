@@ -11,7 +11,7 @@ from gradysim.scenario.errors.source import Source
 from gradysim.scenario.keys.environment import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.lookup import Lookup
-from gradysim.scenario.value.setting import Setting, SettingReader
+from gradysim.scenario.settings import Setting, SettingReader
 
 Corner = tuple[float, float]
 """x and y in meters."""

@@ -91,7 +91,7 @@ def quantity(
     special: float | None = None,
     shown: str = "",
 ) -> ParameterType:
-    """Return the type of finite quantities, converted to `unit`. Lists of keys show them in the unit `shown`."""
+    """Return the type of finite quantities, converted to `unit`. Lists of keys show them in `shown`."""
     target, limits = UNITS[unit], _Range(at_least, above, at_most, special)
 
     def convert(value: Value) -> float:
@@ -142,7 +142,7 @@ def number(
 
 
 def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> ParameterType:
-    """Return the type of integers, which are written without a point; by default what the engine takes as int."""
+    """Return the type of integers, written without a point; by default at most an `int` of the engine."""
     limits = _Range(at_least, None, at_most)
 
     def convert(value: Value) -> int:

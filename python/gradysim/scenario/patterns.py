@@ -1,4 +1,4 @@
-"""Patterns of keys, matched against full paths such as `Network.uavs[3].mobility.speed`.
+r"""Patterns of keys, matched against full paths such as `Network.uavs[3].mobility.speed`.
 
 | element | matches |
 |---|---|
@@ -6,7 +6,7 @@
 | `?` | one character that is not a dot |
 | `{a-z}`, `{^a-z}` | one of the characters, one other character |
 | `[3..5]`, `{3..5}` | a number of the range in brackets, without them; either end may be left open |
-| `\\x` | the character x itself |
+| `\x` | the character x itself |
 """
 
 import re
@@ -22,7 +22,7 @@ _MOST_DIGITS = 18
 """Of the ends of a range. The regular expression grows with their square, and no node has such an index."""
 
 _MOST_WILDCARDS = 4
-"""Of a pattern that is matched by one regular expression, whose time may grow with this power of the length."""
+"""Of a pattern that one regular expression matches. Its time may grow with this power of the length."""
 
 
 @dataclass(frozen=True)

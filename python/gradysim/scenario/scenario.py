@@ -15,7 +15,7 @@ from gradysim.scenario.runs.labels import with_labels
 from gradysim.scenario.runs.seed import checked_seed
 from gradysim.scenario.runs.unread_variables import UnreadVariables
 from gradysim.scenario.runs.variables import run_variables, substitute
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,10 @@ class Setting:
 
 
 class SettingReader:
-    """Reads the values of one run. Each entry is read once for each type, unless each parameter has its own value."""
+    """Reads the values of one run.
+
+    Each entry is read once for each type, unless each parameter has its own value.
+    """
 
     def __init__(self, seed: int = 0) -> None:
         self._seed = seed
@@ -41,7 +44,7 @@ class SettingReader:
     def setting(self, entry: Entry, kind: ParameterType, path: str = "") -> Setting:
         """Return the value of an entry. ConfigError, with its place, if it is not of that type.
 
-        `path` is the parameter that it is for, from below the network; "" for a value that is not a parameter's.
+        `path` is the parameter that it is for, from below the network; "" if it is not for a parameter.
         """
         key = (id(entry), id(kind))
         known = self._settings.get(key)
@@ -51,7 +54,7 @@ class SettingReader:
             if path and differs_between_parameters(entry.text):
                 own = read_scalar(entry, kind, path, ParameterContext(self._seed, path))
                 if (entry.text, kind) not in self._right_for_all_seeds:
-                    self._right_for_all_seeds[entry.text, kind] = _is_right_for_all_seeds(entry.text, kind)
+                    self._right_for_all_seeds[entry.text, kind] = is_right_for_all_seeds(entry.text, kind)
                 return self._noted(Setting(own, entry.source), kind)
             # Entry and type are kept beside the value, so that their ids are not reused.
             setting = self._noted(Setting(read_scalar(entry, kind, path), entry.source), kind)
@@ -71,7 +74,7 @@ class SettingReader:
         return frozenset(entry.source for entry in self._read.values())
 
     def parameters_read(self) -> frozenset[str]:
-        """Return what they were read for, without names of nodes and parts of the network: "mobility.speed"."""
+        """Return what they were read for, without the names of nodes: "mobility.speed"."""
         return frozenset(self._parameters - {""})
 
     def is_right_for_all_seeds(self) -> bool:
@@ -79,7 +82,7 @@ class SettingReader:
         return all(self._right_for_all_seeds.values())
 
     def for_checks(self) -> "SettingReader":
-        """Return another reader for the same run that shares with this one only what it finds out about draws."""
+        """Return another reader for the same run. It shares only what it finds out about draws."""
         reader = SettingReader(self._seed)
         reader._right_for_all_seeds = self._right_for_all_seeds
         return reader
@@ -124,7 +127,7 @@ def _value_of(entry: Entry, kind: ParameterType, parameter: ParameterContext | N
     return parse_value(entry.text, parameter)
 
 
-def _is_right_for_all_seeds(text: str, kind: ParameterType) -> bool:
+def is_right_for_all_seeds(text: str, kind: ParameterType) -> bool:
     """Whether a value that is valid with one seed is known to be valid with every other seed.
 
     That is known of `uniform(0m, 1km)` if both ends are valid and everything between valid values is. It

@@ -1,8 +1,8 @@
 """Units of .ini files and numbers with units, by OMNeT++'s names.
 
-`d` is a day, `m` a meter, `min` a minute, `B` is eight `b`. `dB` stays a number with the unit dB, since models
-disagree about what it is a ratio of; `dBm` and `dBW` are powers. Numbers are exact fractions until they are
-converted, so that 0.3ms is the same double as 0.0003s.
+`d` is a day, `m` a meter, `min` a minute, `B` is eight `b`. `dB` stays a number with the unit dB, since
+models disagree about what it is a ratio of; `dBm` and `dBW` are powers. Numbers are exact fractions until
+they are converted, so that 0.3ms is the same double as 0.0003s.
 """
 
 import math
@@ -197,7 +197,7 @@ class Quantity:
         return self.number * (float(scale) if isinstance(self.number, float) else scale)
 
     def numbers_beside(self, other: "Quantity") -> tuple[Number, Number]:
-        """This number and the other one in the unit of this one, for a comparison; both are rounded if one is.
+        """This number and the other one in the unit of this one, to be compared. If one is rounded, both are.
 
         Raises:
             BadValue: The two measure different things, or one is too large to be rounded.
@@ -267,15 +267,18 @@ class Quantity:
         if self.unit is not None or other.unit is not None:
             raise BadValue(f"`{self}` ^ `{other}`: powers are for plain numbers")
         base, exponent = self.number, other.number
+        result: Number
         try:
             if isinstance(exponent, int) and abs(exponent) <= 64 and _is_short(base):
                 exact = Fraction(base) ** exponent
-                return Quantity(int(exact) if isinstance(base, int) and exponent >= 0 else exact)
-            return Quantity(math.pow(base, exponent))
+                result = int(exact) if isinstance(base, int) and exponent >= 0 else exact
+            else:
+                result = math.pow(base, exponent)
         except OverflowError:
             raise BadValue(_TOO_LARGE) from None
         except (ValueError, ZeroDivisionError):
             raise BadValue(f"`{self}` ^ `{other}` is not a number") from None
+        return Quantity(result)
 
 
 _TOO_LARGE = "the result is too large for a number"

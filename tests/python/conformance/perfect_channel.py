@@ -13,7 +13,7 @@ from gradysim.scenario.errors.source import Source
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
     "integrated": gradysim.integrated.run.run,

@@ -11,9 +11,8 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.value.drawing_functions import DRAWING_FUNCTIONS
-from gradysim.scenario.value.functions import FUNCTIONS, SELECT_WRITTEN
-from gradysim.scenario.value.operators import OPERATORS
+from gradysim.scenario.distributions import DISTRIBUTIONS
+from gradysim.scenario.functions import FUNCTIONS, OPERATORS, SELECT_WRITTEN
 
 GUIDE = "docs/guides/values.md"
 
@@ -58,7 +57,7 @@ def test_its_tables_have_all_functions(root: Path) -> None:
         [SELECT_WRITTEN, *(function.written for function in FUNCTIONS.values())]
     )
     drawn = functions_in(drawing.partition("All values")[0])
-    assert drawn == [function.written for function in DRAWING_FUNCTIONS.values()]
+    assert drawn == [function.written for function in DISTRIBUTIONS.values()]
 
 
 def test_its_table_has_all_operators(root: Path) -> None:

@@ -6,10 +6,10 @@ import pytest
 from gradysim import _netsim
 from gradysim.integrated.engine_defaults import engine_defaults
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, SPEED_MPS, UPDATE_S
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.key_list import OWN_STRUCTS, UNKNOWN, key_sections
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
 from gradysim.scenario.keys.mobility import ARDUPILOT, STATIC_GRID
-from gradysim.scenario.value.expression import parse_value
 
 MADE_WITH = {
     "medium.typename": _netsim.MediumConfig,

@@ -7,7 +7,7 @@ from gradysim.integrated.network import check_scenario
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 WLAN = "*.uavs[*].wlan[*]"
 ANTENNA = f"{WLAN}.radio.antenna"

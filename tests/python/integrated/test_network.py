@@ -11,7 +11,7 @@ from gradysim.integrated.network import (
 )
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 
 def setting(value, key="key"):

@@ -8,7 +8,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.keys.mobility import ARDUPILOT, MOBILITY_KEYS
 from gradysim.scenario.scenario import CommunicationMediumSpec
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 TYPENAME = next(key for key in MOBILITY_KEYS if key.path == "mobility.typename")
 

@@ -4,7 +4,7 @@ from gradysim.scenario.keys.interface import WLAN
 from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.shapes import Below, angle
-from gradysim.scenario.value.kinds import choice, power_ratio, quantity
+from gradysim.scenario.parameter_types import choice, power_ratio, quantity
 
 _own = Below(f"{WLAN}.radio.antenna", "antenna", RADIO_MEDIA)
 _constant = _own.only_for("antenna.typename", "ConstantGainAntenna")

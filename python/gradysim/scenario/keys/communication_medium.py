@@ -2,7 +2,7 @@
 
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import number, quantity
+from gradysim.scenario.parameter_types import number, quantity
 
 _own = Below("communicationMedium", "communication_medium")
 

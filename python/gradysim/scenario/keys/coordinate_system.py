@@ -2,7 +2,7 @@
 
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import quantity
+from gradysim.scenario.parameter_types import quantity
 
 _own = Below("coordinateSystem", "reference")
 

@@ -3,7 +3,7 @@
 from gradysim.scenario.keys.interface import IEEE802154, WLAN
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import boolean, choice, integer, quantity
+from gradysim.scenario.parameter_types import boolean, choice, integer, quantity
 
 _mac = Below(f"{WLAN}.mac", "csma", IEEE802154)
 _exponential = _mac.only_for("csma.backoff_method", "exponential", shown="802.15.4, exponential")

@@ -3,7 +3,7 @@
 from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.shapes import Below, angle
-from gradysim.scenario.value.kinds import boolean, choice, coordinate, integer, number, text
+from gradysim.scenario.parameter_types import boolean, choice, coordinate, integer, number, text
 
 MATERIALS = (
     "concrete",

@@ -6,7 +6,7 @@ from gradysim.protocol.messages.interface_index import MOST_INTERFACES
 from gradysim.scenario.keys.key import Key, ReadBy
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import choice, integer
+from gradysim.scenario.parameter_types import choice, integer
 
 WLAN = "wlan[0]"
 """What the paths of all keys of an interface begin with; for the others see `at_interface`."""

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from gradysim.scenario.value.kinds import Kind
+from gradysim.scenario.parameter_types import ParameterType
 
 HAS_TO_BE_GIVEN = "none: it has to be given"
 """The default of a key without which its model, or a run, is none."""
@@ -38,7 +38,7 @@ class Key:
 
     path: str
     target: str
-    kind: Kind
+    kind: ParameterType
     meaning: str
     default: str = ""
     read_by: ReadBy | None = None

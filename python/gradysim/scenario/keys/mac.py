@@ -4,7 +4,7 @@ from gradysim.scenario.keys.interface import IEEE80211, WLAN
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.rate_control import RATE_CONTROL_KEYS
 from gradysim.scenario.keys.shapes import Below, bit_rate
-from gradysim.scenario.value.kinds import boolean, choice, integer, whole_bytes
+from gradysim.scenario.parameter_types import boolean, choice, integer, whole_bytes
 
 _own = Below(WLAN, "mac", IEEE80211)
 _dcf = _own.below("mac.dcf")

@@ -4,7 +4,7 @@ from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.path_loss import PATH_LOSS_KEYS
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.shapes import Below, level
-from gradysim.scenario.value.kinds import choice, quantity
+from gradysim.scenario.parameter_types import choice, quantity
 
 _own = Below("radioMedium", "medium")
 _of_radios = Below("radioMedium", "medium", RADIO_MEDIA)

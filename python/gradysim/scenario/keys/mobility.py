@@ -2,7 +2,7 @@
 
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.shapes import Below, angle
-from gradysim.scenario.value.kinds import (
+from gradysim.scenario.parameter_types import (
     boolean,
     choice,
     coordinate,

@@ -2,8 +2,8 @@
 
 from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import integer, si_number, text
-from gradysim.scenario.value.units import UNITS_IN_NAMES
+from gradysim.scenario.parameter_types import integer, si_number, text
+from gradysim.scenario.units import UNITS_IN_NAMES
 
 _protocol = Below("protocol", "protocol")
 

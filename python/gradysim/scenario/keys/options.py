@@ -1,7 +1,7 @@
 """Options of a run."""
 
 from gradysim.scenario.keys.key import HAS_TO_BE_GIVEN, Key
-from gradysim.scenario.value.kinds import Kind, integer, quantity, text
+from gradysim.scenario.parameter_types import ParameterType, integer, quantity, text
 
 LONGEST_RUN_S = 9_200_000
 """The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""
@@ -69,7 +69,7 @@ OPTION_KEYS: tuple[Key, ...] = (
     Key("description", "option.description", text(), "What the configuration is about", default='""'),
 )
 
-OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
+OPTIONS: dict[str, ParameterType] = {key.path: key.kind for key in OPTION_KEYS}
 
 NETWORK = "network"
 """The option that says what paths begin with: OMNeT++'s, of which nothing else counts."""

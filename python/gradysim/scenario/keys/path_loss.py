@@ -3,7 +3,7 @@
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import choice, number, number_in, quantity
+from gradysim.scenario.parameter_types import choice, number, number_in, quantity
 
 _NOT_OF_ALPHA = ("BreakpointPathLoss", "TwoRayInterference")
 _FADING = ("LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading")

@@ -9,7 +9,7 @@ from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.radio_media import RADIO_MEDIA
 from gradysim.scenario.keys.receiver import RECEIVER_KEYS
 from gradysim.scenario.keys.shapes import Below
-from gradysim.scenario.value.kinds import quantity
+from gradysim.scenario.parameter_types import quantity
 
 _own = Below(f"{WLAN}.radio", "radio", RADIO_MEDIA)
 _of_all_media = Below(f"{WLAN}.radio", "radio")

@@ -3,7 +3,7 @@
 from gradysim.scenario.keys.interface import IEEE80211, WLAN
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.keys.shapes import Below, bit_rate
-from gradysim.scenario.value.kinds import choice, integer, number, quantity
+from gradysim.scenario.parameter_types import choice, integer, number, quantity
 
 _NAMES = ("ArfRateControl", "AarfRateControl", "MinstrelRateControl")
 

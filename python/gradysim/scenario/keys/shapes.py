@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.functions import Value
 from gradysim.scenario.keys.key import Key, ReadBy
-from gradysim.scenario.value.kinds import Kind, Scalar, quantity
-from gradysim.scenario.value.operators import Value
+from gradysim.scenario.parameter_types import ParameterType, Scalar, quantity
 
 _STRONGEST_W = 1
 
@@ -25,7 +25,7 @@ class Below:
     struct: str
     read_by: ReadBy | None = None
 
-    def __call__(self, name: str, field: str, kind: Kind, meaning: str, default: str = "") -> Key:
+    def __call__(self, name: str, field: str, kind: ParameterType, meaning: str, default: str = "") -> Key:
         """Return the key `path.name`, whose value goes to `struct.field`."""
         return Key(f"{self.path}.{name}", f"{self.struct}.{field}", kind, meaning, default, self.read_by)
 
@@ -38,17 +38,17 @@ class Below:
         return replace(self, read_by=ReadBy(chosen_by, names, ", ".join(names) if shown is None else shown))
 
 
-def angle() -> Kind:
+def angle() -> ParameterType:
     """How something is turned."""
     return quantity("rad", shown="deg")
 
 
-def bit_rate() -> Kind:
+def bit_rate() -> ParameterType:
     """The rate of some frames; -1bps stands for that of others."""
     return quantity("bps", above=0, special=-1, shown="Mbps")
 
 
-def level(zero: bool = False) -> Kind:
+def level(zero: bool = False) -> ParameterType:
     """A power that a receiver compares with, in the air around it; `zero` is allowed or not.
 
     At most 1 W (30 dBm): more than anybody receives, and less than the usual levels without their minus. The

@@ -14,8 +14,8 @@ from gradysim.scenario.keys.interface import NUM_WLAN_INTERFACES
 from gradysim.scenario.keys.node import GROUP_SIZE, PROTOCOL_KEYS
 from gradysim.scenario.keys.omnetpp_options import IGNORED_MODULES
 from gradysim.scenario.matching.lookup import Found, Lookup
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.settings import SettingReader
 
 _PROTOCOL_PATHS = frozenset(key.path for key in PROTOCOL_KEYS)
 

@@ -10,6 +10,7 @@ from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.protocol.interface import IProtocol
+from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.nearest import did_you_mean
 from gradysim.scenario.errors.source import Source
@@ -24,9 +25,8 @@ from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.scenario.matching.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.matching.text_index import TextIndex
+from gradysim.scenario.patterns import Pattern
 from gradysim.scenario.protocol.parameters import parameters_of
-from gradysim.scenario.value.drawing_functions import drawing_function_in
-from gradysim.scenario.value.pattern import Pattern
 
 
 class NoSuchNodeError(ConfigError):
@@ -235,7 +235,7 @@ def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
 def _is_beyond_drawn_size(found: Found, groups: list[Group]) -> bool:
     """Whether a key names an index of a group whose size is drawn: runs of other seeds may have it."""
     size = _size_of_indexed_group(found, groups)
-    return size is not None and bool(drawing_function_in(size.entry.text))
+    return size is not None and bool(distribution_in(size.entry.text))
 
 
 def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:

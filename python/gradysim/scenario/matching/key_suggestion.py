@@ -11,9 +11,9 @@ from gradysim.scenario.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.inet_modules import instead_of_module
 from gradysim.scenario.matching.lookup import Found
+from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.protocol.parameter_unit import annotations_of
 from gradysim.scenario.protocol.parameters import parameters_of
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
 
 _PROTOCOL = "protocol."
 

@@ -8,7 +8,7 @@ number of them. `**.uavs[3].wlan[*].power` has `uavs[3]` at -3, a name that begi
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from gradysim.scenario.value.pattern import Pattern, Token
+from gradysim.scenario.patterns import Pattern, Token
 
 
 class Place(NamedTuple):

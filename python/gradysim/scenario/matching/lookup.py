@@ -13,6 +13,7 @@ from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.scenario.errors.config_error import BadValue, ConfigError
+from gradysim.scenario.expressions import differs_between_parameters
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.keys.omnetpp_options import (
@@ -23,8 +24,7 @@ from gradysim.scenario.keys.omnetpp_options import (
 )
 from gradysim.scenario.keys.options import NETWORK, OPTIONS
 from gradysim.scenario.matching.pattern_index import PatternIndex
-from gradysim.scenario.value.parameter_context import differs_between_parameters
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
+from gradysim.scenario.patterns import Pattern, compile_pattern
 
 _NETWORK_NAME = re.compile(r'("?)(?:[A-Za-z_]\w*\.)*([A-Za-z_]\w*)\1', re.ASCII)
 """With the names of packages before it, and in quotes or not."""

@@ -4,7 +4,7 @@ from operator import itemgetter
 from typing import Generic, TypeVar
 
 from gradysim.scenario.matching.landmarks import Names, Places, landmarks, names_at
-from gradysim.scenario.value.pattern import Pattern
+from gradysim.scenario.patterns import Pattern
 
 Item = TypeVar("Item")
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.lookup import Found
-from gradysim.scenario.value.setting import Setting, SettingReader
+from gradysim.scenario.settings import Setting, SettingReader
 
 
 def read_struct(

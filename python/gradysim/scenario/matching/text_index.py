@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from gradysim.scenario.matching.landmarks import Names, Places, landmarks, names_at
-from gradysim.scenario.value.pattern import Pattern
+from gradysim.scenario.patterns import Pattern
 
 
 class TextIndex:

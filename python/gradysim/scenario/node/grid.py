@@ -13,7 +13,7 @@ from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.matching.groups import Group
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 GRID_FIELDS = ("num_hosts", "columns", "rows", "margin_{}", "separation_{}")
 """Fields of a position that a grid is made of; the last two for each of its axes."""

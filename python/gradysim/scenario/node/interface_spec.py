@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 
 @dataclass(frozen=True)

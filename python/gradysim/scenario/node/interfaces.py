@@ -29,7 +29,7 @@ from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.lookup import Candidates, Found, Lookup
 from gradysim.scenario.matching.struct_reader import read_struct
 from gradysim.scenario.node.interface_spec import STRUCTS, InterfaceSpec
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 
 def interface_counts(lookup: Lookup, groups: list[Group], settings: SettingReader) -> dict[str, int]:

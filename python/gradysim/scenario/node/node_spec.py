@@ -13,7 +13,7 @@ from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.protocol.origin import Origin
 from gradysim.scenario.protocol.parameters import can_be_set, parameters_of
 from gradysim.scenario.protocol.portable import class_from, portable
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 
 @dataclass(frozen=True)

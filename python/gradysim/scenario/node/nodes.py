@@ -26,11 +26,11 @@ from gradysim.scenario.node.grid import AXES_OF_GRID, GRID_FIELDS, Grid, read_gr
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.interfaces import InterfaceBuilder
 from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import native_protocol
 from gradysim.scenario.protocol.parameters import parameters_of
-from gradysim.scenario.value.kinds import Kind
-from gradysim.scenario.value.setting import Setting, SettingReader
+from gradysim.scenario.settings import Setting, SettingReader
 
 _AXES = ("x", "y", "z")
 _TYPENAME = next(key for key in MOBILITY_KEYS if key.target == "mobility.typename")
@@ -140,7 +140,7 @@ class _NodeBuilder:
             for key in NODE_KEYS
             if key not in (*PROTOCOL_KEYS, *WLAN_KEYS) and (candidates := lookup.candidates(key.path))
         ]
-        self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
+        self._parameters: dict[type[IProtocol], list[tuple[str, ParameterType, Candidates]]] = {}
         self._interfaces = InterfaceBuilder(lookup, settings)
         self._shared: dict[object, _Shared] = {}
         self._grids: dict[tuple[_Shared, str], Grid] = {}

@@ -11,7 +11,7 @@ import re
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.protocol.native import NativeProtocol
-from gradysim.scenario.value.units import UNITS, UNITS_IN_NAMES
+from gradysim.scenario.units import UNITS, UNITS_IN_NAMES
 
 _BY_END = {name.lower(): name for name in UNITS_IN_NAMES}
 

@@ -6,21 +6,28 @@ from functools import cache
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.functions import Value
+from gradysim.scenario.parameter_types import (
+    ParameterType,
+    Scalar,
+    boolean,
+    integer,
+    number_in,
+    si_number,
+    text,
+)
 from gradysim.scenario.protocol.kept_with_class import kept_with_class
 from gradysim.scenario.protocol.native import NativeProtocol
 from gradysim.scenario.protocol.parameter_unit import annotations_of, unit_of
-from gradysim.scenario.value.kinds import Kind, Scalar, boolean, integer, number_in, si_number, text
-from gradysim.scenario.value.operators import Value
-from gradysim.scenario.value.quantity import Quantity
-from gradysim.scenario.value.units import Dimension
+from gradysim.scenario.units import Dimension, Quantity
 
 
 @cache
-def _float_of(name: str, unit: str | None) -> Kind:
+def _float_of(name: str, unit: str | None) -> ParameterType:
     return _float_without_unit(name) if unit is None else number_in(unit)
 
 
-def _float_without_unit(name: str) -> Kind:
+def _float_without_unit(name: str) -> ParameterType:
     """Takes no angles: of degrees and radians either may be meant, and commands want degrees."""
     any_number = si_number()
 
@@ -37,7 +44,7 @@ def _float_without_unit(name: str) -> Kind:
 
 
 @cache
-def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> Kind:
+def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> ParameterType:
     number = "a whole number" if unit is None else f"a whole number of {unit}"
     whole = integer(at_most=None)
 
@@ -70,13 +77,13 @@ _CONTRACT = {*dir(IProtocol), *annotations_of(IProtocol)}
 
 
 @kept_with_class
-def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
+def parameters_of(cls: type[IProtocol]) -> dict[str, ParameterType]:
     """Names of the parameters that can be set, each with what its value has to be: the type of its default.
 
     A default such as `delay: float = 0` is a float. Quantities are converted to the unit of the parameter, if
     something says it, otherwise to SI units; an angle is refused there.
     """
-    parameters: dict[str, Kind] = {}
+    parameters: dict[str, ParameterType] = {}
     for base in reversed(cls.__mro__):
         if base in IProtocol.__mro__:
             continue
@@ -99,7 +106,7 @@ def can_be_set(cls: type[IProtocol], name: str) -> bool:
     )
 
 
-def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: object) -> Kind | None:
+def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: object) -> ParameterType | None:
     unit = unit_of(cls, name)
     if type(default) is bool:
         return _BOOLEAN

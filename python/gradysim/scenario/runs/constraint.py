@@ -8,10 +8,9 @@ import re
 from collections.abc import Mapping
 
 from gradysim.scenario.errors.config_error import BadValue, ConfigError
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.operators import text_of
-from gradysim.scenario.value.quoted import is_quoted
+from gradysim.scenario.functions import is_quoted, text_of
 
 _VARIABLE = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
 

@@ -10,14 +10,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation, Overflow
 
+from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.nearest import did_you_mean
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
+from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.matching.lookup import is_ignored
-from gradysim.scenario.value.drawing_functions import drawing_function_in
-from gradysim.scenario.value.quoted import is_quoted, unquoted
 
 REPETITION = "repetition"
 """The variable that counts the runs of one combination of values, from 0."""
@@ -234,7 +234,7 @@ def _values(part: str, entry: Entry) -> Iterator[str]:
                 f"`{part}` is no range; expected plain numbers, and the unit behind the brace:"
                 " `${10..60 step 10}m`",
             )
-        if function := drawing_function_in(part):
+        if function := distribution_in(part):
             raise ConfigError.at(
                 entry.source,
                 f"`{function}` draws the value of one parameter, and a value of `${{...}}` is for a whole"

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.keys.options import OPTIONS
 from gradysim.scenario.runs.variables import substitute
-from gradysim.scenario.value.setting import read_scalar
+from gradysim.scenario.settings import read_scalar
 
 LABELS = {"experiment": "configname", "measurement": "iterationvars", "replication": "repetition"}
 """{variable: what it is unless the option `experiment-label` and so on says otherwise}."""

@@ -23,7 +23,7 @@ from gradysim.scenario.runs.iterations import (
     count_combinations,
 )
 from gradysim.scenario.runs.run_numbers import select_runs
-from gradysim.scenario.value.setting import read_scalar
+from gradysim.scenario.settings import read_scalar
 
 _THE_OTHERS = "*"
 

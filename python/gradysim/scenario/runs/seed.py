@@ -8,7 +8,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.keys.options import LARGEST_SEED, OPTIONS
 from gradysim.scenario.runs.variables import substitute
-from gradysim.scenario.value.setting import read_scalar
+from gradysim.scenario.settings import read_scalar
 
 
 def whole_seed(seed: object) -> int:

@@ -3,13 +3,13 @@
 import pytest
 
 from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.keys.bands import (
     CHANNEL_OF_802154,
     CHANNELS,
     channel_by_default,
     first_channel_of_band,
 )
-from gradysim.scenario.value.expression import parse_value
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,10 @@ import math
 import pytest
 
 from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.keys.key import Key, ReadBy
 from gradysim.scenario.keys.shapes import Below, angle, bit_rate, level
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.kinds import Kind
+from gradysim.scenario.parameter_types import ParameterType
 
 
 def test_a_key_stands_below_its_path_and_goes_to_its_struct() -> None:
@@ -38,25 +38,25 @@ def test_models_may_have_another_name_in_lists() -> None:
     ],
 )
 def test_values_come_in_si_units_and_are_shown_in_those_of_the_field(
-    kind: Kind, text: str, value: float, written: str
+    kind: ParameterType, text: str, value: float, written: str
 ) -> None:
     assert kind.convert(parse_value(text)) == pytest.approx(value)
     assert kind.show(value) == written
 
 
 @pytest.mark.parametrize(("kind", "text"), [(bit_rate(), "0bps"), (bit_rate(), "-2bps"), (level(), "0W")])
-def test_what_no_model_could_mean_is_refused(kind: Kind, text: str) -> None:
+def test_what_no_model_could_mean_is_refused(kind: ParameterType, text: str) -> None:
     with pytest.raises(BadValue):
         kind.convert(parse_value(text))
 
 
 @pytest.mark.parametrize(("kind", "text"), [(level(), "85dBm"), (level(zero=True), "2W")])
-def test_a_level_without_its_minus_is_refused(kind: Kind, text: str) -> None:
+def test_a_level_without_its_minus_is_refused(kind: ParameterType, text: str) -> None:
     with pytest.raises(BadValue, match=f"`{text}` is more than any radio receives; a minus forgotten"):
         kind.convert(parse_value(text))
     assert kind.expected.endswith("0W and at most 1W")
 
 
 @pytest.mark.parametrize(("kind", "text"), [(level(), "1W"), (level(), "-85dBm"), (level(zero=True), "0W")])
-def test_a_level_may_make_a_radio_deaf(kind: Kind, text: str) -> None:
+def test_a_level_may_make_a_radio_deaf(kind: ParameterType, text: str) -> None:
     assert float(kind.convert(parse_value(text))) <= 1

@@ -7,7 +7,7 @@ from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.matching.groups import Group, find_groups
 from gradysim.scenario.matching.lookup import Lookup
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 
 def groups_of(*sections: str) -> list[Group]:

@@ -1,7 +1,7 @@
 import pytest
 
 from gradysim.scenario.matching.landmarks import Place, landmarks, names_at
-from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.patterns import compile_pattern
 
 
 @pytest.mark.parametrize(

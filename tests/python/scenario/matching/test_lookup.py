@@ -9,7 +9,7 @@ from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.matching.lookup import Lookup, network_name
-from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.patterns import compile_pattern
 
 
 def entries(*keys: str) -> list[Ranked]:

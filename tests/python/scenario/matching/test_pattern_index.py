@@ -2,7 +2,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.matching.pattern_index import PatternIndex
-from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.patterns import compile_pattern
 
 PIECES = ["a", "b", "[3]", "[", ".", "*", "**", "?", "{^a}", "[0..3]", r"\.", "[*]"]
 PATTERNS = st.lists(st.sampled_from(PIECES), max_size=7).map("".join)

@@ -8,8 +8,8 @@ from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.lookup import Lookup
 from gradysim.scenario.matching.struct_reader import read_struct
-from gradysim.scenario.value.kinds import number, quantity
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.parameter_types import number, quantity
+from gradysim.scenario.settings import SettingReader
 
 POWER = Key("radio.power", "radio.power_w", quantity("W"), "")
 LEVEL = Key("radio.level", "radio.power_w", quantity("W"), "")  # another key for the same field

@@ -2,7 +2,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.matching.text_index import TextIndex
-from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.patterns import compile_pattern
 from python.scenario.matching.test_pattern_index import PATTERNS, TEXTS
 
 

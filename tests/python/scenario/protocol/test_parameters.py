@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.protocol.parameters import parameters_of
-from gradysim.scenario.value.expression import parse_value
 
 
 class Base(IProtocol):

@@ -1,12 +1,11 @@
 import math
-import re
 
 import pytest
 
 from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.kinds import (
-    Kind,
+from gradysim.scenario.expressions import parse_value
+from gradysim.scenario.parameter_types import (
+    ParameterType,
     boolean,
     choice,
     integer,
@@ -66,58 +65,58 @@ def test_what_other_simulators_have_is_told_from_what_is_misspelt(name: str, hin
         (si_number(), "inf", math.inf),
     ],
 )
-def test_converts(kind: Kind, written: str, expected: object) -> None:
+def test_converts(kind: ParameterType, written: str, expected: object) -> None:
     result = kind.convert(parse_value(written))
     assert result == pytest.approx(expected, rel=1e-15) if isinstance(expected, float) else result == expected
     assert type(result) is type(expected)
 
 
 @pytest.mark.parametrize(
-    ("kind", "written", "problem"),
+    ("kind", "written"),
     [
-        (quantity("s"), "3", "`3` has no unit"),
-        (quantity("s"), "true", "it is a truth value"),
-        (quantity("s"), "nan s", "`nans` is not finite"),
-        (quantity("s"), "inf s", "`infs` is not finite"),
-        (quantity("m", at_least=0), "-1m", "it is out of range"),
-        (quantity("m", above=0), "0m", "it is out of range"),
-        (quantity("deg", at_most=90), "91deg", "it is out of range"),
-        (number(), "nan", "`nan` is not finite"),
-        (number(), "2m", "it has the unit `m`"),
-        (
-            integer(),
-            "2.0",
-            "it is a floating-point number; did you mean `2`, or `int(...)` of an expression?",
-        ),
-        (
-            integer(),
-            "1e3",
-            "it is a floating-point number; did you mean `1000`, or `int(...)` of an expression?",
-        ),
-        (integer(), "2.5", "`2.5` is no whole number"),
-        (integer(), "inf", "`inf` is no whole number"),
-        (integer(), "2147483648", "it is out of range"),
-        (integer(1), "0", "it is out of range"),
-        (whole_bytes(), "3b", "`3b` is no whole number of bytes"),
-        (power_ratio(), "4", "`4` has no unit"),
-        (boolean(), "1", "it is a number"),
-        (boolean(), '"true"', "it is a text"),
-        (text(), "3m", "it is a quantity"),
-        (
-            choice("b", "g(erp)"),
-            '"g(erp"',
-            "`g(erp` is not known; did you mean `g(erp)`?",
-        ),
-        (si_number(), "nan", "`nan` is no number"),
-        (number_in("s"), "nan", "`nan` is no number"),
-        (number_in("s"), "5m", "`m` is the unit of a length; `m` is metres, a minute is `min`"),
-        (number_in("s"), "true", "it is a truth value"),
-        (si_number(), "3B", "bits and bytes have no SI unit"),
+        (quantity("s"), "3"),
+        (quantity("s"), "true"),
+        (quantity("s"), "nan s"),
+        (quantity("s"), "inf s"),
+        (quantity("m", at_least=0), "-1m"),
+        (quantity("m", above=0), "0m"),
+        (quantity("deg", at_most=90), "91deg"),
+        (number(), "nan"),
+        (number(), "2m"),
+        (integer(), "2.5"),
+        (integer(), "inf"),
+        (integer(), "2147483648"),
+        (integer(1), "0"),
+        (whole_bytes(), "3b"),
+        (power_ratio(), "4"),
+        (boolean(), "1"),
+        (boolean(), '"true"'),
+        (text(), "3m"),
+        (si_number(), "nan"),
+        (number_in("s"), "nan"),
+        (number_in("s"), "5m"),
+        (number_in("s"), "true"),
+        (si_number(), "3B"),
     ],
 )
-def test_refuses(kind: Kind, written: str, problem: str) -> None:
-    with pytest.raises(BadValue, match=f"^{re.escape(problem)}$"):
+def test_wrong_values_are_refused(kind: ParameterType, written: str) -> None:
+    with pytest.raises(BadValue) as error:
         kind.convert(parse_value(written))
+    assert not error.value.suggestion
+
+
+@pytest.mark.parametrize(
+    ("kind", "written", "suggestion"),
+    [
+        (integer(), "2.0", "; did you mean `2`, or `int(...)` of an expression?"),
+        (integer(), "1e3", "; did you mean `1000`, or `int(...)` of an expression?"),
+        (choice("b", "g(erp)"), '"g(erp"', "; did you mean `g(erp)`?"),
+    ],
+)
+def test_wrong_values_get_suggestions(kind: ParameterType, written: str, suggestion: str) -> None:
+    with pytest.raises(BadValue) as error:
+        kind.convert(parse_value(written))
+    assert error.value.suggestion == suggestion
 
 
 @pytest.mark.parametrize(
@@ -139,5 +138,5 @@ def test_refuses(kind: Kind, written: str, problem: str) -> None:
         (number_in("s"), "a time such as 10s, or a number of s"),
     ],
 )
-def test_says_what_it_expects(kind: Kind, expected: str) -> None:
+def test_says_what_it_expects(kind: ParameterType, expected: str) -> None:
     assert kind.expected == expected

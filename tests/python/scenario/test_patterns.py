@@ -1,11 +1,11 @@
-import re
+import time
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.patterns import compile_pattern
 
 
 def matches(pattern: str, path: str) -> bool:
@@ -64,29 +64,21 @@ def test_examples(pattern: str, path: str, expected: bool) -> None:
 
 
 @pytest.mark.parametrize(
-    ("pattern", "message"),
+    "pattern",
     [
-        (
-            "a{b",
-            "`{` is not closed; expected `}` after it (a plain brace is written `\\{`)",
-        ),
-        ("a[5..3]", "the range `[5..3]` is empty; expected the smaller number first"),
-        (
-            "a[0..1000000000000000000]",
-            "the range `[0..1000000000000000...` has a number of more than 18 digits",
-        ),
-        (
-            "a[" + "9" * 5000 + "..]",
-            "the range `[9999999999999999999...` has a number of more than 18 digits",
-        ),
-        ("a{z-b}", "the range `z-b` is empty; expected `b-z`"),
-        ("a\\", "a backslash stands at the end; expected a character after it"),
-        ("{^}", "`{^}` holds no characters; expected some, such as `{^a-z}`"),
+        "a{b",
+        "a[5..3]",
+        "a[0..1000000000000000000]",
+        "a[" + "9" * 5000 + "..]",
+        "a{z-b}",
+        "a\\",
+        "{^}",
     ],
 )
-def test_errors(pattern: str, message: str) -> None:
-    with pytest.raises(BadValue, match=f"^{re.escape(message)}$"):
+def test_wrong_patterns_are_refused(pattern: str) -> None:
+    with pytest.raises(BadValue) as error:
         compile_pattern(pattern)
+    assert not error.value.suggestion
 
 
 @given(st.integers(0, 2000), st.integers(0, 2000), st.integers(0, 3000))
@@ -118,7 +110,17 @@ def _matches_slowly(pattern: str, path: str) -> bool:
     return fits and _matches_slowly(pattern[1:], path[1:])
 
 
-@given(st.text("ab.*?", max_size=6), st.text("ab.", max_size=6))
+@pytest.mark.parametrize(
+    ("pattern", "path"), [("*a" * 40 + "*b", "a" * 400), ("**.*a" * 9 + "b", "a." * 200)]
+)
+def test_many_wildcards_take_little_time(pattern: str, path: str) -> None:
+    started_s = time.process_time()
+    assert not matches(pattern, path)
+    assert matches(pattern, path.replace(".", ".aa") + "b")
+    assert time.process_time() - started_s < 1
+
+
+@given(st.text("ab.*?", max_size=9), st.text("ab.", max_size=6))
 def test_wildcards_mean_what_their_definition_says(pattern: str, path: str) -> None:
     assert matches(pattern, path) is _matches_slowly(pattern, path)
 

@@ -5,10 +5,19 @@ import pytest
 
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
+from gradysim.scenario.expressions import ParameterContext
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.value.kinds import choice, file_name, integer, number, quantity, text
-from gradysim.scenario.value.parameter_context import ParameterContext
-from gradysim.scenario.value.setting import Setting, SettingReader, read_scalar
+from gradysim.scenario.parameter_types import (
+    choice,
+    coordinate,
+    file_name,
+    integer,
+    number,
+    place,
+    quantity,
+    text,
+)
+from gradysim.scenario.settings import Setting, SettingReader, is_right_for_all_seeds, read_scalar
 
 SPEED = quantity("mps", at_least=0)
 MODE = choice("b", "a")
@@ -97,7 +106,7 @@ def test_texts_of_overrides_need_no_quotes() -> None:
 
 
 def test_texts_in_a_file_need_quotes() -> None:
-    with pytest.raises(ConfigError, match="a text stands in quotes"):
+    with pytest.raises(ConfigError):
         read_scalar(entry("b"), MODE)
 
 
@@ -174,3 +183,31 @@ def test_what_was_drawn_is_told_with_the_seed() -> None:
 def test_a_truth_in_the_place_of_a_number_is_named_as_it_is_written() -> None:
     with pytest.raises(ConfigError, match=r"that is true for x\[1\]\.mac\.y: "):
         read_scalar(entry("index == 1"), SPEED, "x[1].mac.y", ParameterContext(1, "x[1].y"))
+
+
+@pytest.mark.parametrize("text", ["uniform(0m, 1km)", " uniform ( -5km,5m ) ", "50m * parentIndex()", "3m"])
+def test_what_is_right_with_one_seed_is_so_with_all(text: str) -> None:
+    assert is_right_for_all_seeds(text, place())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "uniform(0m, 1e12km)",
+        "uniform(0m, index * 1m)",
+        "uniform(0m, 1s)",
+        "uniform(0m, uniform(0m, 1m))",
+        "uniform(0m, 1m) + uniform(0m, 1m)",
+        "1m / uniform(0, 1)",
+        "normal(0m, 1m)",
+        'select(intuniform(0, 1), 3m, "x")',
+    ],
+)
+def test_others_may_be_wrong_with_another_seed(text: str) -> None:
+    assert not is_right_for_all_seeds(text, place())
+
+
+def test_where_other_lines_count_all_seeds_have_to_be_tried() -> None:
+    assert not is_right_for_all_seeds(
+        "uniform(0m, 1km)", coordinate()
+    )  # as for an obstacle, which has to be higher than low
