@@ -22,7 +22,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench fingerprints clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang again
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench schema fingerprints clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -83,6 +83,9 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 	build/bench/netsim_layers 1000
 	build/bench/netsim_layers 10000
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
+
+schema: build  ## Rewrite what is derived from the declarations of the engine's fields.
+	$(BIN)/python cpp/proxy_protocol/write_schema.py
 
 fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
 	$(BIN)/python tests/fingerprints/update.py

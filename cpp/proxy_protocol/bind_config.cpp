@@ -1,20 +1,19 @@
-// The config structs, field by field under their own names (C++'s type_name is Python's typename).
+// The config structs: their fields from the declarations (netsim/config/field.hpp), under their own names (C++'s type_name
+// is Python's typename), and the declarations themselves.
 #include <array>
+#include <cmath>
 #include <set>
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "netsim/config/antenna_config.hpp"
-#include "netsim/config/csma_config.hpp"
-#include "netsim/config/mac_config.hpp"
+#include "netsim/config/field.hpp"
 #include "netsim/config/medium_config.hpp"
-#include "netsim/config/mobility_config.hpp"
 #include "netsim/config/node_config.hpp"
-#include "netsim/config/obstacle_config.hpp"
-#include "netsim/config/radio_config.hpp"
 #include "netsim/mac/frame_802154.hpp"
 #include "netsim/node/known_formats.hpp"
 #include "netsim/phy/oqpsk_mode.hpp"
@@ -27,176 +26,185 @@ namespace proxy_protocol {
 
 namespace {
 
-// One angle of an orientation, as a field of its own.
+// All declared fields, and the check. A type that sets the defaults of other fields is chosen at the start only.
 template <typename Config>
-void bind_angle(py::class_<Config>& config, const char* name, EulerAngles Config::* angles,
-                double EulerAngles::* angle) {
-    config.def_property(
-        name, [=](const Config& self) { return self.*angles.*angle; },
-        [=](Config& self, double value) { self.*angles.*angle = value; });
+void bind_fields(py::class_<Config>& config) {
+    constexpr bool has_fixed_type =
+        std::is_same_v<Config, MediumConfig> || std::is_same_v<Config, InterfaceConfig>;
+    Config example{};
+    for (const Field& field : Config::schema.fields) {
+        std::visit(
+            [&](auto* value) {
+                using Pointer = decltype(value);
+                using Value = std::remove_pointer_t<Pointer>;
+                const auto of = field.of;
+                const auto get = [of](Config& self) -> Value { return *std::get<Pointer>(of(&self)); };
+                const auto set = [of](Config& self, Value given) { *std::get<Pointer>(of(&self)) = given; };
+                const std::string name(field.name);
+                if (has_fixed_type && name == "typename") {
+                    config.def_property_readonly(name.c_str(), get);
+                } else {
+                    config.def_property(name.c_str(), get, set);
+                }
+            },
+            field.of(&example));
+    }
+    if constexpr (requires { example.validate(); }) {
+        config.def("validate", &Config::validate);
+    }
+}
+
+py::object default_of(const Field& field, void* config) {
+    return std::visit([](auto* value) -> py::object { return py::cast(*value); }, field.of(config));
+}
+
+py::dict type_row(const Field& field) {
+    constexpr std::array kinds{"quantity", "level",   "ratio", "number", "integer",
+                               "bytes",    "boolean", "name",  "file"};
+    const ValueType& type = field.type;
+    py::dict row;
+    row["kind"] = kinds[static_cast<std::size_t>(type.kind)];
+    if (!type.unit.empty()) {
+        row["unit"] = type.unit;
+    }
+    if (!type.shown.empty()) {
+        row["shown"] = type.shown;
+    }
+    if (type.is_number()) {
+        if (std::isfinite(type.least)) {
+            row[type.excludes_least ? "above" : "at_least"] = type.least;
+        }
+        if (std::isfinite(type.most)) {
+            row["at_most"] = type.most;
+        }
+        if (type.special && !field.must_be_set) {
+            row["special"] = *type.special;
+        }
+    }
+    if (type.kind == ValueType::Kind::name) {
+        row["names"] = std::vector<std::string>(type.names.begin(), type.names.end());
+    }
+    return row;
+}
+
+py::object read_by_row(const ReadBy& read_by) {
+    if (read_by.chosen_by.empty()) {
+        return py::none();
+    }
+    py::dict row;
+    row["chosen_by"] = read_by.chosen_by;
+    row["names"] = std::vector<std::string>(read_by.names.begin(), read_by.names.end());
+    row["shown"] = read_by.shown;
+    return row;
+}
+
+// The struct with the defaults of each variant, by the name of the variant.
+py::dict defaults_row(const Schema& schema, const Field& field) {
+    static InterfaceConfig station{};
+    static InterfaceConfig device{std::string(ieee802154_interface)};
+    static MediumConfig medium{};
+    static MediumConfig narrowband_medium{std::string(ieee802154_scalar_medium)};
+    static MobilityConfig mobility{};
+    static ObstacleConfig obstacle{};
+    const auto parts = [&](InterfaceConfig& interface) -> void* {
+        if (&schema == &InterfaceConfig::schema) {
+            return &interface;
+        }
+        if (&schema == &RadioConfig::schema) {
+            return &interface.radio;
+        }
+        if (&schema == &AntennaConfig::schema) {
+            return &interface.radio.antenna;
+        }
+        return &schema == &MacConfig::schema ? static_cast<void*>(&interface.mac) : &interface.csma;
+    };
+    py::dict row;
+    if (&schema == &MediumConfig::schema) {
+        row[""] = default_of(field, &medium);
+        row["802.15.4"] = default_of(field, &narrowband_medium);
+    } else if (&schema == &MobilityConfig::schema) {
+        row[""] = default_of(field, &mobility);
+    } else if (&schema == &ObstacleConfig::schema) {
+        row[""] = default_of(field, &obstacle);
+    } else {
+        row[""] = default_of(field, parts(station));
+        row["802.15.4"] = default_of(field, parts(device));
+    }
+    return row;
+}
+
+// The declaration of every field, as plain values.
+py::list schema_rows() {
+    py::list rows;
+    for (const Schema* schema : all_schemas()) {
+        for (const Field& field : schema->fields) {
+            py::dict row;
+            row["target"] = schema->full_name(field);
+            row["key"] = field.key.empty() ? "" : std::string(schema->path) + "." + std::string(field.key);
+            row["of"] = schema->is_of_node ? "node" : "network";
+            row["type"] = type_row(field);
+            row["meaning"] = field.meaning;
+            row["read_by"] = read_by_row(field.read_by.value_or(schema->read_by));
+            row["defaults"] = field.must_be_set ? py::dict() : defaults_row(*schema, field);
+            rows.append(row);
+        }
+    }
+    return rows;
 }
 
 }  // namespace
 
 void bind_config(py::module_& module) {
-    py::class_<ObstacleConfig>(module, "ObstacleConfig")
-        .def(py::init<>())
-        .def_readwrite("name", &ObstacleConfig::name)
-        .def_readwrite("rings", &ObstacleConfig::rings)
-        .def_readwrite("base_m", &ObstacleConfig::base_m)
-        .def_readwrite("top_m", &ObstacleConfig::top_m)
-        .def_readwrite("material", &ObstacleConfig::material)
-        .def_readwrite("relative_permittivity", &ObstacleConfig::relative_permittivity)
-        .def_readwrite("conductivity_spm", &ObstacleConfig::conductivity_spm)
-        .def("validate", &ObstacleConfig::validate);
+    module.def("schema", &schema_rows);
 
-    py::class_<MediumConfig>(module, "MediumConfig")
-        .def(py::init<std::string>(), py::arg("typename") = "Ieee80211ScalarRadioMedium")
-        .def_readonly("typename", &MediumConfig::type_name)  // sets the other defaults, so only at the start
-        .def_readwrite("path_loss", &MediumConfig::path_loss)
-        .def_readwrite("alpha", &MediumConfig::alpha)
-        .def_readwrite("breakpoint_distance_m", &MediumConfig::breakpoint_distance_m)
-        .def_readwrite("l01_db", &MediumConfig::l01_db)
-        .def_readwrite("l02_db", &MediumConfig::l02_db)
-        .def_readwrite("alpha1", &MediumConfig::alpha1)
-        .def_readwrite("alpha2", &MediumConfig::alpha2)
-        .def_readwrite("epsilon_r", &MediumConfig::epsilon_r)
-        .def_readwrite("polarization", &MediumConfig::polarization)
-        .def_readwrite("sigma_db", &MediumConfig::sigma_db)
-        .def_readwrite("k_db", &MediumConfig::k_db)
-        .def_readwrite("shape_factor", &MediumConfig::shape_factor)
-        .def_readwrite("coherence_time_s", &MediumConfig::coherence_time_s)
-        .def_readwrite("background_noise", &MediumConfig::background_noise)
-        .def_readwrite("temperature_k", &MediumConfig::temperature_k)
-        .def_readwrite("background_noise_w", &MediumConfig::background_noise_w)
-        .def_readwrite("propagation", &MediumConfig::propagation)
-        .def_readwrite("obstacle_loss", &MediumConfig::obstacle_loss)
-        .def_readwrite("enable_dielectric_loss", &MediumConfig::enable_dielectric_loss)
-        .def_readwrite("enable_reflection_loss", &MediumConfig::enable_reflection_loss)
-        .def_readwrite("obstacles", &MediumConfig::obstacles)
-        .def("validate", &MediumConfig::validate);
+    py::class_<ObstacleConfig> obstacle(module, "ObstacleConfig");
+    obstacle.def(py::init<>())
+        .def_readwrite("name", &ObstacleConfig::name)
+        .def_readwrite("rings", &ObstacleConfig::rings);
+    bind_fields(obstacle);
+
+    py::class_<MediumConfig> medium(module, "MediumConfig");
+    medium.def(py::init<std::string>(), py::arg("typename") = "Ieee80211ScalarRadioMedium")
+        .def_readwrite("obstacles", &MediumConfig::obstacles);
+    bind_fields(medium);
 
     py::class_<AntennaConfig> antenna(module, "AntennaConfig");
-    antenna.def(py::init<>())
-        .def_readwrite("typename", &AntennaConfig::type_name)
-        .def_readwrite("gain", &AntennaConfig::gain)
-        .def_readwrite("max_gain", &AntennaConfig::max_gain)
-        .def_readwrite("min_gain", &AntennaConfig::min_gain)
-        .def_readwrite("beam_width_rad", &AntennaConfig::beam_width_rad)
-        .def_readwrite("wire_axis", &AntennaConfig::wire_axis)
-        .def_readwrite("length_m", &AntennaConfig::length_m)
-        .def("validate", &AntennaConfig::validate, py::arg("carrier_hz"));
-    bind_angle(antenna, "offset_heading_rad", &AntennaConfig::offset, &EulerAngles::heading_rad);
-    bind_angle(antenna, "offset_elevation_rad", &AntennaConfig::offset, &EulerAngles::elevation_rad);
-    bind_angle(antenna, "offset_bank_rad", &AntennaConfig::offset, &EulerAngles::bank_rad);
+    antenna.def(py::init<>()).def("validate", &AntennaConfig::validate, py::arg("carrier_hz"));
+    bind_fields(antenna);
 
-    py::class_<RadioConfig>(module, "RadioConfig")
-        .def(py::init<std::string_view>(), py::arg("interface") = ieee80211_interface)
-        .def_readwrite("carrier_hz", &RadioConfig::carrier_hz)
-        .def_readwrite("bandwidth_hz", &RadioConfig::bandwidth_hz)
-        .def_readwrite("tx_power_w", &RadioConfig::tx_power_w)
-        .def_readwrite("communication_range_m", &RadioConfig::communication_range_m)
-        .def_readwrite("sensitivity_w", &RadioConfig::sensitivity_w)
-        .def_readwrite("energy_detection_w", &RadioConfig::energy_detection_w)
-        .def_readwrite("snir_threshold", &RadioConfig::snir_threshold)
-        .def_readwrite("error_model", &RadioConfig::error_model)
-        .def_readwrite("antenna", &RadioConfig::antenna)
-        .def_readwrite("noise_figure", &RadioConfig::noise_figure)
-        .def_readwrite("snir_mode", &RadioConfig::snir_mode)
-        .def_readwrite("ber_table_file", &RadioConfig::ber_table_file)
-        .def_readwrite("preamble_detection", &RadioConfig::preamble_detection)
-        .def_readwrite("preamble_threshold", &RadioConfig::preamble_threshold)
-        .def_readwrite("preamble_minimum_power_w", &RadioConfig::preamble_minimum_power_w)
-        .def_readwrite("preamble_duration_s", &RadioConfig::preamble_duration_s)
-        .def_readwrite("frame_capture", &RadioConfig::frame_capture)
-        .def_readwrite("capture_margin", &RadioConfig::capture_margin)
-        .def_readwrite("capture_window_s", &RadioConfig::capture_window_s)
-        .def("validate", &RadioConfig::validate);
+    py::class_<RadioConfig> radio(module, "RadioConfig");
+    radio.def(py::init<std::string_view>(), py::arg("interface") = ieee80211_interface)
+        .def_readwrite("antenna", &RadioConfig::antenna);
+    bind_fields(radio);
 
-    py::class_<MacConfig>(module, "MacConfig")
-        .def(py::init<>())
-        .def_readwrite("op_mode", &MacConfig::op_mode)
-        .def_readwrite("bitrate_bps", &MacConfig::bitrate_bps)
-        .def_readwrite("multicast_bitrate_bps", &MacConfig::multicast_bitrate_bps)
-        .def_readwrite("control_bitrate_bps", &MacConfig::control_bitrate_bps)
-        .def_readwrite("rts_threshold_bytes", &MacConfig::rts_threshold_bytes)
-        .def_readwrite("short_retry_limit", &MacConfig::short_retry_limit)
-        .def_readwrite("long_retry_limit", &MacConfig::long_retry_limit)
-        .def_readwrite("inet_station_retry_counters", &MacConfig::inet_station_retry_counters)
-        .def_readwrite("cw_min", &MacConfig::cw_min)
-        .def_readwrite("cw_max", &MacConfig::cw_max)
-        .def_readwrite("queue_capacity", &MacConfig::queue_capacity)
-        .def_readwrite("mtu_bytes", &MacConfig::mtu_bytes)
-        .def_readwrite("backoff_optimization", &MacConfig::backoff_optimization)
-        .def_readwrite("initial_channel_busy", &MacConfig::initial_channel_busy)
-        .def_readwrite("skip_backoff_if_idle", &MacConfig::skip_backoff_if_idle)
-        .def_readwrite("own_frames_set_nav", &MacConfig::own_frames_set_nav)
-        .def_readwrite("inet_eifs", &MacConfig::inet_eifs)
-        .def_readwrite("rate_control", &MacConfig::rate_control)
-        .def_readwrite("initial_rate_bps", &MacConfig::initial_rate_bps)
-        .def_readwrite("rate_interval_s", &MacConfig::rate_interval_s)
-        .def_readwrite("increase_threshold", &MacConfig::increase_threshold)
-        .def_readwrite("decrease_threshold", &MacConfig::decrease_threshold)
-        .def_readwrite("increase_threshold_factor", &MacConfig::increase_threshold_factor)
-        .def_readwrite("max_increase_threshold", &MacConfig::max_increase_threshold)
-        .def_readwrite("rate_update_interval_s", &MacConfig::rate_update_interval_s)
-        .def_readwrite("look_around_share", &MacConfig::look_around_share)
-        .def_readwrite("ewma_weight", &MacConfig::ewma_weight)
-        .def("validate", &MacConfig::validate);
+    py::class_<MacConfig> mac(module, "MacConfig");
+    mac.def(py::init<>());
+    bind_fields(mac);
 
-    py::class_<CsmaConfig>(module, "CsmaConfig")
-        .def(py::init<>())
-        .def_readwrite("use_acks", &CsmaConfig::use_acks)
-        .def_readwrite("max_frame_retries", &CsmaConfig::max_frame_retries)
-        .def_readwrite("ack_wait_s", &CsmaConfig::ack_wait_s)
-        .def_property_readonly("ack_end_s",
-                               [](const CsmaConfig& config) {
-                                   return config.sifs_s +
-                                          oqpsk_250_kbps.duration(narrowband_ack_bytes).seconds();
-                               })
-        .def_readwrite("sifs_s", &CsmaConfig::sifs_s)
-        .def_readwrite("lifs_s", &CsmaConfig::lifs_s)
-        .def_readwrite("backoff_method", &CsmaConfig::backoff_method)
-        .def_readwrite("max_backoffs", &CsmaConfig::max_backoffs)
-        .def_readwrite("min_be", &CsmaConfig::min_be)
-        .def_readwrite("max_be", &CsmaConfig::max_be)
-        .def_readwrite("contention_window", &CsmaConfig::contention_window)
-        .def_readwrite("unit_backoff_s", &CsmaConfig::unit_backoff_s)
-        .def_readwrite("cca_s", &CsmaConfig::cca_s)
-        .def_readwrite("cca_whole_window", &CsmaConfig::cca_whole_window)
-        .def_readwrite("turnaround_s", &CsmaConfig::turnaround_s)
-        .def_readwrite("queue_capacity", &CsmaConfig::queue_capacity)
-        .def("validate", &CsmaConfig::validate);
+    py::class_<CsmaConfig> csma(module, "CsmaConfig");
+    csma.def(py::init<>()).def_property_readonly("ack_end_s", [](const CsmaConfig& config) {
+        return config.sifs_s + oqpsk_250_kbps.duration(narrowband_ack_bytes).seconds();
+    });
+    bind_fields(csma);
 
     py::class_<MobilityConfig> mobility(module, "MobilityConfig");
-    mobility.def(py::init<>())
-        .def_readwrite("typename", &MobilityConfig::type_name)
-        .def_readwrite("speed_mps", &MobilityConfig::speed_mps)
-        .def_readwrite("telemetry_interval_s", &MobilityConfig::telemetry_interval_s)
-        .def_readwrite("face_forward", &MobilityConfig::face_forward)
-        .def("validate", &MobilityConfig::validate);
-    bind_angle(mobility, "initial_heading_rad", &MobilityConfig::initial_orientation,
-               &EulerAngles::heading_rad);
-    bind_angle(mobility, "initial_elevation_rad", &MobilityConfig::initial_orientation,
-               &EulerAngles::elevation_rad);
-    bind_angle(mobility, "initial_bank_rad", &MobilityConfig::initial_orientation, &EulerAngles::bank_rad);
+    mobility.def(py::init<>());
+    bind_fields(mobility);
 
-    py::class_<InterfaceConfig>(module, "InterfaceConfig")
-        .def_readonly("typename", &InterfaceConfig::type_name)  // sets defaults, so only at the start
-        .def_readwrite("radio", &InterfaceConfig::radio)
+    py::class_<InterfaceConfig> interface(module, "InterfaceConfig");
+    interface.def_readwrite("radio", &InterfaceConfig::radio)
         .def_readwrite("mac", &InterfaceConfig::mac)
         .def_readwrite("csma", &InterfaceConfig::csma)
-        .def_property_readonly("known_formats",
-                               [](const InterfaceConfig& config) {
-                                   std::set<std::string> names;
-                                   for (std::size_t format = 0; format < ppdu_format_names.size(); ++format) {
-                                       if (known_formats(config).contains(static_cast<PpduFormat>(format))) {
-                                           names.insert(ppdu_format_names[format]);
-                                       }
-                                   }
-                                   return names;
-                               })
-        .def("validate", &InterfaceConfig::validate);
+        .def_property_readonly("known_formats", [](const InterfaceConfig& config) {
+            std::set<std::string> names;
+            for (std::size_t format = 0; format < ppdu_format_names.size(); ++format) {
+                if (known_formats(config).contains(static_cast<PpduFormat>(format))) {
+                    names.insert(ppdu_format_names[format]);
+                }
+            }
+            return names;
+        });
+    bind_fields(interface);
 
     py::class_<NodeConfig>(module, "NodeConfig")
         .def(py::init<std::string, const std::vector<std::string>&>(), py::arg("name"),

@@ -3,8 +3,10 @@
 #include <cstring>
 #include <exception>
 #include <utility>
+#include <variant>
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "netsim/error.hpp"
 #include "netsim/node/protocol_error.hpp"
@@ -26,6 +28,27 @@ py::object exception_of(const char* name, const std::exception& error) {
     return py::module_::import("gradysim._netsim").attr(name)(text_of(error.what()));
 }
 
+// A text, (value, unit) or (full name of a field,).
+struct PythonPart {
+    py::object operator()(const std::string& text) const { return text_of(text.c_str()); }
+    py::object operator()(const netsim::Quantity& quantity) const {
+        return py::make_tuple(quantity.value, quantity.unit);
+    }
+    py::object operator()(const netsim::FieldName& field) const { return py::make_tuple(field.name); }
+};
+
+void set_problem(const py::object& exception, const netsim::Problem& problem) {
+    py::list message;
+    for (const netsim::MessagePart& part : problem.message) {
+        message.append(std::visit(PythonPart{}, part));
+    }
+    exception.attr("field") = problem.field;
+    exception.attr("value") = std::visit(PythonPart{}, problem.value);
+    exception.attr("message") = message;
+    exception.attr("compared_with") = problem.compared_with;
+    exception.attr("interface") = problem.interface;
+}
+
 void set(const py::object& exception) {
     PyErr_SetObject(py::type::handle_of(exception).ptr(), exception.ptr());
 }
@@ -42,7 +65,11 @@ void translate(std::exception_ptr pending) {
     } catch (const netsim::SimulationError& error) {
         set(exception_of("SimulationError", error));
     } catch (const netsim::ConfigError& error) {
-        set(exception_of("ConfigError", error));
+        const py::object exception = exception_of("ConfigError", error);
+        const netsim::Problem* problem = error.problem();
+        const netsim::Problem plain{"", "", {std::string(error.what())}};
+        set_problem(exception, problem == nullptr ? plain : *problem);
+        set(exception);
     }
 }
 

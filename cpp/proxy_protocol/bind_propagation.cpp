@@ -20,8 +20,8 @@ namespace {
 Propagation make_propagation(const MediumConfig& config, std::uint64_t seed) {
     config.validate();
     if (config.type_name == unit_disk_medium) {
-        throw ConfigError("medium.typename = \"" + config.type_name +
-                          "\": expected a medium with a path loss");
+        throw ConfigError(
+            {"medium.typename", "\"" + config.type_name + "\"", {"expected a medium with a path loss"}});
     }
     return {config, seed};
 }

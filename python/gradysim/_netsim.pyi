@@ -3,11 +3,36 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from gradysim._netsim_fields import (
+    AntennaFields,
+    CsmaFields,
+    InterfaceFields,
+    MacFields,
+    MediumFields,
+    MessagePart,
+    MobilityFields,
+    ObstacleFields,
+    RadioFields,
+)
+
 class ConfigError(ValueError):
     """A value of a configuration is outside its range; the text names the field, the value and the range."""
 
+    field: str
+    """Full name of the field, "radio.tx_power_w"; "" for an error that is about no field."""
+    value: MessagePart
+    message: Sequence[MessagePart]
+    """What is wrong, in parts: texts, quantities (value, unit) and full names of fields (name,)."""
+    compared_with: Sequence[str]
+    """Full names of the fields that decide whether the value is right, the likeliest cause first."""
+    interface: int | None
+    """Index of the network interface, if the node has several."""
+
 class SimulationError(RuntimeError):
     """A command that cannot be carried out: a timer in the past, an unknown destination."""
+
+def schema() -> list[dict[str, Any]]:
+    """The declarations of all fields, as in scenario/schema.json."""
 
 longest_run_s: float
 """The largest time that a run can reach, in seconds."""
@@ -19,31 +44,9 @@ class ProtocolError(SimulationError):
     callback: str
     time_s: float
 
-class MediumConfig:
+class MediumConfig(MediumFields):
     """The type chooses the defaults of the other fields, so it is given at the start and stays."""
 
-    @property
-    def typename(self) -> str: ...
-    path_loss: str
-    alpha: float
-    breakpoint_distance_m: float
-    l01_db: float
-    l02_db: float
-    alpha1: float
-    alpha2: float
-    epsilon_r: float
-    polarization: str
-    sigma_db: float
-    k_db: float
-    shape_factor: float
-    coherence_time_s: float
-    background_noise: str
-    temperature_k: float
-    background_noise_w: float
-    propagation: str
-    obstacle_loss: str
-    enable_dielectric_loss: bool
-    enable_reflection_loss: bool
     obstacles: list[ObstacleConfig]
     """Comes and goes as a copy: a change of the list, or in it, has to be assigned."""
 
@@ -113,120 +116,36 @@ class LinkBudget:
     @property
     def noise_w(self) -> float: ...
 
-class ObstacleConfig:
+class ObstacleConfig(ObstacleFields):
     name: str
     rings: Sequence[Sequence[tuple[float, float]]]
-    base_m: float
-    top_m: float
-    material: str
-    relative_permittivity: float
-    conductivity_spm: float
     def validate(self) -> None: ...
 
-class AntennaConfig:
-    typename: str
-    gain: float
-    max_gain: float
-    min_gain: float
-    beam_width_rad: float
-    wire_axis: str
-    length_m: float
-    offset_heading_rad: float
-    offset_elevation_rad: float
-    offset_bank_rad: float
+class AntennaConfig(AntennaFields):
     def validate(self, carrier_hz: float) -> None: ...
 
-class RadioConfig:
+class RadioConfig(RadioFields):
     """The interface chooses the defaults."""
 
-    carrier_hz: float
-    bandwidth_hz: float
-    tx_power_w: float
-    communication_range_m: float
-    sensitivity_w: float
-    energy_detection_w: float
-    snir_threshold: float
-    error_model: str
     antenna: AntennaConfig
-    noise_figure: float
-    snir_mode: str
-    ber_table_file: str
-    preamble_detection: str
-    preamble_threshold: float
-    preamble_minimum_power_w: float
-    preamble_duration_s: float
-    frame_capture: str
-    capture_margin: float
-    capture_window_s: float
     def __init__(self, interface: str = ...) -> None: ...
     def validate(self) -> None: ...
 
-class MacConfig:
-    op_mode: str
-    bitrate_bps: float
-    multicast_bitrate_bps: float
-    control_bitrate_bps: float
-    rts_threshold_bytes: int
-    short_retry_limit: int
-    long_retry_limit: int
-    inet_station_retry_counters: bool
-    cw_min: int
-    cw_max: int
-    queue_capacity: int
-    mtu_bytes: int
-    backoff_optimization: bool
-    initial_channel_busy: bool
-    skip_backoff_if_idle: bool
-    own_frames_set_nav: bool
-    inet_eifs: bool
-    rate_control: str
-    initial_rate_bps: float
-    rate_interval_s: float
-    increase_threshold: int
-    decrease_threshold: int
-    increase_threshold_factor: float
-    max_increase_threshold: int
-    rate_update_interval_s: float
-    look_around_share: float
-    ewma_weight: float
+class MacConfig(MacFields):
     def validate(self) -> None: ...
 
-class CsmaConfig:
-    use_acks: bool
-    max_frame_retries: int
-    ack_wait_s: float
+class CsmaConfig(CsmaFields):
     @property
     def ack_end_s(self) -> float:
         """From the end of a frame to that of its ACK, next to its sender."""
-    sifs_s: float
-    lifs_s: float
-    backoff_method: str
-    max_backoffs: int
-    min_be: int
-    max_be: int
-    contention_window: int
-    unit_backoff_s: float
-    cca_s: float
-    cca_whole_window: bool
-    turnaround_s: float
-    queue_capacity: int
     def validate(self) -> None: ...
 
-class MobilityConfig:
-    typename: str
-    speed_mps: float
-    telemetry_interval_s: float
-    face_forward: bool
-    initial_heading_rad: float
-    initial_elevation_rad: float
-    initial_bank_rad: float
+class MobilityConfig(MobilityFields):
     def validate(self) -> None: ...
 
-class InterfaceConfig:
+class InterfaceConfig(InterfaceFields):
     """Its type chooses the MAC and the defaults of the radio, so it stays what it was at the start."""
 
-    @property
-    def typename(self) -> str: ...
     radio: RadioConfig
     mac: MacConfig
     csma: CsmaConfig

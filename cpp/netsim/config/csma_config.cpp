@@ -1,27 +1,66 @@
 #include "netsim/config/csma_config.hpp"
 
-#include "netsim/config/check.hpp"
+#include "netsim/config/interface_type.hpp"
 
 namespace netsim {
+namespace {
+
+constexpr std::array exponential{backoff_method_names[0]};
+constexpr std::array fixed_window{backoff_method_names[1], backoff_method_names[2]};
+constexpr ReadBy with_exponential{"csma.backoff_method", exponential, "802.15.4, exponential"};
+constexpr ReadBy with_fixed_window{"csma.backoff_method", fixed_window, "802.15.4, linear and constant"};
+
+constexpr ValueType count = integer().at_least(0).at_most(255);
+constexpr ValueType exponent = integer().at_least(0).at_most(20);
+constexpr ValueType time = quantity("s").shown_in("us").at_least(0).at_most(1);
+constexpr ValueType period = time.at_least(1e-6);
+
+constexpr Field fields[] = {
+    {NETSIM_FIELD(CsmaConfig, use_acks), "mac.useMACAcks", boolean(),
+     "whether the interface asks for an ACK of each unicast frame that it sends"},
+    {NETSIM_FIELD(CsmaConfig, max_frame_retries), "mac.macMaxFrameRetries", count,
+     "number of retries of a frame without an ACK"},
+    {NETSIM_FIELD(CsmaConfig, ack_wait_s), "mac.macAckWaitDuration", period,
+     "how long a sender waits for the end of an ACK"},
+    {NETSIM_FIELD(CsmaConfig, sifs_s), "mac.sifs", time, "time from the end of a frame to its ACK"},
+    {NETSIM_FIELD(CsmaConfig, lifs_s), "mac.macLIFSPeriod", time,
+     "pause after a frame or its ACK, before the next wait; 0s in INET, 640us in the standard"},
+    {NETSIM_FIELD(CsmaConfig, max_backoffs), "mac.macMaxCSMABackoffs", count,
+     "further waits after the first if the channel is busy; then the frame is dropped"},
+    {NETSIM_FIELD(CsmaConfig, backoff_method), "mac.backoffMethod", one_of(backoff_method_names),
+     "how the longest wait grows when the channel is busy"},
+    {NETSIM_FIELD(CsmaConfig, min_be), "mac.macMinBE", exponent, "the first wait is 0 to 2^BE - 1 periods",
+     with_exponential},
+    {NETSIM_FIELD(CsmaConfig, max_be), "mac.macMaxBE", exponent, "BE grows by 1 up to this value",
+     with_exponential},
+    {NETSIM_FIELD(CsmaConfig, contention_window), "mac.contentionWindow",
+     integer().at_least(1).at_most(32767), "the first wait is 1 to this number of periods",
+     with_fixed_window},
+    {NETSIM_FIELD(CsmaConfig, unit_backoff_s), "mac.aUnitBackoffPeriod", period,
+     "period in which waits are counted"},
+    {NETSIM_FIELD(CsmaConfig, cca_s), "mac.ccaDetectionTime", time,
+     "how long a device listens before it sends"},
+    {NETSIM_FIELD(CsmaConfig, cca_whole_window), "mac.ccaWholeWindow", boolean(),
+     "whether the channel must be free during all of that time; in INET, at its end"},
+    {NETSIM_FIELD(CsmaConfig, turnaround_s), "mac.aTurnaroundTime", time,
+     "time from listening to sending, in which the radio is deaf"},
+    {NETSIM_FIELD(CsmaConfig, queue_capacity), "queue.packetCapacity",
+     integer().at_least(1).at_most(1'000'000),
+     "number of frames that can wait in the queue, without the one in progress"},
+};
+
+}  // namespace
+
+const Schema CsmaConfig::schema{"csma", "wlan[0]", true, fields, with_ieee802154};
 
 void CsmaConfig::validate() const {
-    constexpr int largest_exponent = 20;
-    constexpr double shortest_s = 1e-6;
-    constexpr double longest_s = 1;
-
-    check_between("csma.max_frame_retries", max_frame_retries, 0, 255, "");
-    check_between("csma.ack_wait_s", ack_wait_s, shortest_s, longest_s, "s");
-    check_between("csma.sifs_s", sifs_s, 0, longest_s, "s");
-    check_between("csma.lifs_s", lifs_s, 0, longest_s, "s");
-    check_name("csma.backoff_method", backoff_method, backoff_method_names);
-    check_between("csma.max_backoffs", max_backoffs, 0, 255, "");
-    check_between("csma.max_be", max_be, 0, largest_exponent, "");
-    check_between("csma.min_be", min_be, 0, max_be, "");
-    check_between("csma.contention_window", contention_window, 1, 32767, "");
-    check_between("csma.unit_backoff_s", unit_backoff_s, shortest_s, longest_s, "s");
-    check_between("csma.cca_s", cca_s, 0, longest_s, "s");
-    check_between("csma.turnaround_s", turnaround_s, 0, longest_s, "s");
-    check_between("csma.queue_capacity", queue_capacity, 1, 1'000'000, "frames");
+    check_fields(*this);
+    if (min_be > max_be) {
+        throw ConfigError({"csma.min_be",
+                           Quantity{1.0 * min_be, ""},
+                           {"expected at most ", FieldName{"csma.max_be"}, ", ", Quantity{1.0 * max_be, ""}},
+                           {"csma.max_be"}});
+    }
 }
 
 }  // namespace netsim

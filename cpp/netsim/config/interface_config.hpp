@@ -17,7 +17,9 @@ struct InterfaceConfig {
     explicit InterfaceConfig(std::string interface_type_name = std::string(ieee80211_interface))
         : type_name(std::move(interface_type_name)), radio(type_name) {}
 
-    std::string type_name;  // `typename` in Python; one of interface_type_names
+    static const Schema schema;
+
+    std::string type_name;  // `typename` in Python
     RadioConfig radio;
     MacConfig mac;    // of Ieee80211Interface only
     CsmaConfig csma;  // of Ieee802154NarrowbandInterface only

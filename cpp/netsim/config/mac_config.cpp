@@ -1,53 +1,114 @@
 #include "netsim/config/mac_config.hpp"
 
-#include <algorithm>
-
-#include "netsim/config/check.hpp"
+#include "netsim/config/interface_type.hpp"
 
 namespace netsim {
 namespace {
 
-void check_bitrate(std::string_view field, double value) {
-    if (value != -1) {
-        check_greater(field, value, 0, "bps");
-    }
-}
+constexpr std::array arf_and_aarf{rate_control_names[1], rate_control_names[2]};
+constexpr std::array aarf{rate_control_names[2]};
+constexpr std::array minstrel{rate_control_names[3]};
+constexpr std::array any{rate_control_names[1], rate_control_names[2], rate_control_names[3]};
 
-void check_rate_control(const MacConfig& mac) {
-    constexpr int most = 1'000'000;
-    constexpr double almost_one = 0.999999;
-    check_name("mac.rate_control", mac.rate_control, rate_control_names);
-    check_bitrate("mac.initial_rate_bps", mac.initial_rate_bps);
-    check_between("mac.rate_interval_s", mac.rate_interval_s, 1e-6, 1e6, "s");
-    check_between("mac.increase_threshold", mac.increase_threshold, 1, most, "");
-    check_between("mac.decrease_threshold", mac.decrease_threshold, 1, most, "");
-    check_between("mac.increase_threshold_factor", mac.increase_threshold_factor, 1, 1000, "");
-    // ARF has no bound, and must not be refused for one that is too low.
-    const int lowest_bound = mac.rate_control == "AarfRateControl" ? mac.increase_threshold : 1;
-    check_between("mac.max_increase_threshold", mac.max_increase_threshold, lowest_bound, most, "");
-    check_between("mac.rate_update_interval_s", mac.rate_update_interval_s, 1e-6, 1e6, "s");
-    check_between("mac.look_around_share", mac.look_around_share, 0, 1, "");
-    check_between("mac.ewma_weight", mac.ewma_weight, 0, almost_one, "");
-}
+constexpr ReadBy with_rate_control{"mac.rate_control", any, ""};
+constexpr ReadBy with_arf{"mac.rate_control", arf_and_aarf, "ARF, AARF"};
+constexpr ReadBy with_aarf{"mac.rate_control", aarf, "AARF"};
+constexpr ReadBy with_minstrel{"mac.rate_control", minstrel, "Minstrel"};
+
+constexpr std::string_view of_the_mode = "that of the operation mode";
+constexpr ValueType retry_limit = integer().at_least(1).at_most(255);
+constexpr ValueType window = integer().at_least(0).at_most(32767).or_special(-1, of_the_mode);
+constexpr ValueType threshold = integer().at_least(1).at_most(1'000'000);
+constexpr ValueType interval = quantity("s").shown_in("ms").at_least(1e-6).at_most(1e6);
+
+constexpr Field fields[] = {
+    {NETSIM_FIELD(MacConfig, op_mode), "opMode", one_of(op_mode_names),
+     "Generation of IEEE 802.11, which sets bit rates and timing"},
+    {NETSIM_FIELD(MacConfig, bitrate_bps), "bitrate", bitrate(),
+     "Bit rate of data frames; -1bps: the fastest mandatory one"},
+    {NETSIM_FIELD(MacConfig, mtu_bytes), "mac.mtu", bytes().at_least(29).at_most(2304),
+     "802.11: largest IP packet, made of 28 B of headers and the message; a longer message is refused"},
+    {NETSIM_FIELD(MacConfig, multicast_bitrate_bps), "mac.dcf.rateSelection.multicastFrameBitrate", bitrate(),
+     "Bit rate of broadcast frames; -1bps: that of data frames"},
+    {NETSIM_FIELD(MacConfig, control_bitrate_bps), "mac.dcf.rateSelection.controlFrameBitrate", bitrate(),
+     "Bit rate of RTS frames; -1bps: the fastest mandatory one"},
+    {NETSIM_FIELD(MacConfig, rts_threshold_bytes), "mac.dcf.rtsPolicy.rtsThreshold",
+     bytes().at_least(0).at_most(1'000'000), "Unicast frames of at least this length begin with RTS and CTS"},
+    {NETSIM_FIELD(MacConfig, short_retry_limit), "mac.dcf.recoveryProcedure.shortRetryLimit", retry_limit,
+     "Number of failures after which an RTS, or a frame below the RTS threshold, is dropped"},
+    {NETSIM_FIELD(MacConfig, long_retry_limit), "mac.dcf.recoveryProcedure.longRetryLimit", retry_limit,
+     "Number of failures after which a frame at or above the RTS threshold is dropped"},
+    {NETSIM_FIELD(MacConfig, inet_station_retry_counters),
+     "mac.dcf.recoveryProcedure.inetStationRetryCounters", boolean(),
+     "Whether failures are counted across dropped frames, as in INET: from the second in a row on, the "
+     "contention"
+     " window stays large"},
+    {NETSIM_FIELD(MacConfig, cw_min), "mac.dcf.channelAccess.cwMin", window,
+     "Smallest contention window in slots; -1: that of opMode"},
+    {NETSIM_FIELD(MacConfig, cw_max), "mac.dcf.channelAccess.cwMax", window,
+     "Largest contention window in slots; -1: that of opMode"},
+    {NETSIM_FIELD(MacConfig, queue_capacity), "mac.dcf.channelAccess.pendingQueue.packetCapacity",
+     integer().at_least(1).at_most(1'000'000),
+     "Number of frames that can wait in the queue, without the one in progress"},
+    {NETSIM_FIELD(MacConfig, backoff_optimization), "mac.dcf.channelAccess.contention.backoffOptimization",
+     boolean(), "Whether idle time before a frame arrives counts toward its wait"},
+    {NETSIM_FIELD(MacConfig, initial_channel_busy), "mac.dcf.channelAccess.contention.initialChannelBusy",
+     boolean(),
+     "For backoffOptimization: whether the channel was busy until the run began; false: it has always been "
+     "idle"},
+    {NETSIM_FIELD(MacConfig, skip_backoff_if_idle), "mac.dcf.channelAccess.contention.skipBackoffIfIdle",
+     boolean(),
+     "Whether a frame that finds station and channel idle waits only for DIFS, without a backoff; the "
+     "station is idle"
+     " after the backoff that follows each frame"},
+    {NETSIM_FIELD(MacConfig, inet_eifs), "mac.dcf.channelAccess.contention.inetEifs", boolean(),
+     "Whether EIFS follows INET's rules instead of the standard's"},
+    {NETSIM_FIELD(MacConfig, rate_control), "mac.dcf.rateControl.typename", one_of(rate_control_names),
+     "How the bit rate of unicast frames follows the losses; \"\": it is constant"},
+    {NETSIM_FIELD(MacConfig, initial_rate_bps), "mac.dcf.rateControl.initialRate", bitrate(),
+     "Bit rate of the first frame to a node; -1bps: that of data frames", with_rate_control},
+    {NETSIM_FIELD(MacConfig, rate_interval_s), "mac.dcf.rateControl.interval", interval,
+     "time after the last change at which the next faster rate is tried", with_arf},
+    {NETSIM_FIELD(MacConfig, increase_threshold), "mac.dcf.rateControl.increaseThreshold", threshold,
+     "successes in a row that lead to the next faster rate", with_arf},
+    {NETSIM_FIELD(MacConfig, decrease_threshold), "mac.dcf.rateControl.decreaseThreshold", threshold,
+     "failures in a row that lead to the next slower rate", with_arf},
+    {NETSIM_FIELD(MacConfig, increase_threshold_factor), "mac.dcf.rateControl.increaseThresholdFactor",
+     number().at_least(1).at_most(1000),
+     "factor by which increaseThreshold grows when the faster rate fails at once", with_aarf},
+    {NETSIM_FIELD(MacConfig, max_increase_threshold), "mac.dcf.rateControl.maxIncreaseThreshold", threshold,
+     "upper bound of that growth", with_aarf},
+    {NETSIM_FIELD(MacConfig, rate_update_interval_s), "mac.dcf.rateControl.updateInterval", interval,
+     "time from one choice of the best rates to the next", with_minstrel},
+    {NETSIM_FIELD(MacConfig, look_around_share), "mac.dcf.rateControl.lookAroundRate",
+     number().at_least(0).at_most(1), "fraction of the frames that try a random rate", with_minstrel},
+    {NETSIM_FIELD(MacConfig, ewma_weight), "mac.dcf.rateControl.ewmaWeight",
+     number().at_least(0).at_most(0.999999), "weight of the past in the mean success probability",
+     with_minstrel},
+    {NETSIM_FIELD(MacConfig, own_frames_set_nav), "mac.rx.ownFramesSetNav", boolean(),
+     "Whether a node's own frames reserve the channel against itself, as in INET; not in the standard"},
+};
 
 }  // namespace
 
-void MacConfig::validate() const {
-    constexpr int largest_window = 32767;
-    constexpr std::string_view of_the_mode = "that of the operation mode";
+const Schema MacConfig::schema{"mac", "wlan[0]", true, fields, with_ieee80211};
 
-    check_name("mac.op_mode", op_mode, op_mode_names);
-    check_bitrate("mac.bitrate_bps", bitrate_bps);
-    check_bitrate("mac.multicast_bitrate_bps", multicast_bitrate_bps);
-    check_bitrate("mac.control_bitrate_bps", control_bitrate_bps);
-    check_between("mac.rts_threshold_bytes", rts_threshold_bytes, 0, 1'000'000, "B");
-    check_between("mac.short_retry_limit", short_retry_limit, 1, 255, "");
-    check_between("mac.long_retry_limit", long_retry_limit, 1, 255, "");
-    check_default_or_between("mac.cw_min", cw_min, of_the_mode, 0, largest_window);
-    check_default_or_between("mac.cw_max", cw_max, of_the_mode, std::max(cw_min, 0), largest_window);
-    check_between("mac.queue_capacity", queue_capacity, 1, 1'000'000, "frames");
-    check_between("mac.mtu_bytes", mtu_bytes, 29, 2304, "B");
-    check_rate_control(*this);
+void MacConfig::validate() const {
+    check_fields(*this);
+    if (cw_max != -1 && cw_max < cw_min) {
+        throw ConfigError({"mac.cw_max",
+                           Quantity{1.0 * cw_max, ""},
+                           {"expected at least ", FieldName{"mac.cw_min"}, ", ", Quantity{1.0 * cw_min, ""}},
+                           {"mac.cw_min"}});
+    }
+    // ARF has no upper bound, so the bound of AARF must not reject its threshold.
+    if (rate_control == "AarfRateControl" && max_increase_threshold < increase_threshold) {
+        throw ConfigError({"mac.max_increase_threshold",
+                           Quantity{1.0 * max_increase_threshold, ""},
+                           {"expected at least ", FieldName{"mac.increase_threshold"}, ", ",
+                            Quantity{1.0 * increase_threshold, ""}},
+                           {"mac.increase_threshold"}});
+    }
 }
 
 }  // namespace netsim

@@ -1,10 +1,12 @@
-// How one node moves: what `*.<node>.mobility.…` sets in an .ini file. Used by the mobility models.
+// How one node moves: what `*.<node>.mobility.…` sets in an .ini file. Used by the mobility models. What each field means,
+// and its range, is in mobility_config.cpp.
 #pragma once
 
 #include <array>
 #include <string>
 #include <string_view>
 
+#include "netsim/config/field.hpp"
 #include "netsim/geometry/orientation.hpp"
 
 namespace netsim {
@@ -13,15 +15,17 @@ inline constexpr std::array<std::string_view, 2> mobility_type_names{"MasslessMo
                                                                      "StationaryMobility"};
 
 struct MobilityConfig {
-    std::string type_name = "MasslessMobility";  // `typename` in Python; one of mobility_type_names
-    double speed_mps = 10;                       // until a protocol sets another; ≥ 0
-    double telemetry_interval_s = 0.01;          // 0: no telemetry; otherwise 1e-6 … 1e6
+    std::string type_name = "MasslessMobility";  // `typename` in Python
+    double speed_mps = 10;
+    double telemetry_interval_s = 0.01;  // 0: no telemetry
 
-    EulerAngles initial_orientation{};  // rad, each finite
-    bool face_forward = false;          // whether it is turned to where it flies
+    EulerAngles initial_orientation{};
+    bool face_forward = false;
 
-    // Throws ConfigError for the first field out of its range: "mobility.speed_mps = -1 m/s: expected …".
-    void validate() const;
+    static const Schema schema;
+
+    // Throws ConfigError for the first field out of its range: "mobility.speed_mps = -1 mps: expected …".
+    void validate() const { check_fields(*this); }
 };
 
 }  // namespace netsim

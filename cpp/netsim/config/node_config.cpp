@@ -39,7 +39,12 @@ void NodeConfig::validate_interfaces() const {
 }
 
 ConfigError NodeConfig::error_of_interface(std::size_t index, const ConfigError& error) const {
-    return wlan.size() == 1 ? error : ConfigError("wlan[" + std::to_string(index) + "]." + error.what());
+    if (wlan.size() == 1 || error.problem() == nullptr) {
+        return error;
+    }
+    Problem problem = *error.problem();
+    problem.interface = static_cast<int>(index);
+    return ConfigError(std::move(problem));
 }
 
 }  // namespace netsim

@@ -1,10 +1,75 @@
 #include "netsim/config/radio_config.hpp"
 
-#include <algorithm>
-
 #include "netsim/config/check.hpp"
+#include "netsim/config/medium_config.hpp"
 
 namespace netsim {
+namespace {
+
+constexpr std::array ber_table{ber_table_error_model};
+constexpr std::array threshold{preamble_detection_names[1]};
+constexpr std::array simple_capture{frame_capture_names[1]};
+constexpr std::array thermal{thermal_noise};
+
+constexpr ReadBy with_ber_table{"radio.error_model", ber_table, ber_table_error_model};
+constexpr ReadBy with_thermal_noise{"medium.background_noise", thermal, thermal_noise};
+constexpr ReadBy with_preamble_detection{"radio.preamble_detection", threshold, threshold[0]};
+constexpr ReadBy with_capture{"radio.frame_capture", simple_capture, simple_capture[0]};
+
+constexpr Field fields[] = {
+    {NETSIM_FIELD(RadioConfig, carrier_hz), "centerFrequency",
+     quantity("Hz").shown_in("MHz").at_least(1e6).at_most(1e12), "Center of the channel"},
+    {NETSIM_FIELD(RadioConfig, bandwidth_hz), "bandwidth",
+     quantity("Hz").shown_in("MHz").at_least(1e3).at_most(1e9), "Width of the channel"},
+    {NETSIM_FIELD(RadioConfig, tx_power_w), "transmitter.power",
+     quantity("W").shown_in("mW").at_least(0).at_most(largest_tx_power_w), "Transmit power"},
+    {NETSIM_FIELD(RadioConfig, communication_range_m), "transmitter.communicationRange",
+     quantity("m").at_least(0),
+     "UnitDiskRadioMedium: radius of the circle. Other media: sets the lowest power at which at least half "
+     "of the"
+     " broadcast messages of 50 B arrive at that distance; of it and transmitter.power, the first line "
+     "counts",
+     ReadBy{}},
+    {NETSIM_FIELD(RadioConfig, sensitivity_w), "receiver.sensitivity", level().above(0),
+     "Weakest frame that the radio can receive"},
+    {NETSIM_FIELD(RadioConfig, energy_detection_w), "receiver.energyDetection", level().above(0),
+     "Power (noise and signals together) from which on the channel counts as busy"},
+    {NETSIM_FIELD(RadioConfig, snir_threshold), "receiver.snirThreshold", ratio(),
+     "Signal to noise and interference ratio at or below which every frame is lost"},
+    {NETSIM_FIELD(RadioConfig, error_model), "receiver.errorModel.typename", one_of(error_model_names),
+     "How noise becomes lost frames"},
+    {NETSIM_FIELD(RadioConfig, ber_table_file), "receiver.errorModel.berTableFile", file_name(),
+     "CSV file of packet success over SNIR, relative to the .ini file; the format is this project's own"
+     " (docs/guides/receivers.md)",
+     with_ber_table, true},
+    {NETSIM_FIELD(RadioConfig, snir_mode), "receiver.errorModel.snirMode", one_of(snir_mode_names),
+     "What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of the "
+     "frame,"
+     " without the preamble (docs/guides/receivers.md)"},
+    {NETSIM_FIELD(RadioConfig, noise_figure), "receiver.noiseFigure", ratio().at_least(1),
+     "noise that the receiver adds", with_thermal_noise},
+    {NETSIM_FIELD(RadioConfig, preamble_detection), "receiver.preambleDetection.typename",
+     one_of(preamble_detection_names),
+     "When a radio locks on to a frame; \"\": at once, otherwise when it has detected the preamble"},
+    {NETSIM_FIELD(RadioConfig, preamble_threshold), "receiver.preambleDetection.threshold", ratio(),
+     "lowest SNIR", with_preamble_detection},
+    {NETSIM_FIELD(RadioConfig, preamble_minimum_power_w), "receiver.preambleDetection.minimumPower", level(),
+     "lowest power of the frame", with_preamble_detection},
+    {NETSIM_FIELD(RadioConfig, preamble_duration_s), "receiver.preambleDetection.duration",
+     quantity("s").shown_in("us").at_least(1e-12).at_most(1), "how long a radio listens before it decides",
+     with_preamble_detection},
+    {NETSIM_FIELD(RadioConfig, frame_capture), "receiver.frameCapture.typename", one_of(frame_capture_names),
+     "Whether a stronger frame can replace one whose reception has begun; \"\": never"},
+    {NETSIM_FIELD(RadioConfig, capture_margin), "receiver.frameCapture.margin", ratio().at_least(1),
+     "how much stronger the later frame must be", with_capture},
+    {NETSIM_FIELD(RadioConfig, capture_window_s), "receiver.frameCapture.window",
+     quantity("s").shown_in("us").at_least(0).at_most(1), "how long after the start of the earlier frame",
+     with_capture},
+};
+
+}  // namespace
+
+const Schema RadioConfig::schema{"radio", "wlan[0].radio", true, fields, with_radios};
 
 RadioConfig::RadioConfig(std::string_view interface_type_name) {
     check_name("interface", interface_type_name, interface_type_names);
@@ -12,36 +77,22 @@ RadioConfig::RadioConfig(std::string_view interface_type_name) {
         carrier_hz = 2.45e9;
         bandwidth_hz = 2.8e6;
         tx_power_w = 0.00224;
-        sensitivity_w = 1e-13;
-        energy_detection_w = 1e-12;
-        snir_threshold = 0.15848931924611134;
+        sensitivity_w = 1e-13;                 // -100 dBm
+        energy_detection_w = 1e-12;            // -90 dBm
+        snir_threshold = 0.15848931924611134;  // -8 dB
         error_model = "Ieee802154ErrorModel";
     }
 }
 
 void RadioConfig::validate() const {
-    constexpr double lowest_carrier_hz = 1e6;
-    constexpr double highest_carrier_hz = 1e12;
-    constexpr double narrowest_hz = 1e3;
-    constexpr double widest_hz = 1e9;
-    check_between("radio.carrier_hz", carrier_hz, lowest_carrier_hz, highest_carrier_hz, "Hz");
-    check_between("radio.bandwidth_hz", bandwidth_hz, narrowest_hz, std::min(widest_hz, carrier_hz), "Hz");
-    check_between("radio.tx_power_w", tx_power_w, 0, largest_tx_power_w, "W");
-    check_at_least("radio.communication_range_m", communication_range_m, 0, "m");
-    check_greater("radio.sensitivity_w", sensitivity_w, 0, "W");
-    check_greater("radio.energy_detection_w", energy_detection_w, 0, "W");
-    check_at_least("radio.snir_threshold", snir_threshold, 0, "");
-    check_name("radio.error_model", error_model, error_model_names);
+    check_fields(*this);
+    if (bandwidth_hz > carrier_hz) {
+        throw ConfigError({"radio.bandwidth_hz",
+                           Quantity{bandwidth_hz, "Hz"},
+                           {"expected at most the center frequency, ", Quantity{carrier_hz, "Hz"}},
+                           {"radio.carrier_hz"}});
+    }
     antenna.validate(carrier_hz);
-    check_at_least("radio.noise_figure", noise_figure, 1, "");
-    check_name("radio.snir_mode", snir_mode, snir_mode_names);
-    check_name("radio.preamble_detection", preamble_detection, preamble_detection_names);
-    check_at_least("radio.preamble_threshold", preamble_threshold, 0, "");
-    check_at_least("radio.preamble_minimum_power_w", preamble_minimum_power_w, 0, "W");
-    check_between("radio.preamble_duration_s", preamble_duration_s, 1e-12, 1, "s");
-    check_name("radio.frame_capture", frame_capture, frame_capture_names);
-    check_at_least("radio.capture_margin", capture_margin, 1, "");
-    check_between("radio.capture_window_s", capture_window_s, 0, 1, "s");
 }
 
 }  // namespace netsim

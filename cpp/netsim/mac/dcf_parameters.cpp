@@ -19,10 +19,21 @@ Retry::Window contention_window_of(const MacConfig& config, const ModeSet& modes
     const Retry::Window window{config.cw_min < 0 ? modes.cw_min() : config.cw_min,
                                config.cw_max < 0 ? modes.cw_max() : config.cw_max};
     if (window.max < window.min) {
-        throw ConfigError("mac.cw_min = " + std::to_string(window.min) +
-                          " and mac.cw_max = " + std::to_string(window.max) +
-                          " slots: expected the second to be at least the first (what " +
-                          "is not set is that of the operation mode, " + config.op_mode + ")");
+        // Set values were compared already, so one of the two is the operation mode's.
+        const bool is_min_set = config.cw_min >= 0;
+        const Quantity min{static_cast<double>(window.min), ""};
+        const Quantity max{static_cast<double>(window.max), ""};
+        const std::string of_mode = ", of the operation mode " + config.op_mode;
+        if (is_min_set) {
+            throw ConfigError({.field = "mac.cw_min",
+                               .value = min,
+                               .message = {"expected at most ", FieldName{"mac.cw_max"}, ", ", max, of_mode},
+                               .compared_with = {"mac.op_mode"}});
+        }
+        throw ConfigError({.field = "mac.cw_max",
+                           .value = max,
+                           .message = {"expected at least ", FieldName{"mac.cw_min"}, ", ", min, of_mode},
+                           .compared_with = {"mac.op_mode"}});
     }
     return window;
 }

@@ -20,8 +20,9 @@ namespace {
 MediumConfig without_obstacles(MediumConfig config) {
     config.validate();
     if (config.type_name == unit_disk_medium) {
-        throw ConfigError("medium.typename = \"" + config.type_name +
-                          "\": expected a medium with a path loss, whose ranges depend on power");
+        throw ConfigError({"medium.typename",
+                           "\"" + config.type_name + "\"",
+                           {"expected a medium with a path loss, whose ranges depend on power"}});
     }
     config.obstacle_loss.clear();
     return config;
@@ -53,11 +54,16 @@ int psdu_bytes_of(const InterfaceConfig& interface, int payload_bytes) {
     const int mtu_bytes = narrowband ? narrowband_mtu_bytes : interface.mac.mtu_bytes;
     const int most_bytes = mtu_bytes - datagram_bytes(0);
     if (payload_bytes > most_bytes) {
-        throw ConfigError(
-            "a message of " + text_of(payload_bytes) + " B is too long: expected at most " +
-            text_of(most_bytes) + " B, which " +
-            (narrowband ? "a frame of 802.15.4" : "mac.mtu_bytes = " + text_of(mtu_bytes) + " B") +
-            " leaves beside the headers of IPv4 and UDP");
+        std::vector<MessagePart> message{"a message of ", Quantity{1.0 * payload_bytes, "B"},
+                                         " is too long: expected at most ", Quantity{1.0 * most_bytes, "B"}};
+        if (narrowband) {
+            message.emplace_back(", which a frame of 802.15.4");
+        } else {
+            message.insert(message.end(),
+                           {", which ", FieldName{"mac.mtu_bytes"}, " = ", Quantity{1.0 * mtu_bytes, "B"}});
+        }
+        message.emplace_back(" leaves beside the headers of IPv4 and UDP");
+        throw ConfigError({"", "", std::move(message)});
     }
     return narrowband ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
 }
@@ -83,12 +89,14 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
       mode_(&broadcast_mode(sender_)),
       psdu_bytes_(psdu_bytes_of(sender_, payload_bytes)) {
     if (!band_.fits_in(Band{receiver_.carrier_hz, receiver_.bandwidth_hz})) {
-        throw ConfigError("radio.carrier_hz: " + receiver.name + " does not receive the channel of " +
-                          sender.name);
+        throw ConfigError(
+            {"radio.carrier_hz", "", {receiver.name + " does not receive the channel of " + sender.name}});
     }
     if (!known_formats(interface_of(receiver, interface)).contains(mode_->format)) {
-        throw ConfigError("mac.op_mode: " + receiver.name + " cannot decode " + std::string(mode_->name) +
-                          ", in which " + sender.name + " broadcasts");
+        throw ConfigError({"mac.op_mode",
+                           "",
+                           {receiver.name + " cannot decode " + std::string(mode_->name) + ", in which " +
+                            sender.name + " broadcasts"}});
     }
     if (propagation_.is_random()) {
         needs_ = needs();
@@ -165,8 +173,10 @@ double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
     }
     const double gain = steady_gain(range_m);
     if (ratio_at(largest_tx_power_w * gain) < ratio) {
-        throw ConfigError("no power reaches " + text_of(range_m) + " m: even of " +
-                          text_of(largest_tx_power_w) + " W, too little is left there");
+        throw ConfigError({"",
+                           "",
+                           {"no power reaches ", Quantity{range_m, "m"}, ": even of ",
+                            Quantity{largest_tx_power_w, "W"}, ", too little is left there"}});
     }
     // The share never falls with the power, so the powers that do are all above one: bisection on a logarithmic scale.
     double too_weak_w = weakest_w;

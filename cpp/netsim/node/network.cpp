@@ -101,9 +101,12 @@ void Network::check_with_others(const NodeConfig& config, std::size_t index) con
     const double carrier_hz = config.wlan[index].radio.carrier_hz;
     for (std::size_t before = 0; before < index; ++before) {
         if (config.wlan[before].radio.carrier_hz == carrier_hz) {
-            throw ConfigError("wlan[" + std::to_string(index) + "].radio.carrier_hz = " +
-                              text_of(carrier_hz) + " Hz: expected another channel than that of wlan[" +
-                              std::to_string(before) + "] of " + config.name);
+            throw ConfigError({.field = "radio.carrier_hz",
+                               .value = Quantity{carrier_hz, "Hz"},
+                               .message = {"expected another channel than that of wlan[" +
+                                           std::to_string(before) + "] of " + config.name},
+                               .compared_with = {"node.num_wlan_interfaces", "interface.typename"},
+                               .interface = static_cast<int>(index)});
         }
     }
 }
@@ -116,9 +119,13 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     }
     const double noise_w = medium_.background_noise().power_w(radio.bandwidth_hz, radio.noise_figure);
     if (radio.energy_detection_w <= noise_w) {
-        throw ConfigError("radio.energy_detection_w = " + text_of(radio.energy_detection_w) +
-                          " W: expected more than the background noise of " + text_of(noise_w) +
-                          " W, which would keep the channel busy for ever");
+        throw ConfigError(
+            {.field = "radio.energy_detection_w",
+             .value = Quantity{radio.energy_detection_w, "W"},
+             .message = {"expected more than the background noise of ", Quantity{noise_w, "W"},
+                         ", which would keep the channel busy forever"},
+             .compared_with = {"medium.background_noise_w", "medium.temperature_k", "radio.noise_figure",
+                               "radio.bandwidth_hz", "medium.background_noise", "interface.typename"}});
     }
     radio_kind(radio);
     if (config.type_name == ieee80211_interface) {
@@ -128,9 +135,12 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     // neither could make anything of what it locks on to.
     const auto there = interface_types_.find(radio.carrier_hz);
     if (there != interface_types_.end() && there->second != config.type_name) {
-        throw ConfigError("radio.carrier_hz = " + text_of(radio.carrier_hz) +
-                          " Hz: expected another one for " + node + " with its " + config.type_name +
-                          ", as a node with an " + there->second + " is at this one");
+        throw ConfigError(
+            {.field = "radio.carrier_hz",
+             .value = Quantity{radio.carrier_hz, "Hz"},
+             .message = {"expected another frequency for " + node + " with its " + config.type_name +
+                         ": a node with an " + there->second + " uses this one"},
+             .compared_with = {"interface.typename"}});
     }
 }
 
@@ -154,9 +164,11 @@ Radio& Network::radio(InterfaceId id) {
 void Network::capture(NodeId node, const std::string& path, std::int32_t interface) {
     const std::string& name = this->node(node).name();
     if (perfect_channel_) {
-        throw ConfigError("cannot capture the frames of " + name + ": medium.typename = \"" +
-                          std::string(unit_disk_medium) + "\" has no radios; expected " +
-                          "Ieee80211ScalarRadioMedium or another radio medium");
+        throw ConfigError(
+            {.message = {"cannot capture the frames of " + name + ": ", FieldName{"medium.typename"},
+                         " = \"" + std::string(unit_disk_medium) +
+                             "\" has no radios; expected Ieee80211ScalarRadioMedium or another radio"
+                             " medium"}});
     }
     const std::size_t count = this->node(node).interfaces().size();
     if (interface < 0 || static_cast<std::size_t>(interface) >= count) {

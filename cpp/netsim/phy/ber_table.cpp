@@ -60,7 +60,7 @@ std::string bitrates_of_modes_mbps() {
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
-    throw ConfigError("radio.ber_table_file = \"" + path + "\": " + what);
+    throw ConfigError({"radio.ber_table_file", "\"" + path + "\"", {what}});
 }
 
 [[noreturn]] void refuse(const std::string& path, int line, const std::string& what) {

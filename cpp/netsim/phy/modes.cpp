@@ -150,9 +150,11 @@ const Mode& ModeSet::mode_for_bitrate(double bitrate_bps, std::string_view field
         }
         rates.append(rates.empty() ? "" : ", ").append(in_mbps(mode.bitrate_bps));
     }
-    throw ConfigError(std::string(field) + " = " + text_of(bitrate_bps) + " bps: expected a bitrate of " +
-                      std::string(name_) + ", which has " + rates + " Mbps; the nearest is " +
-                      in_mbps(nearest->bitrate_bps) + " Mbps");
+    throw ConfigError({.field = std::string(field),
+                       .value = Quantity{bitrate_bps, "bps"},
+                       .message = {"expected a bitrate of " + std::string(name_) + ", which has " + rates +
+                                   " Mbps; the nearest is " + in_mbps(nearest->bitrate_bps) + " Mbps"},
+                       .compared_with = {"mac.op_mode"}});
 }
 
 const Mode& ModeSet::fastest_mandatory() const {

@@ -58,6 +58,8 @@ PathLoss make_path_loss(const MediumConfig& config) {
         path_loss.squared_breakpoint_m2_ = 1;
         return path_loss;
     }
+    path_loss.near_.coefficient /= config.system_loss;
+    path_loss.far_ = path_loss.near_;
     NETSIM_ASSERT(name == "FreeSpacePathLoss" || std::ranges::find(fading_names, name) != fading_names.end());
     return path_loss;
 }

@@ -3,7 +3,8 @@
 // These models are power laws, gain = coefficient / distance^exponent, capped at 1; the breakpoint model has
 // one law on each side of a distance. So one plain class serves all, without a virtual call per
 // receiver.
-//   FreeSpacePathLoss: gain = λ² / (16 π² d^α), with d the distance and λ = c / carrier the wavelength, in m.
+//   FreeSpacePathLoss: gain = λ² / (16 π² L d^α), with d the distance and λ = c / carrier the wavelength, in m, and L the
+//     system loss.
 //     H. T. Friis, "A Note on a Simple Transmission Formula", 1946, has α = 2.
 //   BreakpointPathLoss: loss in dB = l01 + 10 α1 log10(d / 1 m) for d below the breakpoint, and
 //     l02 + 10 α2 log10(d / breakpoint) at and above it; the same for all carriers. The defaults (8 m, 40.2

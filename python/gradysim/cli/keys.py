@@ -19,16 +19,15 @@ def list_keys(
     """List the keys of .ini files: unit, default, meaning."""
     from gradysim.cli import key_table
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.integrated.engine_defaults import engine_defaults
     from gradysim.integrated.native_protocols import native_protocols
     from gradysim.scenario.key_list import key_meant, key_sections, matching
 
     try:
-        structs, natives = engine_defaults(), list(native_protocols().values())
+        natives = list(native_protocols().values())
     except CompiledPartMissingError:
-        structs, natives = {}, []
-        print("defaults shown as ? are the compiled part's, which is not installed", file=sys.stderr)
-    everything = key_sections(structs, natives)
+        natives = []
+        print("the engine is not installed: its own protocols are not listed", file=sys.stderr)
+    everything = key_sections(natives)
     sections = matching(everything, pattern)
     if not sections:
         hint = key_meant(everything, pattern)

@@ -9,14 +9,13 @@ from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import EngineError, errors_at
-from gradysim.integrated.ini_terms import in_ini_terms
+from gradysim.integrated.engine_errors import EngineError, errors_at, text_of
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.keys.radio import CENTER_FREQUENCY
+from gradysim.scenario.keys import CENTER_FREQUENCY
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
@@ -136,10 +135,10 @@ def calibrate(
         raise
     try:
         power_w = budget.tx_power_w_for(range_m, ratio)
-    except ValueError as error:  # no power would do
+    except load_netsim().ConfigError as error:  # no power would do
         nodes = [from_node] if to_node.id == from_node.id else [from_node, to_node]
         hint = ground_hint(medium_config(scenario), nodes)
-        raise ConfigError(in_ini_terms(str(error)) + (f"; {hint}" if hint else "")) from error
+        raise ConfigError(text_of(error) + (f"; {hint}" if hint else "")) from error
     sensitivity_w, preamble_w = _deciding_levels_w(
         scenario, from_node, to_node, message_bytes, range_m, ratio, power_w
     )

@@ -11,15 +11,12 @@ from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.scenario.keys.interface import IEEE802154, written_for
-from gradysim.scenario.keys.key import ReadBy
-from gradysim.scenario.keys.radio import OF_802154
-from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.keys import IEEE802154, NETWORK_KEYS, NODE_KEYS, OF_802154, has_radios, written_for
 from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema import ReadBy
 from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:

@@ -4,18 +4,17 @@ The settings of the scenario have the names of the fields of the engine's passiv
 one by one; what the engine's own check then finds wrong is reported where the .ini file says it.
 """
 
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gradysim.autopilots.scenario_flights import check_autopilots
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import errors_at, settings_by_target
+from gradysim.integrated.engine_errors import errors_at, settings_by_target, text_of
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
 from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
+from gradysim.scenario.keys import DEFAULT_INTERFACE
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
@@ -76,7 +75,8 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
 
 def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
     """Return the checked configuration of one obstacle."""
-    config: ObstacleConfig = load_netsim().ObstacleConfig()
+    netsim = load_netsim()
+    config: ObstacleConfig = netsim.ObstacleConfig()
     config.name = spec.name
     config.rings = spec.rings
     config.base_m = spec.base_m
@@ -86,8 +86,8 @@ def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
     config.conductivity_spm = spec.conductivity_spm
     try:
         config.validate()
-    except ValueError as error:
-        raise ConfigError.at(spec.source, f"{spec.name}: {error}") from error
+    except netsim.ConfigError as error:
+        raise ConfigError.at(spec.source, f"{spec.name}: {text_of(error)}") from error
     return config
 
 
@@ -113,17 +113,11 @@ def _typename(wlan: InterfaceSpec) -> str:
 
 @contextmanager
 def node_errors_at(spec: NodeSpec, medium: Mapping[str, Setting]) -> Iterator[None]:
-    """Turn an error of the engine about a node into a ConfigError, at the line that sets the field it names.
-
-    The engine says which of several interfaces it means: "wlan[1].radio.tx_power_w = -1 W: ...".
-    """
+    """Turn an error of the engine about a node into a ConfigError, at the line that causes it."""
     try:
         yield
-    except ConfigError:
-        raise  # which knows its place
-    except ValueError as error:
-        named = re.match(r"wlan\[(\d+)\]", str(error))
-        with errors_at(node_settings(spec, int(named[1]) if named else 0, medium)):
+    except load_netsim().ConfigError as error:
+        with errors_at(node_settings(spec, error.interface or 0, medium)):
             raise
 
 

@@ -3,11 +3,10 @@
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.engine_errors import errors_at_line
+from gradysim.integrated.engine_errors import text_of
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.keys.interface import DEFAULT_INTERFACE
-from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.keys import DEFAULT_INTERFACE, has_radios
 from gradysim.scenario.node.node_spec import NodeSpec
 
 if TYPE_CHECKING:
@@ -58,7 +57,10 @@ class PowersForRanges:
                 raise ConfigError.at(mtu.source, text)
             budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)
             hint = ground_hint(self._medium, [spec])
-            with errors_at_line(wlan.radio["communication_range_m"], f"; {hint}" if hint else ""):
+            try:
                 power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)
+            except load_netsim().ConfigError as error:
+                text = text_of(error) + (f"; {hint}" if hint else "")
+                raise ConfigError.at(wlan.radio["communication_range_m"].source, text) from error
             self._known[key] = power_w
         return power_w

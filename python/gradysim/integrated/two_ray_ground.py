@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.keys import has_radios
 from gradysim.scenario.node.node_spec import NodeSpec
 
 if TYPE_CHECKING:

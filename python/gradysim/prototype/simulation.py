@@ -9,7 +9,7 @@ from gradysim.prototype.recorded_nodes import record_node
 from gradysim.results.node_recorder import NodeRecorder
 from gradysim.results.run_file import run_name
 from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.keys.mobility import MASSLESS, STATIONARY
+from gradysim.scenario.keys import MASSLESS, STATIONARY
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import NativeProtocol, text_of_only_integrated
 from gradysim.scenario.protocol.parametrize import parametrize

@@ -24,7 +24,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.nearest import did_you_mean, misspelt
 from gradysim.scenario.errors.sibling_files import file_meant
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys.environment import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
+from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
 from gradysim.scenario.matching.lookup import Lookup
 from gradysim.scenario.obstacles import (
     Corner,

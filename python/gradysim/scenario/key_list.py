@@ -1,24 +1,24 @@
 """The list of all keys for people: unit, default and meaning, from the tables that files are read with."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 from gradysim.scenario.errors.nearest import misspelt
-from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.node import GROUP_SIZE, GROUP_SIZE_OF_NODES, PROTOCOL_KEYS, PROTOCOL_PARAMETER
-from gradysim.scenario.keys.options import OPTION_KEYS
+from gradysim.scenario.keys import (
+    GROUP_SIZE,
+    GROUP_SIZE_OF_NODES,
+    NETWORK_KEYS,
+    NETWORK_MODULES,
+    NODE_KEYS,
+    PROTOCOL_KEYS,
+    PROTOCOL_PARAMETER,
+)
+from gradysim.scenario.options import OPTION_KEYS
 from gradysim.scenario.protocol.native import NativeProtocol
 from gradysim.scenario.protocol.parameters import parameters_of
-from gradysim.scenario.scenario import CommunicationMediumSpec
-
-Structs = Mapping[str, Mapping[str, object]]
-"""{struct: {variant: the struct with its defaults}}; the variant that is the default is called ""."""
-
-UNKNOWN = "?"
-"""Default of a key whose struct is not at hand."""
+from gradysim.scenario.schema import Key
 
 _INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
 
@@ -30,8 +30,6 @@ _GROUP_SIZE = re.compile(r"(?:\*\*?\.)?num[A-Z]\w*", re.ASCII)
 
 _PREFIXES = {GROUP_SIZE_OF_NODES: "*.", GROUP_SIZE: "*.nodes."}
 """What those of the keys of a group begin with that are not of its nodes."""
-
-OWN_STRUCTS: Structs = {"communication_medium": {"": CommunicationMediumSpec()}}
 
 
 @dataclass(frozen=True)
@@ -52,19 +50,15 @@ class KeySection:
     rows: tuple[KeyRow, ...]
 
 
-def key_sections(structs: Structs, natives: Iterable[type[NativeProtocol]] = ()) -> list[KeySection]:
-    """All keys. `structs` has the defaults of the engine's configurations; a struct may be missing.
-
-    `natives` are the engine's protocols.
-    """
-    known = {**structs, **OWN_STRUCTS}
+def key_sections(natives: Iterable[type[NativeProtocol]] = ()) -> list[KeySection]:
+    """All keys, with the parameters of `natives`, the engine's protocols."""
     node_keys = (GROUP_SIZE_OF_NODES, GROUP_SIZE, *PROTOCOL_KEYS, PROTOCOL_PARAMETER)
     node_keys += NODE_KEYS[len(PROTOCOL_KEYS) :]
     native_rows = tuple(row for protocol in natives for row in _native_rows(protocol))
     sections = [
-        KeySection("Options of a run", _rows("", OPTION_KEYS, known)),
-        KeySection("Of a group of nodes, or of one node", _rows("*.nodes[*].", node_keys, known)),
-        KeySection("Of the network", _rows("*.", NETWORK_KEYS, known)),
+        KeySection("Options of a run", _rows("", OPTION_KEYS)),
+        KeySection("Of a group of nodes, or of one node", _rows("*.nodes[*].", node_keys)),
+        KeySection("Of the network", _rows("*.", NETWORK_KEYS)),
     ]
     return (
         [*sections, KeySection("Of a node with a native protocol", native_rows)] if native_rows else sections
@@ -116,11 +110,9 @@ def _group_as_nodes(pattern: str, meant: str) -> str:
     return f"{_PREFIXES[GROUP_SIZE]}{rest}" if rest == GROUP_SIZE.path else f"*.nodes[*].{rest}"
 
 
-def _rows(prefix: str, keys: Iterable[Key], structs: Structs) -> tuple[KeyRow, ...]:
+def _rows(prefix: str, keys: Iterable[Key]) -> tuple[KeyRow, ...]:
     return tuple(
-        KeyRow(
-            f"{_PREFIXES.get(key, prefix)}{key.written}", key.kind.unit, _default(key, structs), _meaning(key)
-        )
+        KeyRow(f"{_PREFIXES.get(key, prefix)}{key.written}", key.kind.unit, key.default_text, _meaning(key))
         for key in keys
     )
 
@@ -142,16 +134,3 @@ def _meaning(key: Key) -> str:
     """What a key means, after the models that read it."""
     models = key.read_by.shown if key.read_by else ""
     return f"{models}: {key.meaning}" if models else key.meaning
-
-
-def _default(key: Key, structs: Structs) -> str:
-    if key.default:
-        return key.default
-    variants = structs.get(key.struct)
-    if not variants:
-        return UNKNOWN
-    texts = {name: key.kind.show(getattr(struct, key.field)) for name, struct in variants.items()}
-    default = texts.pop("")
-    if key.field == "typename":
-        return default
-    return "; ".join([default, *(f"{name}: {text}" for name, text in texts.items() if text != default)])

@@ -11,8 +11,7 @@ from gradysim.scenario.errors.config_error import BadValue
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
 from gradysim.scenario.file.reader import Entry, Section
-from gradysim.scenario.keys.radio import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY
-from gradysim.scenario.keys.radio_media import has_radios
+from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY, has_radios
 from gradysim.scenario.matching.lookup import is_ignored, is_option
 from gradysim.scenario.matching.pattern_index import PatternIndex
 from gradysim.scenario.node.node_spec import NodeSpec

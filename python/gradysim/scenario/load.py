@@ -11,11 +11,11 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry, read_ini, read_overrides
 from gradysim.scenario.file.sections import Ranked, search_order, what_to_run_instead
-from gradysim.scenario.keys.options import NETWORK, OPTIONS
 from gradysim.scenario.matching.key_check import check_option
 from gradysim.scenario.matching.lookup import is_option, network_name, options_in_force
 from gradysim.scenario.network import Network
 from gradysim.scenario.networks import Networks
+from gradysim.scenario.options import NETWORK, OPTIONS
 from gradysim.scenario.runs.iterations import name_iterations
 from gradysim.scenario.runs.labels import free_text, with_labels
 from gradysim.scenario.runs.numbered_runs import numbered_runs

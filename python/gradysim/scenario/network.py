@@ -9,7 +9,6 @@ from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.geojson import read_obstacle_files
 from gradysim.scenario.keys import NETWORK_KEYS
-from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.groups import find_groups
 from gradysim.scenario.matching.key_check import (
     NoSuchNodeError,
@@ -27,6 +26,7 @@ from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import file_of_native
 from gradysim.scenario.runs.file_hashes import FileHashes
 from gradysim.scenario.scenario import CommunicationMediumSpec
+from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 
 

@@ -8,9 +8,9 @@ from itertools import pairwise
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys.environment import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.keys.key import Key
+from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
 from gradysim.scenario.matching.lookup import Lookup
+from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 
 Corner = tuple[float, float]

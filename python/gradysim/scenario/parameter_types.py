@@ -20,6 +20,8 @@ Scalar = float | int | str | bool
 MAX_INTEGER = 2**31 - 1
 """The largest `int` of the engine."""
 
+_STRONGEST_W = 1
+
 
 @dataclass(frozen=True, eq=False)
 class ParameterType:
@@ -69,14 +71,15 @@ class _Range:
             raise BadValue("it is out of range")
 
     def text(self, unit: str = "") -> str:
-        """The range for a message, ", at least 0m"."""
+        """The range for a message, ", at least 0m, or -1m"."""
         bounds = (
             ("at least", self.at_least),
             ("greater than", self.above),
             ("at most", None if self.at_most == MAX_INTEGER else self.at_most),
         )
         parts = [f"{name} {_bound(bound)}{unit}" for name, bound in bounds if bound is not None]
-        return f", {' and '.join(parts)}" if parts else ""
+        or_special = f", or {self.special:g}{unit}" if self.special is not None else ""
+        return (f", {' and '.join(parts)}" if parts else "") + or_special
 
 
 def _bound(bound: float) -> str:
@@ -103,9 +106,7 @@ def quantity(
         number = float(value)
         return f"{number:g}{unit}" if number == special else _in_unit(number, unit, shown or unit)
 
-    or_special = f", or {special:g}{unit}" if special is not None else ""
-    expected = target.dimension.value + limits.text(unit) + or_special
-    return ParameterType(expected, convert, unit=shown or unit, show=show)
+    return ParameterType(target.dimension.value + limits.text(unit), convert, unit=shown or unit, show=show)
 
 
 def _in_unit(value: float, unit: str, shown: str) -> str:
@@ -125,11 +126,38 @@ def place() -> ParameterType:
     return replace(coordinate(), has_all_between=True)
 
 
+def angle() -> ParameterType:
+    """Return the type of angles, in radians."""
+    return quantity("rad", shown="deg")
+
+
+def level(zero: bool = False) -> ParameterType:
+    """Return the type of powers at a receiver, in watts; `zero` is allowed or not.
+
+    At most 1 W (30 dBm): more than any radio receives, and less than the usual levels without their minus
+    sign. The engine has no such bound: in networks built in Python, radios may stand side by side.
+    """
+    power = quantity("W", at_least=0, shown="dBm") if zero else quantity("W", above=0, shown="dBm")
+
+    def convert(value: Value) -> Scalar:
+        power_w = power.convert(value)
+        if float(power_w) > _STRONGEST_W:
+            raise BadValue(
+                f"`{text_of(value)}` is more than any radio receives", "; is a minus sign missing?"
+            )
+        return power_w
+
+    return replace(power, expected=f"{power.expected} and at most {_STRONGEST_W}W", convert=convert)
+
+
 def number(
-    at_least: float | None = None, above: float | None = None, at_most: float | None = None
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
+    special: float | None = None,
 ) -> ParameterType:
     """Return the type of finite numbers without a unit."""
-    limits = _Range(at_least, above, at_most)
+    limits = _Range(at_least, above, at_most, special)
 
     def convert(value: Value) -> float:
         result = float(_plain(value).number)
@@ -141,9 +169,11 @@ def number(
     )
 
 
-def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> ParameterType:
+def integer(
+    at_least: int | None = None, at_most: int | None = MAX_INTEGER, special: int | None = None
+) -> ParameterType:
     """Return the type of integers, written without a point; by default at most an `int` of the engine."""
-    limits = _Range(at_least, None, at_most)
+    limits = _Range(at_least, None, at_most, special)
 
     def convert(value: Value) -> int:
         result = _plain(value).number
@@ -158,9 +188,9 @@ def integer(at_least: int | None = None, at_most: int | None = MAX_INTEGER) -> P
     return ParameterType(f"a whole number{limits.text()}", convert, unit="whole number")
 
 
-def whole_bytes() -> ParameterType:
+def whole_bytes(at_least: int = 0, at_most: int = MAX_INTEGER) -> ParameterType:
     """Return the type of sizes, converted to a whole number of bytes."""
-    size = quantity("B", at_least=0, at_most=MAX_INTEGER)
+    size = quantity("B", at_least=at_least, at_most=at_most)
 
     def convert(value: Value) -> int:
         result = float(size.convert(value))
@@ -171,13 +201,13 @@ def whole_bytes() -> ParameterType:
     return replace(size, convert=convert)
 
 
-def power_ratio() -> ParameterType:
-    """Return the type of levels in decibels, converted to a linear ratio of powers."""
-    level = quantity("dB", at_least=-300, at_most=300)
+def power_ratio(at_least_db: float = -300) -> ParameterType:
+    """Return the type of ratios of powers in decibels, converted to linear ones."""
+    decibels = quantity("dB", at_least=at_least_db, at_most=300)
     return replace(
-        level,
-        convert=lambda value: ratio_from_db(float(level.convert(value))),
-        show=lambda ratio: level.show(db_from_ratio(float(ratio))),
+        decibels,
+        convert=lambda value: ratio_from_db(float(decibels.convert(value))),
+        show=lambda ratio: decibels.show(db_from_ratio(float(ratio))),
     )
 
 

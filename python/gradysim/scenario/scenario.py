@@ -7,10 +7,10 @@ from pathlib import Path
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.scenario.file.reader import Entry, Section
-from gradysim.scenario.keys.options import LONGEST_RUN_S
 from gradysim.scenario.matching.lookup import is_ignored, options_in_force
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
+from gradysim.scenario.options import LONGEST_RUN_S
 from gradysim.scenario.runs.labels import with_labels
 from gradysim.scenario.runs.seed import checked_seed
 from gradysim.scenario.runs.unread_variables import UnreadVariables

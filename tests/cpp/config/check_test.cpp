@@ -44,13 +44,6 @@ TEST(Check, NothingAcceptsNanOrInfinity) {
               "node.initial_position.x = nan m: expected a finite number");
 }
 
-TEST(Check, DefaultOrBetween) {
-    EXPECT_NO_THROW(check_default_or_between("mac.cw_min", -1, "the default", 0, 7));
-    EXPECT_NO_THROW(check_default_or_between("mac.cw_min", 7, "the default", 0, 7));
-    EXPECT_EQ(error_text([] { check_default_or_between("mac.cw_min", -2, "the default", 0, 7); }),
-              "mac.cw_min = -2: expected -1 (the default) or from 0 to 7");
-}
-
 TEST(Check, NameOffersTheTableAndTheNearest) {
     constexpr std::array<std::string_view, 2> names{"FreeSpacePathLoss", "BreakpointPathLoss"};
     EXPECT_NO_THROW(check_name("medium.path_loss", "BreakpointPathLoss", names));

@@ -31,7 +31,7 @@ TEST(InterfaceConfig, ChecksItsMac) {
 TEST(InterfaceConfig, ChecksItsCsma) {
     InterfaceConfig config;
     config.csma.min_be = -1;
-    EXPECT_EQ(error_text([&] { config.validate(); }), "csma.min_be = -1: expected from 0 to 5");
+    EXPECT_EQ(error_text([&] { config.validate(); }), "csma.min_be = -1: expected from 0 to 20");
 }
 
 TEST(InterfaceConfig, ItsTypeSetsTheDefaultsOfTheRadio) {

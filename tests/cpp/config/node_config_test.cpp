@@ -53,7 +53,7 @@ TEST(NodeConfig, HasAtLeastOneInterfaceAndNotTooMany) {
 TEST(NodeConfig, ChecksItsMobility) {
     NodeConfig config("uavs[0]");
     config.mobility.speed_mps = -1;
-    EXPECT_EQ(error_text([&] { config.validate(); }), "mobility.speed_mps = -1 m/s: expected at least 0 m/s");
+    EXPECT_EQ(error_text([&] { config.validate(); }), "mobility.speed_mps = -1 mps: expected at least 0 mps");
 }
 
 }  // namespace

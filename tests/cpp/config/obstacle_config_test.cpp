@@ -32,10 +32,6 @@ TEST(ObstacleConfig, ValidateNamesTheField) {
     EXPECT_EQ(text_with(&ObstacleConfig::rings, {{{0, 0}, {1, 1}, {0, 2e7}}}),
               "obstacle.rings = 20000000 m: expected from -10000000 m to 10000000 m");
     EXPECT_EQ(text_with(&ObstacleConfig::top_m, 0.0), "obstacle.top_m = 0 m: expected more than 0 m");
-    EXPECT_EQ(text_with(&ObstacleConfig::relative_permittivity, 0.5),
-              "obstacle.relative_permittivity = 0.5: expected at least 1");
-    EXPECT_EQ(text_with(&ObstacleConfig::conductivity_spm, -2.0),
-              "obstacle.conductivity_spm = -2 S/m: expected at least 0 S/m");
     EXPECT_NE(text_with<std::string>(&ObstacleConfig::material, "bricks").find("did you mean brick?"),
               std::string::npos);
 }

@@ -57,9 +57,7 @@ TEST(DcfParameters, TheErrorNamesBothWindows) {
     } catch (const ConfigError& error) {
         EXPECT_EQ(
             std::string(error.what()),
-            "mac.cw_min = 31 and mac.cw_max = 5 slots: expected the second to be at least the first (what is "
-            "not set is "
-            "that of the operation mode, g(mixed))");
+            "mac.cw_max = 5: expected at least mac.cw_min, 31, of the operation mode g(mixed)");
     }
 }
 

@@ -120,6 +120,18 @@ TEST(PathLoss, ReachLooksBeyondAStepDownOfTheLoss) {
     EXPECT_NEAR(make_path_loss(config).reach_m(ratio_from_db(-50), channel_1_hz), 8, 1e-9);
 }
 
+TEST(PathLoss, TheSystemLossLowersFreeSpaceAndWhatIsBuiltOnIt) {
+    MediumConfig config;
+    config.system_loss = ratio_from_db(3);
+    for (const std::string_view name : {"FreeSpacePathLoss", "RayleighFading"}) {
+        config.path_loss = name;
+        EXPECT_DOUBLE_EQ(make_path_loss(config).gain(100, channel_1_hz) * ratio_from_db(3),
+                         free_space().gain(100, channel_1_hz));
+    }
+    config.path_loss = "TwoRayGroundReflection";
+    EXPECT_EQ(make_path_loss(config).gain(100, channel_1_hz), free_space().gain(100, channel_1_hz));
+}
+
 TEST(PathLoss, EveryNameOfTheConfigurationIsInTheTable) {
     for (const std::string_view name : path_loss_names) {
         MediumConfig config;

@@ -17,6 +17,7 @@ inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws)
     };
     const auto chance = [&draws](double share) { return draws.uniform() < share; };
     config.alpha = chance(0.3) ? 2 : between(1.5, 4);
+    config.system_loss = chance(0.5) ? 1 : log_between(1, 100);
     config.breakpoint_distance_m = log_between(0.5, 500);
     config.l01_db = between(30, 50);
     config.alpha1 = between(1.5, 4);

@@ -44,8 +44,12 @@ def test_a_pattern_that_no_key_matches_is_a_mistake(gradysim):
     )
 
 
-def test_defaults_of_the_compiled_part_are_unknown_without_it(folder):
+def test_keys_of_the_engine_are_listed_without_the_compiled_part(folder):
     done = run_without("gradysim._netsim", folder, "keys", "*.transmitter.power")
     assert done.returncode == 0
-    assert done.stdout.split("\t")[:3] == ["*.nodes[*].wlan[*].radio.transmitter.power", "mW", "?"]
-    assert done.stderr == "defaults shown as ? are the compiled part's, which is not installed\n"
+    assert done.stdout.split("\t")[:3] == [
+        "*.nodes[*].wlan[*].radio.transmitter.power",
+        "mW",
+        "20mW; 802.15.4: 2.24mW",
+    ]
+    assert "the engine is not installed" in done.stderr

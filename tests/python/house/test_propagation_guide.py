@@ -6,11 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.keys.antenna import ANTENNA_KEYS
-from gradysim.scenario.keys.environment import MATERIALS, OBSTACLE_LOSS_KEYS
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.path_loss import PATH_LOSS_KEYS
+from gradysim.scenario.keys import MATERIALS, OBSTACLE_LOSS_KEYS, PATH_LOSS_KEYS, engine_key
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema import Key
 
 
 def test_its_lines_run(
@@ -35,7 +33,7 @@ def guide(root: Path) -> str:
     return (root / "docs/guides/propagation.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("key", [PATH_LOSS_KEYS[0], ANTENNA_KEYS[0], OBSTACLE_LOSS_KEYS[0]])
+@pytest.mark.parametrize("key", [PATH_LOSS_KEYS[0], engine_key("antenna.typename"), OBSTACLE_LOSS_KEYS[0]])
 def test_every_model_has_a_row(guide: str, key: Key) -> None:
     rows = re.findall(r'^\| `"?(\w*)"?` \|', guide, re.MULTILINE)
     assert set(re.findall(r'"([^"]*)"', key.kind.expected)) - set(rows) == set()

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.keys.communication_medium import COMMUNICATION_MEDIUM_KEYS
+from gradysim.scenario.keys import COMMUNICATION_MEDIUM_KEYS
 
 README = Path(__file__).parents[3] / "README.md"
 

@@ -28,7 +28,6 @@ def key_of(line: str) -> str:
     ("lines", "wrong", "text"),
     [
         ([CHANNEL], "*.uavs[*].wlan[1].bitrate = 7Mbps", "bitrate=7Mbps: expected a bitrate of g(mixed)"),
-        ([CHANNEL], "*.uavs[*].wlan[1].mac.mtu = 10B", "mtu=10B: expected from 29B to 2304B"),
         (
             [CHANNEL],
             "*.uavs[*].wlan[1].radio.receiver.energyDetection = -120dBm",

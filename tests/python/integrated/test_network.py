@@ -122,8 +122,7 @@ def test_an_error_table_that_no_file_can_be_called_is_refused_where_it_is_named(
 @pytest.mark.parametrize(
     "text",
     [
-        "*.uavs[*].wlan[*].mac.mtu = 10MB",
-        "*.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 40000",
+        "*.uavs[*].wlan[*].mac.dcf.channelAccess.cwMin = 2000",
         "*.uavs[*].wlan[*].bitrate = 7Mbps",
     ],
 )

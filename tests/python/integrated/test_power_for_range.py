@@ -10,7 +10,7 @@ from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
 from gradysim.integrated.run import run
 from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.keys.radio import RADIO_KEYS
+from gradysim.scenario.keys import engine_key
 from gradysim.scenario.scenario import Scenario
 from python.integrated.fading_link import link
 
@@ -75,7 +75,7 @@ def test_who_is_exactly_at_the_end_of_the_range_hears_where_the_sensitivity_deci
 def test_what_a_range_means_is_the_same_wherever_it_is_said() -> None:
     defaults = signature(calibrate_power).parameters
     assert (defaults["ratio"].default, defaults["message"].default) == (RATIO, f"{MESSAGE_BYTES}B")
-    (meaning,) = (key.meaning for key in RADIO_KEYS if key.field == "communication_range_m")
+    meaning = engine_key("radio.communication_range_m").meaning
     assert f"half of the broadcast messages of {MESSAGE_BYTES} B" in meaning
     assert RATIO == 0.5
 

@@ -7,13 +7,14 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 from gradysim._netsim import MediumConfig, Propagation
-from gradysim.scenario.keys.path_loss import PATH_LOSS_KEYS
+from gradysim.scenario.keys import PATH_LOSS_KEYS
 
 TYPENAME, *KEYS_OF_PARAMETERS = PATH_LOSS_KEYS
 MODELS = re.findall(r'"(\w+)"', TYPENAME.kind.expected)
 
 OTHER_VALUES = {
     "alpha": 3.0,
+    "system_loss": 2.0,
     "breakpoint_distance_m": 20.0,
     "l01_db": 30.0,
     "l02_db": 70.0,

@@ -6,7 +6,7 @@ import pytest
 from gradysim.prototype.simulation import build_simulation, communication_medium, mobility_handler
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys.mobility import ARDUPILOT, MOBILITY_KEYS
+from gradysim.scenario.keys import ARDUPILOT, MOBILITY_KEYS
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.settings import Setting
 

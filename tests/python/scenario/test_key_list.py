@@ -1,53 +1,41 @@
-from types import SimpleNamespace
-
 import pytest
 
-from gradysim.scenario.key_list import UNKNOWN, KeyRow, key_meant, key_sections, matching
+from gradysim.scenario.key_list import KeyRow, key_meant, key_sections, matching
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
+from gradysim.scenario.schema import HAS_TO_BE_GIVEN
 
 
-def row(end: str, **structs: object) -> KeyRow:
-    """The row of the key that ends so; every struct has one variant."""
-    sections = key_sections({name: {"": struct} for name, struct in structs.items()})
-    (found,) = [row for section in sections for row in section.rows if row.key.endswith(end)]
+def row(end: str) -> KeyRow:
+    """The row of the key that ends so."""
+    (found,) = [row for section in key_sections() for row in section.rows if row.key.endswith(end)]
     return found
 
 
 def keys(pattern: str) -> list[str]:
-    return [row.key for section in matching(key_sections({}), pattern) for row in section.rows]
+    return [row.key for section in matching(key_sections(), pattern) for row in section.rows]
 
 
 def test_every_key_is_listed_with_a_meaning_and_a_unit() -> None:
-    rows = [row for section in key_sections({}) for row in section.rows]
+    rows = [row for section in key_sections() for row in section.rows]
     assert all(row.meaning and row.unit and row.default for row in rows)
     assert len(rows) > len((*NODE_KEYS, *NETWORK_KEYS))
 
 
 @pytest.mark.parametrize(
-    ("end", "field", "value", "written"),
+    ("end", "written"),
     [
-        ("sensitivity", "sensitivity_w", 3.1622776601683794e-12, "-85dBm"),
-        ("transmitter.power", "tx_power_w", 0.02, "20mW"),
-        ("centerFrequency", "carrier_hz", 2.412e9, "2412MHz"),
-        ("channelNumber", "carrier_hz", 2.484e9, "13"),
-        ("channelNumber", "carrier_hz", 2.437e9, "5"),
-        ("channelNumber", "carrier_hz", 2.45e9, "20"),
-        ("bandName", "carrier_hz", 2.412e9, '"2.4 GHz"'),
-        ("bandName", "carrier_hz", 2.437e9, "none"),
-        ("snirThreshold", "snir_threshold", 2.51188643150958, "4dB"),
+        ("sensitivity", "-85dBm; 802.15.4: -100dBm"),
+        ("transmitter.power", "20mW; 802.15.4: 2.24mW"),
+        ("centerFrequency", "2412MHz; 802.15.4: 2450MHz"),
+        ("channelNumber", "0; 802.15.4: 20"),
+        ("bandName", '"2.4 GHz"; 802.15.4: none'),
+        ("snirThreshold", "4dB; 802.15.4: -8dB"),
+        ("transmissionRange", "60m"),
+        ("beamWidth", HAS_TO_BE_GIVEN),
     ],
 )
-def test_defaults_are_written_as_in_a_file(end: str, field: str, value: float, written: str) -> None:
-    values = {key.field: 1.0 for key in NODE_KEYS if key.struct == "radio"} | {field: value}
-    assert row(end, radio=SimpleNamespace(**values)).default == written
-
-
-def test_a_default_of_a_struct_that_is_missing_is_unknown() -> None:
-    assert row("transmitter.power").default == UNKNOWN
-
-
-def test_defaults_of_our_own_are_always_known() -> None:
-    assert row("transmissionRange").default == "60m"
+def test_defaults_are_written_as_in_a_file(end: str, written: str) -> None:
+    assert row(end).default == written
 
 
 def test_a_meaning_begins_with_the_models_that_read_the_key() -> None:
@@ -134,4 +122,4 @@ def test_the_network_has_parts_that_are_no_groups() -> None:
     ],
 )
 def test_the_nearest_name_is_suggested(pattern: str, hint: str) -> None:
-    assert key_meant(key_sections({}), pattern) == hint
+    assert key_meant(key_sections(), pattern) == hint

@@ -9,11 +9,9 @@ the own section and the command line; that is the order of node ids.
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gradysim.scenario.keys import NETWORK_MODULES
-from gradysim.scenario.keys.interface import NUM_WLAN_INTERFACES
-from gradysim.scenario.keys.node import GROUP_SIZE, PROTOCOL_KEYS
-from gradysim.scenario.keys.omnetpp_options import IGNORED_MODULES
+from gradysim.scenario.keys import GROUP_SIZE, NETWORK_MODULES, NUM_WLAN_INTERFACES, PROTOCOL_KEYS
 from gradysim.scenario.matching.lookup import Found, Lookup
+from gradysim.scenario.options import IGNORED_MODULES
 from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.settings import SettingReader
 

@@ -15,16 +15,21 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.nearest import did_you_mean
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
-from gradysim.scenario.keys.environment import OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.keys.interface import at_interface
-from gradysim.scenario.keys.node import GROUP_SIZE
-from gradysim.scenario.keys.omnetpp_options import REFUSED_OPTIONS
-from gradysim.scenario.keys.options import NETWORK, OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.keys import (
+    GROUP_SIZE,
+    NETWORK_KEYS,
+    NETWORK_MODULES,
+    NODE_KEYS,
+    OBSTACLE_KEYS,
+    WLAN_KEYS,
+    at_interface,
+    obstacle_path,
+)
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.key_suggestion import unknown_name_text, unknown_parameter_text
 from gradysim.scenario.matching.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.matching.text_index import TextIndex
+from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
 from gradysim.scenario.patterns import Pattern
 from gradysim.scenario.protocol.parameters import parameters_of
 

@@ -5,9 +5,17 @@ from collections.abc import Sequence
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors.nearest import did_you_mean, misspelt, nearest
-from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN_KEYS
-from gradysim.scenario.keys.interface import WLAN, interface_in, written_for
-from gradysim.scenario.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS
+from gradysim.scenario.keys import (
+    NETWORK_KEYS,
+    NETWORK_MODULES,
+    NODE_KEYS,
+    PROTOCOL_CLASS,
+    PROTOCOL_KEYS,
+    WLAN,
+    WLAN_KEYS,
+    interface_in,
+    written_for,
+)
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.inet_modules import instead_of_module
 from gradysim.scenario.matching.lookup import Found

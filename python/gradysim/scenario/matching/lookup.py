@@ -16,14 +16,15 @@ from gradysim.scenario.errors.config_error import BadValue, ConfigError
 from gradysim.scenario.expressions import differs_between_parameters
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.keys.omnetpp_options import (
+from gradysim.scenario.matching.pattern_index import PatternIndex
+from gradysim.scenario.options import (
     IGNORED_BEGINNINGS,
     IGNORED_ENDS,
     IGNORED_MODULES,
     IGNORED_OPTIONS,
+    NETWORK,
+    OPTIONS,
 )
-from gradysim.scenario.keys.options import NETWORK, OPTIONS
-from gradysim.scenario.matching.pattern_index import PatternIndex
 from gradysim.scenario.patterns import Pattern, compile_pattern
 
 _NETWORK_NAME = re.compile(r'("?)(?:[A-Za-z_]\w*\.)*([A-Za-z_]\w*)\1', re.ASCII)

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Mapping
 
-from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.lookup import Found
+from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys.mobility import ARDUPILOT
+from gradysim.scenario.keys import ARDUPILOT
 from gradysim.scenario.settings import Setting
 from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
 from gradysim.sitl.unprivileged import DEFAULT_USER

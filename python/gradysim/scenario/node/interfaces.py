@@ -7,28 +7,26 @@ for all of them.
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
+from gradysim.scenario.bands import BAND, CHANNELS
 from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.keys import WLAN_KEYS
-from gradysim.scenario.keys.bands import BAND, CHANNELS
-from gradysim.scenario.keys.interface import (
-    IEEE802154,
-    INTERFACE_TYPENAME,
-    NUM_WLAN_INTERFACES,
-    at_interface,
-)
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.radio import (
+from gradysim.scenario.keys import (
     BAND_BESIDE_FREQUENCY,
     BAND_NAME,
     BAND_OF_CHANNEL,
     CENTER_FREQUENCY,
     CHANNEL_NUMBER,
+    IEEE802154,
+    INTERFACE_TYPENAME,
+    NUM_WLAN_INTERFACES,
     OF_802154,
+    WLAN_KEYS,
+    at_interface,
 )
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.lookup import Candidates, Found, Lookup
 from gradysim.scenario.matching.struct_reader import read_struct
 from gradysim.scenario.node.interface_spec import STRUCTS, InterfaceSpec
+from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import SettingReader
 
 

@@ -13,10 +13,17 @@ from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors.config_error import BadValue, ConfigError
 from gradysim.scenario.errors.nearest import nearest
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.keys import NODE_KEYS, WLAN_KEYS
-from gradysim.scenario.keys.key import Key
-from gradysim.scenario.keys.mobility import MASSLESS, MOBILITY_KEYS, STATIC_GRID, STATIONARY
-from gradysim.scenario.keys.node import PROTOCOL_CLASS, PROTOCOL_KEYS, PROTOCOL_TYPENAME
+from gradysim.scenario.keys import (
+    MASSLESS,
+    MOBILITY_KEYS,
+    NODE_KEYS,
+    PROTOCOL_CLASS,
+    PROTOCOL_KEYS,
+    PROTOCOL_TYPENAME,
+    STATIC_GRID,
+    STATIONARY,
+    WLAN_KEYS,
+)
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.key_suggestion import is_misspelt_class
 from gradysim.scenario.matching.lookup import Candidates, Found, Lookup
@@ -30,6 +37,7 @@ from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import native_protocol
 from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 
 _AXES = ("x", "y", "z")

@@ -6,7 +6,7 @@ They are variables of a run, too, which the values of all other keys may name. E
 from collections.abc import Mapping
 
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.keys.options import OPTIONS
+from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.runs.variables import substitute
 from gradysim.scenario.settings import read_scalar
 

@@ -12,7 +12,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.nearest import did_you_mean
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.keys.options import OPTIONS
+from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.runs.constraint import Constraint
 from gradysim.scenario.runs.iterations import (
     MAX_VALUES,

@@ -6,7 +6,7 @@ from operator import index
 from gradysim.scenario.errors.argument_names import OF_SCRIPT
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.keys.options import LARGEST_SEED, OPTIONS
+from gradysim.scenario.options import LARGEST_SEED, OPTIONS
 from gradysim.scenario.runs.variables import substitute
 from gradysim.scenario.settings import read_scalar
 

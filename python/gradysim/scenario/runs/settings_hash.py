@@ -4,8 +4,8 @@ import hashlib
 from collections.abc import Iterable
 
 from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.keys.options import NETWORK
 from gradysim.scenario.matching.lookup import is_ignored
+from gradysim.scenario.options import NETWORK
 from gradysim.scenario.runs.file_hashes import HASH_DIGITS
 from gradysim.scenario.runs.labels import LABEL_OPTIONS
 

@@ -5,10 +5,10 @@ from pathlib import Path
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.file.sections import Ranked
-from gradysim.scenario.keys.key import Key
 from gradysim.scenario.matching.lookup import Lookup
 from gradysim.scenario.matching.struct_reader import read_struct
 from gradysim.scenario.parameter_types import number, quantity
+from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import SettingReader
 
 POWER = Key("radio.power", "radio.power_w", quantity("W"), "")

@@ -253,12 +253,12 @@ def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None
         (
             "**.power = nan W\n",
             "**.power = nan W: for groundStation.wlan[0].radio.transmitter.power: `nanW` is not finite;"
-            " expected a power such as 20mW or -85dBm, at least 0W",
+            " expected a power such as 20mW or -85dBm, at least 0W and at most 1e+12W",
         ),
         (
             "**.power = 2W\n",
             "**.power = 2W: for radioMedium.backgroundNoise.power: `2W` is more than any radio receives;"
-            " expected a power such as 20mW or -85dBm, at least 0W and at most 1W; a minus forgotten?",
+            " expected a power such as 20mW or -85dBm, at least 0W and at most 1W; is a minus sign missing?",
         ),
         (
             '**.opMode = "g"\n',

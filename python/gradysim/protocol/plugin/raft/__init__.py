@@ -1,4 +1,4 @@
-"""Agreement of nodes on the values of named variables, by Raft."""
+"""Consensus on the values of named variables, by Raft."""
 
 from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
 from gradysim.protocol.plugin.raft.raft_config import RaftConfig, RaftMode

@@ -1,4 +1,4 @@
-"""Settings of the consensus, written as a chain of calls."""
+"""Settings of the consensus."""
 
 import random
 from enum import Enum
@@ -11,11 +11,11 @@ _LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
 
 
 class RaftMode(Enum):
-    """Of which nodes a leader and a committed value need the majority.
+    """Which nodes an election and a commit need a majority of.
 
     Attributes:
-        CLASSIC: Of all known nodes: Raft as published.
-        FAULT_TOLERANT: Of those that are seen active: goes on with few nodes, and promises less.
+        CLASSIC: All known nodes, as in the Raft paper.
+        FAULT_TOLERANT: Nodes that are seen active. It continues with few nodes, with weaker guarantees.
     """
 
     CLASSIC = "classic"
@@ -23,7 +23,7 @@ class RaftMode(Enum):
 
 
 class RaftConfig:
-    """Timeouts (ms), consensus variables and mode. Setters return the configuration, so that they chain."""
+    """Timeouts (ms), consensus variables and mode. Setters return the configuration itself."""
 
     def __init__(self) -> None:
         self._election_timeout_min = 150
@@ -37,13 +37,15 @@ class RaftConfig:
         self._failure_config.set_heartbeat_interval_reference(self._heartbeat_interval)
 
     def set_election_timeout(self, min_timeout: int, max_timeout: int) -> Self:
-        """Set the range of the election timeouts in ms; each one is drawn anew from it.
+        """Set the range of the election timeout in ms. Each timeout is drawn from it.
 
         Raises:
             ValueError: A bound is negative, or the lower one is not below the upper one.
         """
         if not (is_plain_number(min_timeout) and is_plain_number(max_timeout)):
-            raise ValueError(f"election timeouts are numbers of ms, got {min_timeout!r} and {max_timeout!r}")
+            raise ValueError(
+                f"election timeouts must be numbers (ms), got {min_timeout!r} and {max_timeout!r}"
+            )
         if min_timeout < 0 or max_timeout < 0:
             raise ValueError(f"election timeouts must be >= 0 ms, got {min_timeout!r} and {max_timeout!r}")
         if not min_timeout < max_timeout:
@@ -56,7 +58,7 @@ class RaftConfig:
         return self
 
     def set_heartbeat_interval(self, interval: int) -> Self:
-        """Set the time from one heartbeat of the leader to the next, in ms. The failure detection follows it.
+        """Set the heartbeat interval of the leader in ms, also for the failure detection.
 
         Raises:
             ValueError: It is <= 0, or the timeout of the failure detection would be shorter than 100 ms.
@@ -66,37 +68,37 @@ class RaftConfig:
         return self
 
     def add_consensus_variable(self, name: str, var_type: type) -> Self:
-        """Add a variable that the nodes agree on; all nodes should have the same ones.
+        """Add a variable to agree on. All nodes should have the same variables.
 
         Args:
-            name: Not empty, not given to another variable.
-            var_type: Type of its values: int, float, str, bool, list, tuple or dict, or one made of such
-                values that JSON can carry.
+            name: Name that is not empty and not used by another variable.
+            var_type: Type of its values: int, float, str, bool, list, tuple, dict, or another type that JSON
+                carries unchanged.
 
         Raises:
             ValueError: The name is empty or taken, or the type is not a type.
         """
         if not isinstance(name, str) or not name:
             raise ValueError(
-                f"the name of a consensus variable must be a text that is not empty, got {name!r}"
+                f"the name of a consensus variable must be a string that is not empty, got {name!r}"
             )
         if name in self._consensus_variables:
-            raise ValueError(f"there is a consensus variable {name!r} already")
+            raise ValueError(f"the consensus variable {name!r} exists already")
         if not isinstance(var_type, type):
             raise ValueError(f"the type of the consensus variable {name!r} must be a type, got {var_type!r}")
         self._consensus_variables[name] = var_type
         return self
 
     def remove_consensus_variable(self, name: str) -> Self:
-        """Remove a variable; no-op if there is none of that name."""
+        """Remove a variable. Do nothing if there is none of that name."""
         self._consensus_variables.pop(name, None)
         return self
 
     def set_logging(self, enable: bool, level: str = "INFO") -> Self:
-        """Set whether nodes log what they do, and from which level on.
+        """Enable or disable logging, and set the lowest level that is logged.
 
         Raises:
-            ValueError: There is no such level.
+            ValueError: The level is not DEBUG, INFO, WARNING, ERROR or CRITICAL.
         """
         if not isinstance(level, str) or level.upper() not in _LOG_LEVELS:
             raise ValueError(f"a log level is one of {', '.join(_LOG_LEVELS)}, got {level!r}")
@@ -105,7 +107,7 @@ class RaftConfig:
         return self
 
     def set_raft_mode(self, mode: RaftMode) -> Self:
-        """Set of which nodes the majority is needed; ValueError if it is not a `RaftMode`."""
+        """Set the mode. Raise ValueError if it is not a `RaftMode`."""
         if not isinstance(mode, RaftMode):
             raise ValueError(f"mode must be RaftMode.CLASSIC or RaftMode.FAULT_TOLERANT, got {mode!r}")
         self._raft_mode = mode
@@ -123,32 +125,32 @@ class RaftConfig:
 
     @property
     def heartbeat_interval_ms(self) -> int:
-        """Time from one heartbeat of the leader to the next."""
+        """Heartbeat interval of the leader."""
         return self._heartbeat_interval
 
     @property
     def log_level(self) -> str | None:
-        """Name of the lowest level that is logged; None for no logging."""
+        """Name of the lowest level that is logged, or None if logging is disabled."""
         return self._log_level if self._enable_logging else None
 
     def get_failure_config(self) -> FailureConfig:
-        """Return the settings of the failure detection; they may be changed in place."""
+        """Return the settings of the failure detection, which may be changed in place."""
         return self._failure_config
 
     def get_raft_mode(self) -> RaftMode:
-        """Return of which nodes the majority is needed."""
+        """Return the mode."""
         return self._raft_mode
 
     def is_classic_mode(self) -> bool:
-        """Whether the majority of all known nodes is needed."""
+        """Whether a majority of all known nodes is needed."""
         return self._raft_mode is RaftMode.CLASSIC
 
     def is_fault_tolerant_mode(self) -> bool:
-        """Whether the majority of the nodes seen active is enough."""
+        """Whether a majority of the nodes seen active is enough."""
         return self._raft_mode is RaftMode.FAULT_TOLERANT
 
     def get_random_election_timeout(self, stream: random.Random | None = None) -> int:
-        """Draw an election timeout in whole ms from a stream, or from Python's global one."""
+        """Draw an election timeout (integer, ms) from `stream`, or from Python's global one."""
         low, high = int(self._election_timeout_min), int(self._election_timeout_max)
         return stream.randint(low, high) if stream is not None else random.randint(low, high)
 
@@ -161,11 +163,11 @@ class RaftConfig:
         return name in self._consensus_variables
 
     def get_consensus_variable_type(self, name: str) -> type | None:
-        """Return the type of a variable; None if there is none of that name."""
+        """Return the type of a variable, or None if there is no such variable."""
         return self._consensus_variables.get(name)
 
     def validate(self) -> list[str]:
-        """Return what is wrong with the settings, one sentence each; empty if nothing is."""
+        """Return the problems of the settings, one sentence each."""
         problems = []
         if not self._election_timeout_min < self._election_timeout_max:
             problems.append("the shortest election timeout must be below the longest")
@@ -179,7 +181,7 @@ class RaftConfig:
         return problems
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all settings as plain data; types and the failure detection as text."""
+        """Return all settings as plain data. Types and the failure detection are strings."""
         return {
             "election_timeout_min": self._election_timeout_min,
             "election_timeout_max": self._election_timeout_max,

@@ -1,24 +1,26 @@
-"""The plugin: gives a protocol a share in variables that all nodes agree on."""
+"""The consensus plugin: lets a protocol agree with other nodes on the values of variables."""
 
 import logging
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
-from gradysim.protocol.plugin.raft import node_report
-from gradysim.protocol.plugin.raft.provider_environment import (
-    PREFIX,
-    RAFT_DISPATCH_PREFIX,
-    REQUIRED_METHODS,
-    ProviderEnvironment,
-)
 from gradysim.protocol.plugin.raft.raft_config import RaftConfig
 from gradysim.protocol.plugin.raft.raft_node import RaftNode
-from gradysim.protocol.plugin.raft.raft_state import RaftState
-from gradysim.protocol.plugin.raft.value import carried_value, typed_value
+from gradysim.protocol.plugin.raft.raft_state import RaftState, json_value, majority_of, typed_value
+from gradysim.protocol.plugin.raft.transport import PREFIX, RAFT_DISPATCH_PREFIX
 
 __all__ = ["RAFT_DISPATCH_PREFIX", "RaftConsensusPlugin"]
+
+_REQUIRED_METHODS = (
+    "send_communication_command",
+    "schedule_timer",
+    "cancel_timer",
+    "current_time",
+    "get_id",
+)
+_CLASSIC_SUMMARY = "Classic mode: every known node counts as active, failures are not detected"
 
 _logger = logging.getLogger(__name__)
 
@@ -26,8 +28,8 @@ _logger = logging.getLogger(__name__)
 class RaftConsensusPlugin:
     """Consensus by Raft among the nodes whose protocols have this plugin.
 
-    Create it in `initialize` or later, tell it the members with `set_known_nodes` and call `start`. Whoever
-    is the leader then can propose values; once committed they are seen on all nodes. Messages and timers of
+    Create it in `initialize` or later, set the members with `set_known_nodes` and call `start`. The node that
+    is elected leader can propose values. All nodes see them once they are committed. Messages and timers of
     the plugin do not reach the protocol.
 
     ```python
@@ -40,11 +42,11 @@ class RaftConsensusPlugin:
     """
 
     def __init__(self, config: RaftConfig, protocol: IProtocol) -> None:
-        """Attach to `protocol`.
+        """Attach the plugin to `protocol`.
 
         Args:
-            config: Settings; all nodes should have the same.
-            protocol: It has its provider already.
+            config: Settings. All nodes should have the same.
+            protocol: Protocol that has its provider already.
 
         Raises:
             ValueError: The configuration is not valid, the protocol has no provider or one that lacks a
@@ -60,35 +62,34 @@ class RaftConsensusPlugin:
             raise ValueError(
                 f"{type(protocol).__name__} has no provider yet: create the plugin in initialize() or later"
             )
-        missing = [name for name in REQUIRED_METHODS if not callable(getattr(provider, name, None))]
+        missing = [name for name in _REQUIRED_METHODS if not callable(getattr(provider, name, None))]
         if missing:
             raise ValueError(f"the provider {type(provider).__name__} has no {', '.join(missing)}")
-        environment = ProviderEnvironment(provider)
-        if not _is_id(environment.node_id):
-            raise ValueError(f"a Raft node needs an integer id >= 0, got {environment.node_id!r}")
+        if not _is_id(provider.get_id()):
+            raise ValueError(f"a Raft node needs an integer id >= 0, got {provider.get_id()!r}")
         self._config = config
-        self._node = RaftNode(config, environment)
+        self._node = RaftNode(config, provider)
         self._dispatcher = create_dispatcher(protocol)
         self._takes_messages = False
         self._takes_timers = False
         self.configure_handle_message()
         self.configure_handle_timer()
 
-    # ---- taking part ---------------------------------------------------------------------------------------
+    # ---- taking part and agreeing --------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Begin to take part, or go on after `stop`. Called twice, only the election timeout begins anew."""
+        """Start the node, or continue after `stop`. If it runs already, restart its election timeout."""
         self._node.start()
 
     def stop(self) -> None:
-        """Take no part any more. What is known stays; no-op if it was stopped already."""
+        """Stop the node. It keeps its term, vote and log. Do nothing if it does not run."""
         self._node.stop()
 
     def set_known_nodes(self, node_ids: Iterable[int]) -> None:
-        """Set who is a member; the node itself always is. Messages of others are ignored from then on.
+        """Set the members. The node itself always is one. Messages of other nodes are ignored from then on.
 
-        All nodes should be told the same. Without this call a node takes every node that it hears of for a
-        member. Changing the members while values are being agreed on is safe one node at a time.
+        Use the same members on all nodes. Without this call a node considers every node that it hears of a
+        member. Change members one node at a time while values are proposed.
 
         Raises:
             ValueError: An id is not an integer >= 0.
@@ -100,43 +101,42 @@ class RaftConsensusPlugin:
         self._node.set_known_nodes(ids)
 
     def propose_value(self, variable_name: str, value: Any) -> bool:
-        """Have all nodes agree on a new value.
+        """Propose a new value of a variable.
 
         Args:
             variable_name: A configured variable.
-            value: Of its type. All nodes get what comes out of JSON: inside of it, tuples become lists,
-                and keys of dicts become texts.
+            value: Value of its type. All nodes get what comes out of JSON. Inside the value, tuples become
+                lists and keys of dicts become strings.
 
         Returns:
-            False if this node is not the leader: then nothing happens. True if the value is in the leader's
-            log; it is committed, and seen by `get_committed_value`, as soon as the majority has it. A leader
-            that loses its office before that may lose the value, too.
+            False if this node is not the leader; nothing happens then. True if the value is in the leader's
+            log. It is committed once a majority has it, and `get_committed_value` returns it then. A leader
+            that is deposed before that may lose the value.
 
         Raises:
             ValueError: There is no such variable, the value is not of its type, or JSON cannot carry it.
         """
-        kind = self._type_of(variable_name)
-        return self._node.propose(variable_name, carried_value(variable_name, kind, value))
+        var_type = self._type_of(variable_name)
+        return self._node.propose(variable_name, json_value(variable_name, var_type, value))
 
     def get_committed_value(self, variable_name: str) -> Any | None:
-        """Return what is agreed on, as far as this node knows; None if nothing yet.
+        """Return the committed value of a variable as far as this node knows, or None.
 
         Raises:
             ValueError: There is no such variable.
         """
-        kind = self._type_of(variable_name)
-        return typed_value(kind, self._node.persistent.log.values.get(variable_name))
+        var_type = self._type_of(variable_name)
+        return typed_value(var_type, self._node.persistent.log.values.get(variable_name))
 
     def get_all_committed_values(self) -> dict[str, Any]:
-        """Return the same for all variables."""
-        return node_report.committed_values(self._node)
+        """Return the committed value of each variable, None where there is none."""
+        return self._values_by_variable(self._node.persistent.log.values)
 
     def send_broadcast(self, message: str) -> None:
-        """Broadcast a text behind the plugin's prefix. Nodes ignore it unless it is a message of the
-        consensus.
+        """Broadcast a text behind the plugin's prefix. Other nodes ignore it unless it is a Raft message.
 
         Raises:
-            ValueError: It is not a text.
+            ValueError: It is not a string.
         """
         if not isinstance(message, str):
             raise ValueError(f"a message must be a str, got {message!r}")
@@ -153,28 +153,54 @@ class RaftConsensusPlugin:
         return self._node.state is RaftState.LEADER
 
     def get_leader_id(self) -> int | None:
-        """Return the id of the leader that this node follows, or its own; None if it knows of none."""
+        """Return the id of the leader that this node follows, or its own; None if it knows no leader."""
         return self._node.leader_id
 
     def get_current_term(self) -> int:
-        """Return the term, 0 before the first election. Terms only grow; there are gaps between them."""
+        """Return the term, 0 before the first election. Terms only increase, with gaps."""
         return self._node.persistent.current_term
 
     def get_current_state(self) -> RaftState:
-        """Return what the node is doing."""
+        """Return the role of the node."""
         return self._node.state
 
     def is_ready(self) -> bool:
-        """Whether the configuration is (still) valid, so that the node can take part."""
+        """Whether the configuration is still valid, so that the node can take part."""
         return not self._config.validate()
 
     def get_state_info(self) -> dict[str, Any]:
-        """Return everything about the node as plain data."""
-        return node_report.state_info(self._node)
+        """Return the full state as plain data. `consensus_values` includes values not yet committed."""
+        node, persistent = self._node, self._node.persistent
+        return {
+            "node_id": node.node_id,
+            "state": str(node.state),
+            "current_term": persistent.current_term,
+            "voted_for": persistent.voted_for,
+            "leader_id": node.leader_id,
+            "consensus_values": self._values_by_variable(persistent.log.latest_values()),
+            "committed_values": self.get_all_committed_values(),
+            "commit_index": persistent.log.base_index,
+            "last_log_index": persistent.log.last_index,
+            "last_log_term": persistent.log.last_term,
+            "known_nodes": sorted(node.membership.known),
+            "active_timers": sorted(node.transport.pending_timers),
+            "cluster_id": node.membership.cluster_id,
+            "failure_detection": node.membership.detector.get_detection_summary(),
+        }
 
     def get_statistics(self) -> dict[str, Any]:
-        """Return the most important of it."""
-        return node_report.statistics(self._node)
+        """Return the most important values of `get_state_info`."""
+        values = self.get_all_committed_values().values()
+        return {
+            "node_id": self._node.node_id,
+            "current_state": str(self._node.state),
+            "current_term": self._node.persistent.current_term,
+            "is_leader": self.is_leader(),
+            "leader_id": self._node.leader_id,
+            "consensus_variables": list(self._config.get_consensus_variables()),
+            "committed_values_count": sum(value is not None for value in values),
+            "active_timers_count": len(self._node.transport.pending_timers),
+        }
 
     # ---- the configuration ---------------------------------------------------------------------------------
 
@@ -187,81 +213,137 @@ class RaftConsensusPlugin:
         return self._config.has_consensus_variable(variable_name)
 
     def get_consensus_variable_type(self, variable_name: str) -> type | None:
-        """Return the type of a variable; None if there is none of that name."""
+        """Return the type of a variable, or None if there is no such variable."""
         return self._config.get_consensus_variable_type(variable_name)
 
     def get_configuration(self) -> dict[str, Any]:
         """Return all settings as plain data."""
         return self._config.to_dict()
 
-    # ---- who is there --------------------------------------------------------------------------------------
+    # ---- active and failed nodes ---------------------------------------------------------------------------
 
     def get_simulation_active_nodes(self) -> set[int]:
-        """Ids of the members that do not play dead, as far as this node knows."""
-        return node_report.simulation_active_nodes(self._node)
+        """Return the ids of the members without a simulated failure, as far as this node knows."""
+        membership = self._node.membership
+        return set(membership.known if self._node.is_active else membership.others)
 
     def get_communication_active_nodes(self) -> set[int]:
-        """Ids of the members that answer, as far as this node knows; all of them in classic mode."""
-        return node_report.communication_active_nodes(self._node)
+        """Return the ids of the members that answer, as far as this node knows; all in classic mode."""
+        return set(self._node.active_nodes())
 
     def get_communication_failed_nodes(self) -> set[int]:
-        """Ids of the members that do not answer, as far as this node knows; none in classic mode."""
-        return node_report.communication_failed_nodes(self._node)
+        """Return the ids of the members that do not answer; none in classic mode."""
+        return set(self._node.membership.known - self._node.active_nodes())
 
     def get_failed_nodes(self) -> set[int]:
-        """The same as `get_communication_failed_nodes`."""
+        """Same as `get_communication_failed_nodes`."""
         return self.get_communication_failed_nodes()
 
     def get_active_nodes(self) -> set[int]:
-        """Ids of the members that answer and do not play dead, as far as this node knows."""
-        return node_report.active_nodes(self._node)
+        """Return the ids of the members that answer and have no simulated failure."""
+        return self.get_simulation_active_nodes() & self.get_communication_active_nodes()
 
     def get_active_nodes_info(self) -> dict[str, Any]:
-        """Return which nodes are active, and how that is known: see `detection_method`."""
-        return node_report.active_nodes_info(self._node)
+        """Return which nodes are active and failed, and how that is known (`detection_method`).
+
+        `last_update` is the time (s) of the information, 0 if there is none.
+        """
+        node = self._node
+        active = self.get_active_nodes()
+        failed = self.get_simulation_active_nodes() - active
+        method, last_update_s = self._detection()
+        count = len(active)
+        view = node.membership.leader_view
+        if method == "leader_shared_count_only" and view is not None:
+            count = view.count
+        return {
+            "active_nodes": sorted(active),
+            "active_count": count,
+            "failed_nodes": sorted(failed),
+            "failed_count": len(failed),
+            "total_known": len(node.membership.known),
+            "majority_threshold": majority_of(count),
+            "has_majority": self.has_quorum(),
+            "detection_method": method,
+            "detection_summary": _CLASSIC_SUMMARY
+            if self._config.is_classic_mode()
+            else node.membership.detector.get_detection_summary(),
+            "last_update": last_update_s,
+            "is_leader": self.is_leader(),
+            "leader_id": node.leader_id,
+            "current_node_id": node.node_id,
+            "current_term": node.persistent.current_term,
+            "node_role": node.state.name.lower(),
+            "raft_mode": self._config.get_raft_mode().value,
+        }
 
     def has_quorum(self) -> bool:
-        """Whether at least two members are active (or the node was set to be alone)."""
-        return node_report.has_quorum(self._node)
+        """Whether at least two members are active, or the members were set to this node alone."""
+        single = self._node.membership.is_single_node and self._node.is_active
+        return single or len(self.get_active_nodes()) >= 2
 
     def has_majority_votes(self) -> bool:
-        """Whether this node won the election of the present term."""
-        return node_report.has_majority_votes(self._node)
+        """Whether this node won the election of the current term and still leads."""
+        return self.is_leader()
 
     def has_majority_confirmation(self) -> bool:
-        """Whether this node is the leader and the majority has all that was proposed."""
-        return node_report.has_majority_confirmation(self._node)
+        """Whether this node is the leader and a majority has its whole log."""
+        node = self._node
+        if node.leadership is None:
+            return False
+        confirming = node.leadership.confirming(node.persistent.log.last_index)
+        return node.has_majority({*confirming, node.node_id}, node.electorate())
 
     def get_majority_info(self) -> dict[str, Any]:
-        """Return how many nodes make a majority, and how many voted for and follow this node."""
-        return node_report.majority_info(self._node)
+        """Return how many nodes make a majority, and how many voted for this node and have its log."""
+        node = self._node
+        active = self.get_active_nodes()
+        votes, confirmed = 0, 0
+        if node.election is not None:
+            votes = len(node.election.votes)
+        elif node.leadership is not None:
+            votes = node.leadership.votes
+            confirmed = len(node.leadership.confirming(node.persistent.log.last_index))
+        view = node.membership.leader_view
+        return {
+            "active_nodes": sorted(active),
+            "total_active": len(active),
+            "majority_threshold": majority_of(len(active)),
+            "has_majority": self.has_quorum(),
+            "votes_received": votes,
+            "confirmed_nodes": confirmed,
+            "known_active_info": {
+                "known_active_count": None if view is None else view.count,
+                "is_fresh": node.membership.fresh_leader_view(node.lease_start_s()) is not None,
+                "last_update": 0.0 if view is None else view.time_s,
+            },
+        }
 
     def is_node_failed(self, node_id: int) -> bool:
-        """Whether a member does not answer; False for a stranger."""
+        """Whether a member does not answer. False for a node that is not a member."""
         return node_id in self.get_failed_nodes()
 
     def is_communication_failed(self, node_id: int) -> bool:
-        """The same as `is_node_failed`."""
+        """Same as `is_node_failed`."""
         return self.is_node_failed(node_id)
 
     def is_simulation_active(self, node_id: int) -> bool:
-        """Whether a node does not play dead; of others nobody knows, they count as active."""
+        """Whether a node has no simulated failure. Other nodes count as active, since it is not known."""
         return self._node.is_active if node_id == self._node.node_id else True
 
     def get_is_active(self, node_id: int) -> bool:
-        """The same as `is_simulation_active`."""
+        """Same as `is_simulation_active`."""
         return self.is_simulation_active(node_id)
 
     def set_simulation_active(self, node_id: int, active: bool) -> None:
-        """Have this node play dead, or rise again.
+        """Simulate a failure of this node, or its recovery.
 
-        While it plays dead it sends nothing and hears nothing; a leader gives up its term first. What it
-        knows stays.
+        A failed node sends and receives nothing. A leader gives up its term first. The node keeps its term,
+        vote and log.
 
         Args:
-            node_id: This node's own id. Another one does nothing but warn in the log: each node plays dead
-                by itself.
-            active: False to play dead.
+            node_id: This node's own id. Another id only logs a warning: call the plugin of that node.
+            active: False for a failure, True for a recovery.
 
         Raises:
             ValueError: `active` is not a bool.
@@ -278,56 +360,56 @@ class RaftConsensusPlugin:
         self._node.set_active(active)
 
     def set_is_active(self, node_id: int, active: bool) -> None:
-        """The same as `set_simulation_active`."""
+        """Same as `set_simulation_active`."""
         self.set_simulation_active(node_id, active)
 
     def get_failure_detection_metrics(self) -> dict[str, Any]:
         """Return counters and times of the failure detection as plain data."""
-        return self._node.activity.detector.get_detection_metrics()
+        return self._node.membership.detector.get_detection_metrics()
 
     # ---- clusters ------------------------------------------------------------------------------------------
 
     def set_cluster_id(self, cluster_id: int | None) -> None:
-        """Put the node into a cluster: from now on it hears only nodes of the same one. None is one, too.
+        """Set the cluster. The node ignores nodes of other clusters from now on. None is a cluster, too.
 
         Raises:
             ValueError: It is not None or an integer >= 0.
         """
         if cluster_id is not None and not _is_id(cluster_id):
             raise ValueError(f"a cluster id must be an integer >= 0 or None, got {cluster_id!r}")
-        self._node.cluster.cluster_id = cluster_id
+        self._node.membership.cluster_id = cluster_id
 
     def get_cluster_id(self) -> int | None:
-        """Return the cluster that the node was put into."""
-        return self._node.cluster.cluster_id
+        """Return the cluster of this node."""
+        return self._node.membership.cluster_id
 
     def is_in_same_cluster(self, other_node_id: int) -> bool:
-        """Whether a node is in this one's cluster, by its last message; a silent one is if it is a member."""
-        return node_report.shares_cluster_with(self._node, other_node_id)
+        """Whether a node is in this cluster by its latest message, or is a member if it sent none."""
+        return self._node.membership.shares_cluster_with(other_node_id)
 
     # ---- messages and timers -------------------------------------------------------------------------------
 
     def configure_handle_message(self) -> None:
-        """Take the consensus's messages out of those that the protocol gets. The constructor has done it."""
+        """Handle Raft messages before the protocol gets them. The constructor calls this."""
         if not self._takes_messages:
             self._takes_messages = True
             self._dispatcher.register_handle_packet(self._handle_packet)
 
     def configure_handle_timer(self) -> None:
-        """Take the consensus's timers out of those that the protocol gets. The constructor has done it."""
+        """Handle Raft timers before the protocol gets them. The constructor calls this."""
         if not self._takes_timers:
             self._takes_timers = True
             self._dispatcher.register_handle_timer(self._handle_timer)
 
     def handle_message(self, message: str) -> bool:
-        """Hand over a message by hand; whether it was one of the consensus."""
+        """Handle a message if it belongs to the plugin. Return whether it does."""
         if not message.startswith(PREFIX):
             return False
         self._node.handle_message(message.removeprefix(PREFIX))
         return True
 
     def handle_timer(self, timer: str) -> bool:
-        """Hand over a timer by hand; whether it was one of the consensus."""
+        """Handle a timer if it belongs to the plugin. Return whether it does."""
         if not timer.startswith(PREFIX):
             return False
         self._node.handle_timer(timer.removeprefix(PREFIX))
@@ -340,11 +422,30 @@ class RaftConsensusPlugin:
         return DispatchReturn.INTERRUPT if self.handle_timer(timer) else DispatchReturn.CONTINUE
 
     def _type_of(self, variable_name: str) -> type:
-        kind = self._config.get_consensus_variable_type(variable_name)
-        if kind is None:
+        var_type = self._config.get_consensus_variable_type(variable_name)
+        if var_type is None:
             names = ", ".join(self._config.get_consensus_variables())
             raise ValueError(f"there is no consensus variable {variable_name!r}, only {names}")
-        return kind
+        return var_type
+
+    def _values_by_variable(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        variables = self._config.get_consensus_variables()
+        return {name: typed_value(var_type, values.get(name)) for name, var_type in variables.items()}
+
+    def _detection(self) -> tuple[str, float]:
+        """Return how the active nodes are known, and the time of that information; s."""
+        node, membership = self._node, self._node.membership
+        reported_s = 0.0 if membership.leader_view is None else membership.leader_view.time_s
+        if self._config.is_classic_mode():
+            return "classic_mode_all_active", node.transport.now_s() if self.is_leader() else reported_s
+        if self.is_leader():
+            return "leader_heartbeat_detection", node.transport.now_s()
+        view = membership.fresh_leader_view(node.lease_start_s())
+        if view is None:
+            return "follower_local_detection", reported_s
+        return (
+            "leader_shared_count_only" if view.nodes is None else "leader_shared_complete_list"
+        ), reported_s
 
 
 def _is_id(value: object) -> bool:

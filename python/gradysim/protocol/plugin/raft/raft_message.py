@@ -1,7 +1,7 @@
 """The messages between nodes: JSON objects with a `type`.
 
-Beside what each is for, every message has the sender's cluster and the members that it knows. Fields that
-only say more than a reader needs may be missing: then their defaults hold.
+Every message also has the sender's cluster and the members that it knows. Fields with a default may be
+missing, as in messages of gradysim 0.8.
 """
 
 import json
@@ -9,16 +9,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, Self
 
-from gradysim.protocol.plugin.raft.raft_log import Entry, RaftLog
+from gradysim.protocol.plugin.raft.raft_state import Entry, RaftLog
 
 
 @dataclass(kw_only=True)
 class RaftMessage:
-    """What all messages have.
+    """Fields of all messages.
 
     Attributes:
-        cluster_id: Cluster of the sender, None if it was not told one.
-        known_nodes: Members that the sender knows; left out by one whose members were set.
+        cluster_id: Cluster of the sender, None if none was set.
+        known_nodes: Members that the sender knows. Missing if its members were set.
     """
 
     SENDER: ClassVar[str]
@@ -33,7 +33,7 @@ class RaftMessage:
         return sender
 
     def to_json(self) -> str:
-        """Return the text that goes on the air."""
+        """Return the message as JSON."""
         content: dict[str, Any] = {"type": type(self).__name__}
         for each in fields(self):
             value = getattr(self, each.name)
@@ -47,7 +47,7 @@ class RaftMessage:
         """Read a message of this type.
 
         Raises:
-            ValueError: It is not one.
+            ValueError: The text is not a message of this type.
         """
         message = parse_message(json_str)
         if not isinstance(message, cls):
@@ -57,7 +57,7 @@ class RaftMessage:
 
 @dataclass
 class RequestVote(RaftMessage):
-    """A candidate asks for votes for a term; its log ends at `last_log_index`, with `last_log_term`."""
+    """Request of a candidate for votes. Its log ends at `last_log_index`, with `last_log_term`."""
 
     SENDER: ClassVar[str] = "candidate_id"
 
@@ -69,7 +69,7 @@ class RequestVote(RaftMessage):
 
 @dataclass
 class RequestVoteResponse(RaftMessage):
-    """The answer; `term` is the voter's, that of the election if the vote was granted."""
+    """Answer to `RequestVote`. `term` is the voter's: that of the election if the vote was granted."""
 
     SENDER: ClassVar[str] = "voter_id"
 
@@ -80,18 +80,18 @@ class RequestVoteResponse(RaftMessage):
 
 @dataclass
 class AppendEntries(RaftMessage):
-    """The leader's heartbeat, with its whole log: all that a node has to know to be up to date.
+    """Heartbeat of the leader, with its whole log.
 
     Attributes:
-        term: That of the leader.
-        leader_id: Who that is.
-        consensus_values: What is committed, by name of variable.
-        term_number: Number of the last entry of the log.
-        active_nodes_count: How many nodes the leader sees active.
-        active_nodes_list: Which.
-        commit_index: Number of the last entry that is committed.
-        commit_term: Its term.
-        entries: The entries after that one, as (term, name, value).
+        term: Term of the leader.
+        leader_id: Id of the leader.
+        consensus_values: Committed value of each variable, None for none.
+        term_number: Index of the last entry of the log.
+        active_nodes_count: Number of nodes that the leader considers active.
+        active_nodes_list: Their ids.
+        commit_index: Index of the last committed entry.
+        commit_term: Term of that entry.
+        entries: The entries after it, as (term, name, value).
     """
 
     SENDER: ClassVar[str] = "leader_id"
@@ -114,7 +114,7 @@ class AppendEntries(RaftMessage):
 
 @dataclass
 class AppendEntriesResponse(RaftMessage):
-    """The answer; a success says that the follower has the leader's log up to entry `term_number`."""
+    """Answer to `AppendEntries`. On success the follower has the leader's log up to entry `term_number`."""
 
     SENDER: ClassVar[str] = "follower_id"
 
@@ -126,14 +126,14 @@ class AppendEntriesResponse(RaftMessage):
 
 @dataclass
 class DiscoveryHeartbeat(RaftMessage):
-    """Who is there, and would elect me? Asked before an election, so that a hopeless one is not begun.
+    """Request before an election: which nodes are there, and would vote for the sender?
 
     Attributes:
-        term: The asking node's.
-        discoverer_id: Who that is.
-        last_log_index: Number of the last entry of its log.
+        term: Term of the sender.
+        discoverer_id: Id of the sender.
+        last_log_index: Index of the last entry of its log.
         last_log_term: Term of that entry.
-        answered: Who has answered already and need not again.
+        answered: Ids of the nodes that have answered already.
     """
 
     SENDER: ClassVar[str] = "discoverer_id"
@@ -147,7 +147,7 @@ class DiscoveryHeartbeat(RaftMessage):
 
 @dataclass
 class DiscoveryHeartbeatResponse(RaftMessage):
-    """I am here; `would_vote` tells whether an election now had this node's vote."""
+    """Answer to `DiscoveryHeartbeat`: whether the node would vote for the sender."""
 
     SENDER: ClassVar[str] = "responder_id"
 
@@ -160,8 +160,7 @@ def parse_message(text: str) -> RaftMessage:
     """Read a message of any type.
 
     Raises:
-        ValueError: The text is not JSON, or not one of the messages, or a field is missing or of a wrong
-        type.
+        ValueError: The text is not JSON or not a message, or a field is missing or has a wrong type.
     """
     try:
         content = json.loads(text)
@@ -243,7 +242,7 @@ _NAMES = {message_type: tuple(each.name for each in fields(message_type)) for me
 
 
 class MessageFactory:
-    """The published way to read a message; `register_message_type` adds types to it, not to the consensus."""
+    """Reader of messages, as in gradysim 0.8. Types added to it are not added to the consensus."""
 
     _message_types: ClassVar[dict[str, type[RaftMessage]]] = dict(_TYPES)
 
@@ -252,7 +251,7 @@ class MessageFactory:
         """Read a message of any registered type, by the `from_json` of its class.
 
         Raises:
-            ValueError: The text is not JSON, or not one of the messages.
+            ValueError: The text is not JSON or not a message.
         """
         try:
             content = json.loads(json_str)
@@ -264,11 +263,11 @@ class MessageFactory:
 
     @classmethod
     def register_message_type(cls, message_type: str, message_class: type[RaftMessage]) -> None:
-        """Have messages of that `type` read by that class, in this process from now on.
+        """Read messages of that `type` by that class, in this process from now on.
 
         Raises:
-            ValueError: The class is none with `from_json`.
+            ValueError: The class has no `from_json`.
         """
         if not isinstance(message_class, type) or not callable(getattr(message_class, "from_json", None)):
-            raise ValueError(f"expected a class of messages, one with from_json, got {message_class!r}")
+            raise ValueError(f"expected a message class with from_json, got {message_class!r}")
         cls._message_types[message_type] = message_class

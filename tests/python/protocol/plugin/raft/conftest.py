@@ -1,4 +1,4 @@
-"""A network of Raft nodes in memory, where all goes wrong that a seed draws, and the rules that must hold."""
+"""A network of Raft nodes with random faults, drawn from a seed, and the rules that must hold."""
 
 import copy
 import heapq
@@ -11,13 +11,14 @@ from random import Random
 import pytest
 
 from gradysim.protocol.plugin.raft import RaftConfig, RaftMode, RaftState
-from gradysim.protocol.plugin.raft.persistent_state import PersistentState
 from gradysim.protocol.plugin.raft.raft_node import RaftNode
+from gradysim.protocol.plugin.raft.raft_state import PersistentState
+from gradysim.protocol.plugin.raft.transport import PREFIX
 
 
 @dataclass
 class Faults:
-    """What happens to messages; after a long delay hardly anything that they say is still true."""
+    """Faults of messages. A message with a long delay is mostly outdated when it arrives."""
 
     loss: float = 0.0
     duplication: float = 0.0
@@ -27,11 +28,10 @@ class Faults:
 
 
 class Rules:
-    """Watches all nodes, after every event.
+    """Checks the guarantees of the Raft paper after every event.
 
-    Of the Raft paper: Election Safety, Log Matching, Leader Completeness, State Machine Safety. The last two
-    and that no node takes back what it committed are not promised without a common majority: `partial` leaves
-    them out.
+    These are Election Safety, Log Matching, Leader Completeness and State Machine Safety. The last two, and
+    that a node keeps what it committed, are not guaranteed without a common majority. `partial` omits them.
     """
 
     def __init__(self, partial=False):
@@ -64,7 +64,7 @@ class Rules:
         base = self._bases.get(node_id, (0, 0))
         if base == (log.base_index, log.base_term):
             return
-        assert log.base_index > base[0], "a node took back what was committed"
+        assert log.base_index > base[0], "a node lost a committed entry"
         self._bases[node_id] = (log.base_index, log.base_term)
         chain = []
         index, term = log.base_index, log.base_term
@@ -93,33 +93,44 @@ class Rules:
                 assert index < log.base_index or log.term_at(index) == committed_term, "leader completeness"
 
 
-class Environment:
-    """What one life of a node, from its start to its crash, sees of the network."""
+class NetworkProvider:
+    """Provider of one life of a node, from its start to its crash."""
 
     def __init__(self, network, node_id):
         self._network = network
-        self.node_id = node_id
+        self._node_id = node_id
         self.random = network.random
         self._timers = {}
 
-    def now_s(self):
+    @property
+    def _is_alive(self):
+        return self._network.providers.get(self._node_id) is self
+
+    def get_id(self):
+        return self._node_id
+
+    def current_time(self):
         return self._network.now_s
 
-    def send(self, message, destination):
-        if self._network.environments.get(self.node_id) is self:
-            self._network.transmit(self.node_id, message, destination)
+    def send_communication_command(self, command):
+        if self._is_alive:
+            text = command.message.removeprefix(PREFIX)
+            self._network.transmit(self._node_id, text, command.destination)
 
-    def set_timer(self, name, delay_s):
+    def schedule_timer(self, timer, timestamp):
+        name = timer.removeprefix(PREFIX)
         generation = self._timers.setdefault(name, 0)
 
         def fire():
-            if self._network.environments.get(self.node_id) is self and self._timers[name] == generation:
-                self._network.node_of(self.node_id).handle_timer(name)
-                self._network.rules.check(self._network.node_of(self.node_id))
+            if self._is_alive and self._timers[name] == generation:
+                node = self._network.nodes[self._node_id]
+                node.handle_timer(name)
+                self._network.rules.check(node)
 
-        self._network.schedule(delay_s, fire)
+        self._network.schedule(timestamp, fire)
 
-    def cancel_timer(self, name):
+    def cancel_timer(self, timer):
+        name = timer.removeprefix(PREFIX)
         self._timers[name] = self._timers.get(name, 0) + 1
 
 
@@ -136,7 +147,7 @@ class Network:
         self.count = count
         self.known = known
         self.nodes = {}
-        self.environments = {}
+        self.providers = {}
         self.disks = {node_id: PersistentState() for node_id in range(count)}
         self.group = dict.fromkeys(range(count), 0)
         self.sent = 0
@@ -145,14 +156,11 @@ class Network:
         for node_id in range(count):
             self.restart(node_id)
 
-    def node_of(self, node_id):
-        return self.nodes[node_id]
-
-    def schedule(self, delay_s, action):
-        heapq.heappush(self._events, (self.now_s + delay_s, next(self._serial), action))
+    def schedule(self, time_s, action):
+        heapq.heappush(self._events, (time_s, next(self._serial), action))
 
     def run(self, duration_s, until=None):
-        """Run for so long, or until a condition holds; whether it does."""
+        """Run for a time, or until a condition holds. Return whether it does."""
         end_s = self.now_s + duration_s
         while self._events and self._events[0][0] <= end_s:
             self.now_s, _, action = heapq.heappop(self._events)
@@ -171,7 +179,7 @@ class Network:
             for _ in range(1 + (chance() < faults.duplication)):
                 delay_s = faults.long_delay_s if chance() < faults.long_delay else faults.delay_s
                 self.schedule(
-                    self.random.uniform(*delay_s),
+                    self.now_s + self.random.uniform(*delay_s),
                     lambda target=target: self._deliver(target, source, message),
                 )
 
@@ -183,26 +191,26 @@ class Network:
     def crash(self, node_id):
         if node_id in self.nodes:
             self.disks[node_id] = copy.deepcopy(self.nodes.pop(node_id).persistent)
-            del self.environments[node_id]
+            del self.providers[node_id]
 
     def restart(self, node_id):
         if node_id in self.nodes:
             return
-        self.environments[node_id] = Environment(self, node_id)
-        node = RaftNode(self.config, self.environments[node_id], copy.deepcopy(self.disks[node_id]))
+        self.providers[node_id] = NetworkProvider(self, node_id)
+        node = RaftNode(self.config, self.providers[node_id], copy.deepcopy(self.disks[node_id]))
         self.nodes[node_id] = node
         if self.known:
             node.set_known_nodes(range(self.count))
         node.start()
 
     def partition(self, *groups):
-        """Only nodes of one group hear each other; those not named are one more group."""
+        """Split the network into groups. Nodes that are not named form one more group."""
         self.group = dict.fromkeys(range(self.count), len(groups))
         for number, group in enumerate(groups):
             self.group.update(dict.fromkeys(group, number))
 
     def heal(self):
-        """Nothing goes wrong from now on."""
+        """Remove all faults."""
         self.group = dict.fromkeys(range(self.count), 0)
         self.faults = Faults()
         for node_id in range(self.count):
@@ -226,7 +234,7 @@ class Network:
         return self.leader
 
     def propose(self, name, value):
-        """Propose at any one of the nodes that believe to lead; whether there was one that took it."""
+        """Propose at one of the leaders. Return whether there was one that accepted."""
         leaders = self.leaders
         if not leaders:
             return False
@@ -241,24 +249,24 @@ class Network:
             node.persistent.log.values.get(name) == value for node in self.nodes.values()
         )
 
-    def wreak_havoc(self, duration_s):
-        """Let anything happen: drawn anew about every 80 ms."""
+    def inject_random_faults(self, duration_s):
+        """Change the faults at random, about every 80 ms."""
         draw = self.random
         end_s = self.now_s + duration_s
         value = itertools.count(1)
         while self.now_s < end_s:
-            everybody = range(self.count)
+            all_nodes = range(self.count)
             match draw.randrange(9):
                 case 0:
-                    self.partition(draw.sample(everybody, draw.randint(1, self.count - 1)))
+                    self.partition(draw.sample(all_nodes, draw.randint(1, self.count - 1)))
                 case 1:
                     half = draw.randint(1, math.ceil(self.count / 3))
-                    mixed = draw.sample(everybody, self.count)
+                    mixed = draw.sample(all_nodes, self.count)
                     self.partition(mixed[:half], mixed[half : 2 * half])
                 case 2:
                     self.partition()
                 case 3:
-                    leaders = [node.node_id for node in self.leaders] or list(everybody)
+                    leaders = [node.node_id for node in self.leaders] or list(all_nodes)
                     self.crash(draw.choice([draw.choice(leaders), draw.randrange(self.count)]))
                 case 4 | 5:
                     self.restart(draw.randrange(self.count))
@@ -282,9 +290,9 @@ class Network:
             self.run(draw.uniform(0.0, 0.16))
 
     def check_recovery(self):
-        """Liveness: when all is well again there is a leader, and what it proposes arrives everywhere."""
+        """Liveness: without faults there is a leader, and its proposals arrive everywhere."""
         self.heal()
-        self.run(1.0)  # an election that is under way may still depose a leader
+        self.run(1.0)  # a running election may still depose a leader
         leader = self.elect(within_s=6.0)
         assert leader.propose("v", -1)
         assert self.run(4.0, until=lambda: self.agree_on("v", -1)), "a value does not arrive everywhere"

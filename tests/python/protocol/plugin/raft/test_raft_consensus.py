@@ -6,13 +6,13 @@ import pytest
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommandType
 from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftMode, RaftState
-from gradysim.protocol.plugin.raft.raft_log import Entry
 from gradysim.protocol.plugin.raft.raft_message import (
     AppendEntries,
     AppendEntriesResponse,
     DiscoveryHeartbeatResponse,
     RequestVoteResponse,
 )
+from gradysim.protocol.plugin.raft.raft_state import Entry
 from python.protocol.plugin.raft.bare_provider import BareProvider
 
 
@@ -81,8 +81,33 @@ def leader(plugin, protocol):
     return plugin
 
 
+@pytest.fixture
+def tolerant_plugin(config, protocol):
+    """A follower in fault-tolerant mode, of five nodes."""
+    plugin = RaftConsensusPlugin(config.set_raft_mode(RaftMode.FAULT_TOLERANT), protocol)
+    plugin.set_known_nodes(range(5))
+    plugin.start()
+    return plugin
+
+
+@pytest.fixture
+def tolerant_leader(tolerant_plugin, protocol):
+    """Nodes 0, 1 and 2 have all of its log; node 4 never answered."""
+    protocol.handle_timer("__RAFT__:election_timeout")
+    for node_id in range(3):
+        send(protocol, DiscoveryHeartbeatResponse(0, node_id))
+    for _ in range(6):
+        protocol.handle_timer("__RAFT__:discovery_timeout")
+    for node_id in range(3):
+        send(protocol, RequestVoteResponse(tolerant_plugin.get_current_term(), True, node_id))
+    tolerant_plugin.propose_value("v", 42)
+    for node_id in range(3):
+        send(protocol, AppendEntriesResponse(tolerant_plugin.get_current_term(), True, node_id, 2))
+    return tolerant_plugin
+
+
 def test_a_configuration_must_be_valid(protocol):
-    with pytest.raises(ValueError, match="at least one consensus variable"):
+    with pytest.raises(ValueError, match="variable"):
         RaftConsensusPlugin(RaftConfig(), protocol)
 
 
@@ -92,19 +117,19 @@ def test_a_configuration_must_be_one(protocol):
 
 
 def test_a_protocol_must_have_its_provider(config):
-    with pytest.raises(ValueError, match=r"initialize\(\)"):
+    with pytest.raises(ValueError, match="provider"):
         RaftConsensusPlugin(config, Recorder())
 
 
 def test_a_provider_must_have_what_is_needed(config, protocol, provider):
     provider.cancel_timer = None
-    with pytest.raises(ValueError, match="Provider has no cancel_timer"):
+    with pytest.raises(ValueError, match="cancel_timer"):
         RaftConsensusPlugin(config, protocol)
 
 
 @pytest.mark.parametrize("node_id", [-1, "3", True, None])
 def test_a_node_must_have_a_proper_id(config, node_id):
-    with pytest.raises(ValueError, match="integer id >= 0"):
+    with pytest.raises(ValueError, match=">= 0"):
         RaftConsensusPlugin(config, Recorder.instantiate(BareProvider(node_id)))
 
 
@@ -168,23 +193,21 @@ def test_a_value_has_the_type_of_its_variable(leader, protocol):
     assert leader.get_committed_value("path") == (1, 2)
 
 
-@pytest.mark.parametrize(
-    ("value", "complaint"), [("x", "type int, got 'x'"), (None, "type int"), (1.0, "type int")]
-)
-def test_a_proposal_of_another_type_is_an_error(plugin, value, complaint):
-    with pytest.raises(ValueError, match=complaint):
+@pytest.mark.parametrize("value", ["x", None, 1.0])
+def test_a_proposal_of_another_type_is_an_error(plugin, value):
+    with pytest.raises(ValueError, match="'v'"):
         plugin.propose_value("v", value)
 
 
 @pytest.mark.parametrize("call", ["propose", "get"])
 def test_an_unknown_variable_is_an_error(plugin, call):
-    with pytest.raises(ValueError, match="no consensus variable 'w', only v, path"):
+    with pytest.raises(ValueError, match="'w'"):
         plugin.propose_value("w", 1) if call == "propose" else plugin.get_committed_value("w")
 
 
 @pytest.mark.parametrize("ids", [["x"], [-1], [True], [1.5]])
 def test_known_nodes_must_have_proper_ids(plugin, ids):
-    with pytest.raises(ValueError, match="integer >= 0"):
+    with pytest.raises(ValueError, match=">= 0"):
         plugin.set_known_nodes(ids)
 
 
@@ -207,7 +230,7 @@ def test_send_broadcast_adds_the_prefix(plugin, provider):
 
 
 def test_send_broadcast_takes_text_only(plugin):
-    with pytest.raises(ValueError, match="must be a str, got 5"):
+    with pytest.raises(ValueError, match="5"):
         plugin.send_broadcast(5)
 
 
@@ -239,7 +262,7 @@ def test_of_others_nobody_can_say_whether_they_play_dead(plugin, caplog):
 
 
 def test_active_is_a_bool(plugin):
-    with pytest.raises(ValueError, match="True or False, got 'no'"):
+    with pytest.raises(ValueError, match="'no'"):
         plugin.set_simulation_active(3, "no")
 
 
@@ -265,7 +288,7 @@ def test_clusters(plugin, protocol):
 
 @pytest.mark.parametrize("cluster_id", ["x", -1, True])
 def test_a_cluster_has_a_proper_id(plugin, cluster_id):
-    with pytest.raises(ValueError, match="cluster id"):
+    with pytest.raises(ValueError, match=">= 0"):
         plugin.set_cluster_id(cluster_id)
 
 
@@ -289,3 +312,112 @@ def test_in_classic_mode_a_committed_value_is_not_given_up(plugin, protocol):
     send(protocol, AppendEntries(2, 1, {"v": 7}, 4, commit_index=4, commit_term=2))
     send(protocol, AppendEntries(5, 2, {}, 4, commit_index=4, commit_term=5))
     assert plugin.get_committed_value("v") == 7
+
+
+# ---- reports ----
+
+
+def test_a_leader_sees_the_nodes_that_answer(tolerant_leader):
+    info = tolerant_leader.get_active_nodes_info()
+    assert info.pop("detection_summary")["active_nodes"] == 3
+    assert info == {
+        "active_nodes": [0, 1, 2, 3],
+        "active_count": 4,
+        "failed_nodes": [4],
+        "failed_count": 1,
+        "total_known": 5,
+        "majority_threshold": 3,
+        "has_majority": True,
+        "detection_method": "leader_heartbeat_detection",
+        "last_update": 7.0,
+        "is_leader": True,
+        "leader_id": 3,
+        "current_node_id": 3,
+        "current_term": 10,
+        "node_role": "leader",
+        "raft_mode": "fault_tolerant",
+    }
+    assert tolerant_leader.get_communication_failed_nodes() == {4}
+
+
+@pytest.mark.parametrize(
+    ("nodes", "method", "active"),
+    [
+        ([0, 1, 3], "leader_shared_complete_list", [0, 1, 3]),
+        (None, "leader_shared_count_only", [0, 1, 2, 3, 4]),
+    ],
+)
+def test_a_follower_sees_what_its_leader_reports(tolerant_plugin, protocol, nodes, method, active):
+    send(protocol, AppendEntries(2, 1, {}, 0, 3, nodes))
+    info = tolerant_plugin.get_active_nodes_info()
+    assert (info["detection_method"], info["active_nodes"]) == (method, active)
+    assert (info["active_count"], info["last_update"]) == (3, 7.0)
+
+
+def test_without_a_leader_a_node_believes_itself(tolerant_plugin):
+    info = tolerant_plugin.get_active_nodes_info()
+    assert (info["detection_method"], info["last_update"]) == ("follower_local_detection", 0.0)
+
+
+def test_in_classic_mode_all_members_count_as_active(leader):
+    info = leader.get_active_nodes_info()
+    assert (info["detection_method"], info["active_nodes"]) == ("classic_mode_all_active", [1, 2, 3])
+    assert isinstance(info["detection_summary"], str)
+
+
+def test_the_majority_of_a_leader(tolerant_leader):
+    info = tolerant_leader.get_majority_info()
+    assert (info["total_active"], info["majority_threshold"], info["confirmed_nodes"]) == (4, 3, 3)
+    assert info["votes_received"] == 3
+    assert info["known_active_info"]["known_active_count"] is None
+
+
+def test_the_majority_of_a_follower(tolerant_plugin, protocol):
+    send(protocol, AppendEntries(2, 1, {}, 0, 5, list(range(5))))
+    info = tolerant_plugin.get_majority_info()
+    assert (info["votes_received"], info["confirmed_nodes"]) == (0, 0)
+    assert info["known_active_info"] == {"known_active_count": 5, "is_fresh": True, "last_update": 7.0}
+
+
+def test_a_candidate_has_its_own_vote(plugin, protocol):
+    protocol.handle_timer("__RAFT__:election_timeout")
+    send(protocol, DiscoveryHeartbeatResponse(0, 1))
+    assert plugin.get_current_state() is RaftState.CANDIDATE
+    assert plugin.get_majority_info()["votes_received"] == 1
+
+
+def test_only_a_leader_has_a_majority(tolerant_leader, protocol):
+    before = (tolerant_leader.has_majority_votes(), tolerant_leader.has_majority_confirmation())
+    send(protocol, AppendEntries(99, 1, {}, 0))
+    after = (tolerant_leader.has_majority_votes(), tolerant_leader.has_majority_confirmation())
+    assert (before, after) == ((True, True), (False, False))
+
+
+@pytest.mark.parametrize("mode", RaftMode)
+@pytest.mark.parametrize(("known", "answer"), [(None, False), ([3], True), ([1, 3], True)])
+def test_a_quorum_is_two_nodes_or_one_that_was_set_to_be_alone(config, protocol, mode, known, answer):
+    plugin = RaftConsensusPlugin(config.set_raft_mode(mode), protocol)
+    if known is not None:
+        plugin.set_known_nodes(known)
+    assert plugin.has_quorum() is answer
+
+
+def test_the_state_of_a_node(tolerant_leader):
+    info = tolerant_leader.get_state_info()
+    assert info["node_id"] == info["leader_id"] == info["voted_for"] == 3
+    assert (info["state"], info["active_timers"]) == ("LEADER", ["heartbeat"])
+    assert info["consensus_values"] == info["committed_values"] == {"v": 42, "path": None}
+    assert (info["commit_index"], info["last_log_index"], info["known_nodes"]) == (2, 2, [0, 1, 2, 3, 4])
+
+
+def test_the_statistics_of_a_node(tolerant_leader):
+    assert tolerant_leader.get_statistics() == {
+        "node_id": 3,
+        "current_state": "LEADER",
+        "current_term": 10,
+        "is_leader": True,
+        "leader_id": 3,
+        "consensus_variables": ["v", "path"],
+        "committed_values_count": 1,
+        "active_timers_count": 1,
+    }

@@ -30,7 +30,7 @@ def test_classic_mode_is_safe_and_recovers(network_type, first_seed):
     committed = 0
     for seed in range(first_seed, first_seed + CHUNK):
         network = network_type(size(seed), seed)
-        network.wreak_havoc(2.0)
+        network.inject_random_faults(2.0)
         network.check_recovery()
         committed += network.rules.committed_count
     assert committed > CHUNK
@@ -40,7 +40,7 @@ def test_classic_mode_is_safe_and_recovers(network_type, first_seed):
 def test_fault_tolerant_mode_has_one_leader_per_term_and_recovers(network_type, first_seed):
     for seed in range(first_seed, first_seed + CHUNK):
         network = network_type(size(seed), seed, RaftMode.FAULT_TOLERANT)
-        network.wreak_havoc(2.0)
+        network.inject_random_faults(2.0)
         network.check_recovery()
 
 
@@ -48,7 +48,7 @@ def test_fault_tolerant_mode_has_one_leader_per_term_and_recovers(network_type, 
 def test_members_that_find_each_other_have_one_leader_per_term(network_type, first_seed):
     for seed in range(first_seed, first_seed + CHUNK):
         network = network_type(size(seed), seed, RaftMode.FAULT_TOLERANT, known=False)
-        network.wreak_havoc(1.5)
+        network.inject_random_faults(1.5)
         network.check_recovery()
 
 

@@ -1,4 +1,4 @@
-"""Tells from heartbeats and their answers which nodes are there."""
+"""Detects failed nodes by their answers to heartbeats."""
 
 from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
 from gradysim.protocol.plugin.raft.failure_detection.failure_state import FailureState, NodeStatus

@@ -1,4 +1,4 @@
-"""When a node counts as failed, and when as recovered."""
+"""Settings of the failure detection: when a node has failed and when it has recovered."""
 
 import warnings
 
@@ -11,11 +11,11 @@ _RISKY_TIMEOUT_MS = 50
 class FailureConfig:
     """Thresholds of the failure detection.
 
-    Every `detection_interval` heartbeats each node is looked at. One that has not answered for the timeout
-    has failed that look; after `failure_threshold` of them in a row it counts as failed. A failed node counts
-    as active again after `recovery_threshold` answers in a row.
+    Every `detection_interval` heartbeats each node is checked. A check fails if the node has not answered for
+    the timeout. After `failure_threshold` failed checks in a row the node has failed. It is active again
+    after `recovery_threshold` answers in a row.
 
-    The timeout is a multiple of the heartbeat interval (4 by default), or an absolute one.
+    The timeout is a multiple of the heartbeat interval (4 by default), or absolute.
     """
 
     def __init__(self) -> None:
@@ -27,19 +27,19 @@ class FailureConfig:
         self._absolute_timeout_ms: int | None = None
 
     def set_failure_threshold(self, threshold: int) -> None:
-        """Set how many looks in a row a node has to fail; ValueError if < 1."""
+        """Set the number of failed checks in a row that make a node failed. Raise ValueError if < 1."""
         self._failure_threshold = _at_least_one("failure_threshold", threshold)
 
     def set_recovery_threshold(self, threshold: int) -> None:
-        """Set how many answers in a row a failed node has to give; ValueError if < 1."""
+        """Set the number of answers in a row that make a node active again. Raise ValueError if < 1."""
         self._recovery_threshold = _at_least_one("recovery_threshold", threshold)
 
     def set_detection_interval(self, interval: int) -> None:
-        """Set how many heartbeats there are from one look to the next; ValueError if < 1."""
+        """Set the number of heartbeats from one check to the next. Raise ValueError if < 1."""
         self._detection_interval = _at_least_one("detection_interval", interval)
 
     def set_heartbeat_timeout(self, multiplier: int) -> None:
-        """Make the timeout a multiple of the heartbeat interval, instead of an absolute one.
+        """Set the timeout as a multiple of the heartbeat interval.
 
         Raises:
             ValueError: It is < 1, or the timeout would be shorter than 100 ms.
@@ -51,9 +51,9 @@ class FailureConfig:
         self._absolute_timeout_ms = None
 
     def set_absolute_timeout(self, timeout_ms: int) -> None:
-        """Set the timeout in ms, whatever the heartbeat interval is.
+        """Set the timeout in ms, independent of the heartbeat interval.
 
-        Below 50 ms there is a UserWarning: ordinary delays may look like failures.
+        Below 50 ms it warns (UserWarning): normal delays may look like failures.
 
         Raises:
             ValueError: It is <= 0.
@@ -62,12 +62,12 @@ class FailureConfig:
             raise ValueError(f"an absolute timeout must be > 0 ms, got {timeout_ms!r}")
         if timeout_ms < _RISKY_TIMEOUT_MS:
             warnings.warn(
-                f"with a timeout of {timeout_ms} ms ordinary delays may look like failures", stacklevel=2
+                f"with a timeout of {timeout_ms} ms normal delays may look like failures", stacklevel=2
             )
         self._absolute_timeout_ms = timeout_ms
 
     def set_heartbeat_interval_reference(self, interval_ms: int) -> None:
-        """Set the heartbeat interval in ms that the timeout is a multiple of.
+        """Set the heartbeat interval in ms.
 
         Raises:
             ValueError: It is <= 0, or the timeout would be shorter than 100 ms.
@@ -83,15 +83,15 @@ class FailureConfig:
         return self._heartbeat_interval_ms
 
     def get_timeout_multiplier(self) -> int | None:
-        """Return the multiple of the heartbeat interval; None while an absolute timeout holds."""
+        """Return the multiple of the heartbeat interval; None if the timeout is absolute."""
         return None if self.is_using_absolute_timeout() else self._timeout_multiplier
 
     def get_absolute_timeout_ms(self) -> int | None:
-        """Return the absolute timeout in ms; None while a multiple of the heartbeat interval holds."""
+        """Return the absolute timeout in ms; None if it is a multiple of the heartbeat interval."""
         return self._absolute_timeout_ms
 
     def is_using_absolute_timeout(self) -> bool:
-        """Whether the timeout is an absolute one."""
+        """Whether the timeout is absolute."""
         return self._absolute_timeout_ms is not None
 
     def get_timeout_ms(self) -> int:
@@ -104,29 +104,29 @@ class FailureConfig:
             return self._absolute_timeout_ms
         if self._heartbeat_interval_ms is None:
             raise ValueError(
-                f"the timeout is {self._timeout_multiplier} heartbeat intervals, and the interval was not "
-                "set: see set_heartbeat_interval_reference"
+                f"the timeout is {self._timeout_multiplier} heartbeat intervals, but the interval is not "
+                "set: call set_heartbeat_interval_reference"
             )
         return self._timeout_multiplier * self._heartbeat_interval_ms
 
     @property
     def failure_threshold(self) -> int:
-        """Looks in a row that a node has to fail."""
+        """Failed checks in a row that make a node failed."""
         return self._failure_threshold
 
     @property
     def recovery_threshold(self) -> int:
-        """Answers in a row that a failed node has to give."""
+        """Answers in a row that make a node active again."""
         return self._recovery_threshold
 
     @property
     def detection_interval(self) -> int:
-        """Heartbeats from one look to the next."""
+        """Heartbeats from one check to the next."""
         return self._detection_interval
 
     @property
     def heartbeat_timeout_ms(self) -> int:
-        """The same as `get_timeout_ms`."""
+        """Same as `get_timeout_ms`."""
         return self.get_timeout_ms()
 
     def __str__(self) -> str:

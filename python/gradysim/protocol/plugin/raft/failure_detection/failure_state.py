@@ -1,4 +1,4 @@
-"""What is known about each node: who answered when, and who is taken for failed."""
+"""Answers and status of each node."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -6,11 +6,7 @@ from enum import Enum
 
 
 class NodeStatus(Enum):
-    """What a node is taken for.
-
-    Attributes:
-        UNKNOWN: Nothing is known about a node of that id.
-    """
+    """Status of a node. UNKNOWN: no node of that id was added."""
 
     ACTIVE = "active"
     FAILED = "failed"
@@ -22,19 +18,19 @@ class _Record:
     status: NodeStatus = NodeStatus.ACTIVE
     consecutive_failures: int = 0
     consecutive_successes: int = 0
-    # Silence is counted from here: the last answer, or when the node was first looked at.
+    # Time of the last answer, or of the first check if there was none.
     silent_since_s: float | None = None
     last_response_s: float | None = None
 
 
 class FailureState:
-    """Answers and failures of a set of nodes, active until shown otherwise. Times are seconds."""
+    """Answers and failures of a set of nodes, all active at first. Times are seconds."""
 
     def __init__(self, known_nodes: Iterable[int]) -> None:
         self._records = {node_id: _Record() for node_id in known_nodes}
 
     def record_heartbeat_response(self, node_id: int, timestamp: float, success: bool) -> None:
-        """Note that a node answered at `timestamp`, or failed to; no-op for a stranger."""
+        """Record that a node answered at `timestamp`, or failed to. Ignore unknown nodes."""
         record = self._records.get(node_id)
         if record is None:
             return
@@ -49,13 +45,12 @@ class FailureState:
     def check_node_failure_with_timeout(
         self, node_id: int, failure_threshold: int, timeout_ms: int, current_time: float
     ) -> bool:
-        """Look at a node: silence of more than `timeout_ms` is one failure, `failure_threshold` make it
-        failed.
+        """Check a node: silence of more than `timeout_ms` is a failure.
 
-        A node that never answered is silent since it was first looked at.
+        For a node that never answered, silence starts at the first check.
 
         Returns:
-            Whether the node has become failed by this look.
+            Whether this check made the node failed (see `check_node_failure`).
         """
         record = self._records.get(node_id)
         if record is None:
@@ -68,7 +63,7 @@ class FailureState:
         return self.check_node_failure(node_id, failure_threshold)
 
     def check_node_failure(self, node_id: int, failure_threshold: int) -> bool:
-        """Take an active node with `failure_threshold` failures in a row for failed; whether that is new."""
+        """Mark a node with `failure_threshold` failures in a row as failed. Return whether that is new."""
         record = self._records.get(node_id)
         if record is None or record.status is NodeStatus.FAILED:
             return False
@@ -78,7 +73,7 @@ class FailureState:
         return True
 
     def check_node_recovery(self, node_id: int, recovery_threshold: int) -> bool:
-        """Take a failed node with `recovery_threshold` answers in a row for active; whether that is new."""
+        """Mark a failed node with enough answers in a row as active. Return whether that is new."""
         record = self._records.get(node_id)
         if record is None or record.status is not NodeStatus.FAILED:
             return False
@@ -88,29 +83,29 @@ class FailureState:
         return True
 
     def mark_failed(self, node_id: int) -> None:
-        """Take a node for failed without a failure of its own: it was looked for and not found."""
+        """Mark a node as failed until it answers. Ignore unknown nodes."""
         if node_id in self._records:
             self._records[node_id] = _Record(NodeStatus.FAILED)
 
     def get_failed_nodes(self) -> set[int]:
-        """Ids of the nodes taken for failed."""
+        """Return the ids of the failed nodes."""
         return self._of_status(NodeStatus.FAILED)
 
     def get_active_nodes(self) -> set[int]:
-        """Ids of the nodes taken for active."""
+        """Return the ids of the active nodes."""
         return self._of_status(NodeStatus.ACTIVE)
 
     def get_all_nodes(self) -> set[int]:
-        """Ids of all nodes."""
+        """Return the ids of all nodes."""
         return set(self._records)
 
     def get_node_status(self, node_id: int) -> NodeStatus:
-        """What a node is taken for; UNKNOWN for a stranger."""
+        """Return the status of a node."""
         record = self._records.get(node_id)
         return NodeStatus.UNKNOWN if record is None else record.status
 
     def is_node_failed(self, node_id: int) -> bool:
-        """Whether the node is taken for failed; False for a stranger."""
+        """Whether the node has failed. False for an unknown node."""
         return self.get_node_status(node_id) is NodeStatus.FAILED
 
     def is_overdue(self, node_id: int, timeout_ms: int, current_time: float) -> bool:
@@ -121,7 +116,7 @@ class FailureState:
         return (current_time - record.silent_since_s) * 1000 > timeout_ms
 
     def get_statistics(self, node_id: int) -> dict[str, int | str]:
-        """Consecutive failures and successes and status ("active", "failed"); empty for a stranger."""
+        """Return the consecutive failures and successes and the status; empty for an unknown node."""
         record = self._records.get(node_id)
         if record is None:
             return {}
@@ -132,7 +127,7 @@ class FailureState:
         }
 
     def get_timeout_statistics(self, node_id: int, current_time: float) -> dict[str, float]:
-        """Time of the last answer (s), time since it (ms; both 0 if none), counters; empty for a stranger."""
+        """Return time of and since the last answer (s, ms; 0 if none) and counters; empty if unknown."""
         record = self._records.get(node_id)
         if record is None:
             return {}
@@ -145,15 +140,15 @@ class FailureState:
         }
 
     def add_node(self, node_id: int) -> None:
-        """Begin to watch a node, taken for active; no-op if it is watched already."""
+        """Add an active node. Do nothing if it was added already."""
         self._records.setdefault(node_id, _Record())
 
     def remove_node(self, node_id: int) -> None:
-        """Forget a node; no-op for a stranger."""
+        """Remove a node. Ignore unknown nodes."""
         self._records.pop(node_id, None)
 
     def reset_node(self, node_id: int) -> None:
-        """Forget what is known about a node and take it for active; no-op for a stranger."""
+        """Mark a node as active and clear its counters. Ignore unknown nodes."""
         if node_id in self._records:
             self._records[node_id] = _Record()
 

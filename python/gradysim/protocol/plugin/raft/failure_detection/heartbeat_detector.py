@@ -1,4 +1,4 @@
-"""Watches nodes by their answers to heartbeats."""
+"""Failure detection by answers to heartbeats."""
 
 from collections import deque
 from collections.abc import Callable, Iterable
@@ -14,7 +14,7 @@ _SHOWN_RESPONSE_TIMES = 5
 
 @dataclass
 class _History:
-    """What happened to one node."""
+    """Failures, recoveries and response times of one node."""
 
     failure_count: int = 0
     recovery_count: int = 0
@@ -28,9 +28,9 @@ class _History:
 
 
 class HeartbeatDetector:
-    """Takes nodes for failed or active by the rules of a `FailureConfig`.
+    """Detects failed and recovered nodes by the rules of a `FailureConfig`.
 
-    Whoever sends heartbeats calls `record_heartbeat_sent` for each receiver and `on_heartbeat_sent` once per
+    The sender of heartbeats calls `record_heartbeat_sent` for each receiver, `on_heartbeat_sent` once per
     heartbeat, and `record_heartbeat_response` for each answer.
     """
 
@@ -42,15 +42,15 @@ class HeartbeatDetector:
         on_recovery_callback: Callable[[int], None] | None = None,
         get_current_time_callback: Callable[[], float] | None = None,
     ) -> None:
-        """Watch `known_nodes`.
+        """Create a detector for `known_nodes`.
 
         Args:
             config: The rules.
-            known_nodes: Ids, all taken for active at first.
-            on_failure_callback: Called with the id of a node that has become failed.
-            on_recovery_callback: Called with the id of a node that has become active again.
-            get_current_time_callback: Returns the time in seconds. Without it time stands still and only
-                answers recorded as failures count.
+            known_nodes: Ids of the nodes, all active at first.
+            on_failure_callback: Called with the id of a node that has failed.
+            on_recovery_callback: Called with the id of a node that has recovered.
+            get_current_time_callback: Returns the time in seconds. Without it only answers recorded as
+                failures count.
         """
         self._config = config
         self._state = FailureState(known_nodes)
@@ -62,7 +62,7 @@ class HeartbeatDetector:
         self._sent = 0
         self._successes = 0
         self._failures = 0
-        self._look_time_s: float | None = None
+        self._check_time_s: float | None = None
         self._latency_ms = 0.0
 
     def record_heartbeat_sent(self, node_id: int) -> None:
@@ -73,12 +73,12 @@ class HeartbeatDetector:
     def record_heartbeat_response(
         self, node_id: int, success: bool, response_time_ms: float | None = None
     ) -> None:
-        """Note an answer, or a known failure to answer. Strangers are ignored.
+        """Record an answer, or a known failure to answer. Ignore unknown nodes.
 
         Args:
-            node_id: Who answered.
-            success: Whether it did.
-            response_time_ms: From the heartbeat to its answer, if known.
+            node_id: Node that answered.
+            success: False if it is known that it did not answer.
+            response_time_ms: Time from the heartbeat to the answer, if known.
         """
         history = self._histories.get(node_id)
         if history is None:
@@ -97,51 +97,51 @@ class HeartbeatDetector:
                 self._on_recovery(node_id)
 
     def on_heartbeat_sent(self) -> None:
-        """Count a heartbeat; every `detection_interval` of them all nodes are looked at."""
+        """Count a heartbeat. Every `detection_interval` heartbeats check all nodes."""
         self._heartbeats += 1
         if self._heartbeats % self._config.detection_interval == 0:
-            self._look()
+            self._check_all()
 
     def mark_failed(self, node_id: int) -> None:
-        """Take a node for failed from the start: it was looked for and not found."""
+        """Mark a node as failed until it answers."""
         self._state.mark_failed(node_id)
 
     def get_failed_nodes(self) -> set[int]:
-        """Ids of the nodes taken for failed."""
+        """Return the ids of the failed nodes."""
         return self._state.get_failed_nodes()
 
     def get_active_nodes(self) -> set[int]:
-        """Ids of the nodes taken for active."""
+        """Return the ids of the active nodes."""
         return self._state.get_active_nodes()
 
     def is_node_failed(self, node_id: int) -> bool:
-        """Whether the node is taken for failed; False for a stranger."""
+        """Whether the node has failed. False for an unknown node."""
         return self._state.is_node_failed(node_id)
 
     def get_node_statistics(self, node_id: int) -> dict[str, int | str]:
-        """See `FailureState.get_statistics`."""
+        """Return `FailureState.get_statistics`."""
         return self._state.get_statistics(node_id)
 
     def get_node_timeout_statistics(self, node_id: int) -> dict[str, float]:
-        """See `FailureState.get_timeout_statistics`."""
+        """Return `FailureState.get_timeout_statistics` at the present time."""
         return self._state.get_timeout_statistics(node_id, self._now_s())
 
     def add_node(self, node_id: int) -> None:
-        """Begin to watch a node, taken for active; no-op if it is watched already."""
+        """Add an active node. Do nothing if it was added already."""
         self._state.add_node(node_id)
         self._histories.setdefault(node_id, _History())
 
     def remove_node(self, node_id: int) -> None:
-        """Forget a node; no-op for a stranger."""
+        """Remove a node. Ignore unknown nodes."""
         self._state.remove_node(node_id)
         self._histories.pop(node_id, None)
 
     def reset_node(self, node_id: int) -> None:
-        """Take a node for active, with nothing known about it; no-op for a stranger."""
+        """Mark a node as active and clear its counters. Ignore unknown nodes."""
         self._state.reset_node(node_id)
 
     def get_detection_summary(self) -> dict[str, Any]:
-        """Return the rules, how many nodes are what, and the details of each node, as plain data."""
+        """Return settings, numbers of active and failed nodes, and details of each node as plain data."""
         return {
             "enabled": True,
             "heartbeat_counter": self._heartbeats,
@@ -164,7 +164,7 @@ class HeartbeatDetector:
         }
 
     def get_detection_metrics(self) -> dict[str, Any]:
-        """Return counters and times of the detection and of each node, as plain data."""
+        """Return counters and times of the detection and of each node as plain data."""
         return {
             "performance": {
                 "total_heartbeats_sent": self._sent,
@@ -186,11 +186,11 @@ class HeartbeatDetector:
             "node_histories": {node_id: self._history(node_id) for node_id in sorted(self._histories)},
         }
 
-    def _look(self) -> None:
+    def _check_all(self) -> None:
         now_s = self._now_s()
-        if self._look_time_s is not None:
-            self._latency_ms = (now_s - self._look_time_s) * 1000
-        self._look_time_s = now_s
+        if self._check_time_s is not None:
+            self._latency_ms = (now_s - self._check_time_s) * 1000
+        self._check_time_s = now_s
         for node_id, history in list(self._histories.items()):
             if self._state.check_node_failure_with_timeout(
                 node_id, self._config.failure_threshold, self._config.get_timeout_ms(), now_s

@@ -17,7 +17,7 @@ def test_the_timeout_is_a_multiple_of_the_heartbeat_interval():
 
 
 def test_without_a_heartbeat_interval_there_is_no_timeout():
-    with pytest.raises(ValueError, match="set_heartbeat_interval_reference"):
+    with pytest.raises(ValueError, match="interval"):
         FailureConfig().get_timeout_ms()
 
 
@@ -30,7 +30,7 @@ def test_an_absolute_timeout_needs_no_heartbeat_interval():
 
 
 def test_a_very_short_absolute_timeout_warns():
-    with pytest.warns(UserWarning, match="49 ms"):
+    with pytest.warns(UserWarning, match="49"):
         FailureConfig().set_absolute_timeout(49)
 
 
@@ -67,19 +67,19 @@ def test_counts_are_at_least_1(setter, value):
 @pytest.mark.parametrize("setter", ["set_absolute_timeout", "set_heartbeat_interval_reference"])
 @pytest.mark.parametrize("value", [0, -1, "2", float("nan")])
 def test_times_are_positive(setter, value):
-    with pytest.raises(ValueError, match="> 0 ms"):
+    with pytest.raises(ValueError, match="> 0"):
         getattr(FailureConfig(), setter)(value)
 
 
 def test_a_multiple_that_is_too_short_is_an_error():
     config = FailureConfig()
     config.set_heartbeat_interval_reference(50)
-    with pytest.raises(ValueError, match="50 ms are 50 ms"):
+    with pytest.raises(ValueError, match="100 ms"):
         config.set_heartbeat_timeout(1)
 
 
 def test_an_interval_whose_multiple_is_too_short_is_an_error():
-    with pytest.raises(ValueError, match="20 ms are 80 ms"):
+    with pytest.raises(ValueError, match="100 ms"):
         FailureConfig().set_heartbeat_interval_reference(20)
 
 

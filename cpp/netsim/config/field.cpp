@@ -1,0 +1,120 @@
+#include "netsim/config/field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "netsim/config/antenna_config.hpp"
+#include "netsim/config/csma_config.hpp"
+#include "netsim/config/interface_config.hpp"
+#include "netsim/config/mac_config.hpp"
+#include "netsim/config/medium_config.hpp"
+#include "netsim/config/mobility_config.hpp"
+#include "netsim/config/nearest_name.hpp"
+#include "netsim/config/obstacle_config.hpp"
+#include "netsim/config/radio_config.hpp"
+
+namespace netsim {
+namespace {
+
+std::vector<MessagePart> expectation(const ValueType& type) {
+    const Quantity least{type.least, type.unit};
+    const Quantity most{type.most, type.unit};
+    std::vector<MessagePart> parts{"expected "};
+    if (type.special) {
+        parts.insert(parts.end(),
+                     {Quantity{*type.special, type.unit},
+                      type.special_meaning.empty() ? std::string(" or ")
+                                                   : " (" + std::string(type.special_meaning) + ") or "});
+    }
+    const bool has_most = std::isfinite(type.most);
+    if (!std::isfinite(type.least)) {
+        parts.emplace_back("a finite number");
+    } else if (type.excludes_least) {
+        parts.insert(parts.end(), {"more than ", least});
+        if (has_most) {
+            parts.insert(parts.end(), {" and at most ", most});
+        }
+    } else if (has_most) {
+        parts.insert(parts.end(), {"from ", least, " to ", most});
+    } else {
+        parts.insert(parts.end(), {"at least ", least});
+    }
+    return parts;
+}
+
+std::string expected_name(std::string_view value, std::span<const std::string_view> names) {
+    std::string expected;
+    std::vector<std::string_view> candidates;
+    for (const std::string_view name : names) {
+        expected.append(expected.empty() ? "" : ", ").append(name.empty() ? "\"\" (none)" : name);
+        if (!name.empty()) {  // an empty name is not a misspelling
+            candidates.push_back(name);
+        }
+    }
+    if (names.size() > 1) {
+        expected.insert(0, "one of ")
+            .append("; did you mean ")
+            .append(nearest_name(value, candidates))
+            .append("?");
+    }
+    return "expected " + expected;
+}
+
+}  // namespace
+
+bool ValueType::contains(double value) const {
+    if (special == value) {
+        return true;
+    }
+    return std::isfinite(value) && (excludes_least ? value > least : value >= least) && value <= most;
+}
+
+std::string Schema::full_name(const Field& field) const {
+    return std::string(name).append(".").append(field.name);
+}
+
+std::span<const Schema* const> all_schemas() {
+    static constexpr std::array schemas{
+        &MobilityConfig::schema, &InterfaceConfig::schema, &MacConfig::schema,    &CsmaConfig::schema,
+        &RadioConfig::schema,    &AntennaConfig::schema,   &MediumConfig::schema, &ObstacleConfig::schema,
+    };
+    return schemas;
+}
+
+void check_value(std::string_view field, double value, const ValueType& type) {
+    if (!type.contains(value)) {
+        throw ConfigError({std::string(field), Quantity{value, type.unit}, expectation(type)});
+    }
+}
+
+void check_value(std::string_view field, std::string_view value, const ValueType& type) {
+    if (std::ranges::find(type.names, value) == type.names.end()) {
+        throw ConfigError(
+            {std::string(field), "\"" + std::string(value) + "\"", {expected_name(value, type.names)}});
+    }
+}
+
+void check_fields(const Schema& schema, const void* config) {
+    for (const Field& field : schema.fields) {
+        // The accessor gives what may be written, which nothing here does.
+        const Member value =
+            field.of(const_cast<void*>(config));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+        if (const auto* number = std::get_if<double*>(&value)) {
+            if (!field.type.contains(**number)) {
+                check_value(schema.full_name(field), **number, field.type);
+            }
+        } else if (const auto* integer = std::get_if<int*>(&value)) {
+            if (!field.type.contains(**integer)) {
+                check_value(schema.full_name(field), **integer, field.type);
+            }
+        } else if (const auto* name = std::get_if<std::string*>(&value)) {
+            if (field.type.kind == ValueType::Kind::name) {
+                check_value(schema.full_name(field), **name, field.type);
+            }
+        }
+    }
+}
+
+}  // namespace netsim

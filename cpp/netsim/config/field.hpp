@@ -1,0 +1,163 @@
+// The declaration of a configuration's fields: one row for each, next to its struct.
+//
+// All that knows a field is derived from its row: the check of its range, the Python binding and its type stub, the
+// keys that .ini files accept with their errors, the reference page of keys, and the values that the fuzzer tries.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "netsim/error.hpp"
+
+namespace netsim {
+
+// What a value is, in which range, and how .ini files write it. Made by the functions below:
+// `quantity("s").shown_in("us").at_least(0).at_most(1)`.
+struct ValueType {
+    enum class Kind { quantity, level, ratio, number, integer, bytes, boolean, name, file };
+
+    Kind kind = Kind::number;
+    std::string_view unit = {};   // of the field itself, an SI unit
+    std::string_view shown = {};  // the unit in which people read it; "" for `unit`
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    bool excludes_least = false;
+    std::optional<double> special = {};            // allowed beside the range
+    std::string_view special_meaning = {};         // "" where the meaning of the field says it
+    std::span<const std::string_view> names = {};  // of Kind::name
+
+    constexpr ValueType shown_in(std::string_view unit_of_people) const {
+        ValueType type = *this;
+        type.shown = unit_of_people;
+        return type;
+    }
+    constexpr ValueType at_least(double bound) const {
+        ValueType type = *this;
+        type.least = bound;
+        type.excludes_least = false;
+        return type;
+    }
+    constexpr ValueType above(double bound) const {
+        ValueType type = at_least(bound);
+        type.excludes_least = true;
+        return type;
+    }
+    constexpr ValueType at_most(double bound) const {
+        ValueType type = *this;
+        type.most = bound;
+        return type;
+    }
+    constexpr ValueType or_special(double value, std::string_view meaning = "") const {
+        ValueType type = *this;
+        type.special = value;
+        type.special_meaning = meaning;
+        return type;
+    }
+    constexpr bool is_number() const { return kind < Kind::boolean; }
+    bool contains(double value) const;
+};
+
+constexpr ValueType quantity(std::string_view unit) {
+    return {.kind = ValueType::Kind::quantity, .unit = unit};
+}
+// A power at a receiver, in W, which people write in dBm.
+constexpr ValueType level() {
+    return {.kind = ValueType::Kind::level, .unit = "W", .shown = "dBm", .least = 0};
+}
+// A ratio of powers, which people write in dB.
+constexpr ValueType ratio() {
+    return {.kind = ValueType::Kind::ratio, .shown = "dB", .least = 0};
+}
+constexpr ValueType number() {
+    return {};
+}
+// A number that .ini files may write with the unit or without.
+constexpr ValueType number_in(std::string_view unit) {
+    return {.unit = unit};
+}
+constexpr ValueType integer() {
+    return {.kind = ValueType::Kind::integer};
+}
+constexpr ValueType bytes() {
+    return {.kind = ValueType::Kind::bytes, .unit = "B"};
+}
+constexpr ValueType boolean() {
+    return {.kind = ValueType::Kind::boolean};
+}
+constexpr ValueType file_name() {
+    return {.kind = ValueType::Kind::file};
+}
+constexpr ValueType one_of(std::span<const std::string_view> names) {
+    return {.kind = ValueType::Kind::name, .names = names};
+}
+constexpr ValueType angle() {
+    return quantity("rad").shown_in("deg");
+}
+constexpr ValueType bitrate() {
+    return quantity("bps").shown_in("Mbps").above(0).or_special(-1);
+}
+
+// The models that read a field, where another field chooses among several.
+struct ReadBy {
+    std::string_view chosen_by;               // "radio.error_model"; "": every model reads it
+    std::span<const std::string_view> names;  // what that field says then
+    std::string_view shown;                   // how lists of keys name these models; "": not at all
+};
+
+using Member = std::variant<double*, int*, bool*, std::string*>;
+
+struct Field {
+    std::string_view name;       // in C++ and Python
+    Member (*of)(void* config);  // the field of a struct
+    std::string_view key;        // in .ini files, below the path of the struct
+    ValueType type;
+    std::string_view meaning;            // one sentence for lists of keys
+    std::optional<ReadBy> read_by = {};  // that of the struct, if nothing is said
+    bool must_be_set = false;  // its default stands for "not set": the model that reads it needs a value
+};
+
+// All fields of one struct.
+struct Schema {
+    std::string_view name;  // first part of a field's full name: "radio" in "radio.tx_power_w"
+    std::string_view path;  // of their keys: below a node if `is_of_node`, else below the network
+    bool is_of_node;
+    std::span<const Field> fields;
+    ReadBy read_by = {};
+
+    std::string full_name(const Field& field) const;
+};
+
+// Schemas of all structs that .ini files set, in the order in which lists of keys show them.
+std::span<const Schema* const> all_schemas();
+
+// Throws ConfigError, about the field of that full name, for a value that is not of the type. NaN and infinity are
+// outside of every range.
+void check_value(std::string_view field, double value, const ValueType& type);
+void check_value(std::string_view field, std::string_view value, const ValueType& type);
+
+// Throws ConfigError for the first field of `config` that is out of its range.
+void check_fields(const Schema& schema, const void* config);
+
+template <typename Config>
+void check_fields(const Config& config) {
+    check_fields(Config::schema, &config);
+}
+
+// Accessor of a field, or of a part of one: `member<&AntennaConfig::offset, &EulerAngles::heading_rad>`.
+template <auto First, auto... Rest>
+Member member(void* config) {
+    const auto of = []<typename Config, typename Value>(void* object, Value Config::* field) -> auto& {
+        return static_cast<Config*>(object)->*field;
+    };
+    return &(of(config, First).*....*Rest);
+}
+
+}  // namespace netsim
+
+// The name and the accessor of a field, for the first two members of a Field.
+#define NETSIM_FIELD(Config, field) #field, &::netsim::member<&Config::field>

@@ -1,0 +1,68 @@
+"""Writes what follows from the declarations of the engine's fields: keys of .ini files, and a type stub.
+
+    make schema
+
+Run it after a change of a declaration in cpp/netsim/config; a test fails while the files are stale.
+"""
+
+import json
+import textwrap
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from gradysim import _netsim
+
+PACKAGE = Path(__file__).parents[2] / "python" / "gradysim"
+SCHEMA = PACKAGE / "scenario" / "schema.json"
+STUB = PACKAGE / "_netsim_fields.pyi"
+
+FIXED_TYPES = ("medium", "interface")
+"""Structs whose type sets the defaults of other fields: it is given at the start."""
+
+
+def schema_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """The declarations as JSON, a line each."""
+    lines = ",\n".join(json.dumps(row, ensure_ascii=False) for row in rows)
+    return f"[\n{lines}\n]\n"
+
+
+def stub_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """A class with the fields of each struct, which the class of the struct inherits in _netsim.pyi."""
+    lines = [
+        '"""The declared fields of the config structs. Written by `make schema`; do not edit."""',
+        "",
+        "from typing import TypeAlias",
+        "",
+        "MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]",
+    ]
+    struct = ""
+    for row in rows:
+        of_struct, _, field = row["target"].partition(".")
+        if of_struct != struct:
+            struct = of_struct
+            lines += ["", f"class {struct.capitalize()}Fields:"]
+        if field == "typename" and struct in FIXED_TYPES:
+            lines += ["    @property", "    def typename(self) -> str: ..."]
+        else:
+            lines.append(f"    {field}: {_python_type(row['type']['kind'])}")
+        if row["meaning"]:
+            lines += _docstring(row["meaning"])
+    return "\n".join(lines) + "\n"
+
+
+def _python_type(kind: str) -> str:
+    names = {"integer": "int", "bytes": "int", "boolean": "bool", "name": "str", "file": "str"}
+    return names.get(kind, "float")
+
+
+def _docstring(meaning: str) -> list[str]:
+    text = meaning[0].upper() + meaning[1:]
+    lines = textwrap.wrap(f'"""{text}."""', 100)
+    return textwrap.indent("\n".join(lines), "    ").splitlines()
+
+
+if __name__ == "__main__":
+    rows = _netsim.schema()
+    SCHEMA.write_text(schema_text(rows), encoding="utf-8")
+    STUB.write_text(stub_text(rows), encoding="utf-8")
