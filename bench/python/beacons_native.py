@@ -18,7 +18,7 @@ from statistics import median
 from typing import Any
 
 from gradysim.integrated.run import run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).resolve().parents[2]

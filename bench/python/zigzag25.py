@@ -10,7 +10,7 @@ from statistics import median
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "zigzag.ini"

@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from gradysim.results.student import mean_with_half_width
+from gradysim.results.confidence_interval import mean_with_half_width
 from gradysim.scenario import load_scenarios
 from observed_run import MODES, SCENARIOS, ObservedRun, Sample, observed_run
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler

@@ -14,7 +14,8 @@ from rich.table import Table
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.results.run_result import Fates, RunResult
+from gradysim.results.outcomes import Outcomes
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 
 SCENARIOS = Path(__file__).parents[2] / "configs" / "zigzag.ini"
@@ -41,7 +42,7 @@ def collected(result: RunResult) -> int:
     return value
 
 
-def frames_with(fate: str, fates: Fates) -> str:
+def frames_with(fate: str, fates: Outcomes) -> str:
     """Return how many copies of frames had this fate at their destinations, a dash if there is no such fate.
 
     Acknowledgements are left out. Prototype mode has no frames: there it is copies of messages.

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import gradysim.integrated.run
 from gradysim import _netsim
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.protocol.native import native_protocol

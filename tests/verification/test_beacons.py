@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from verification.finding import Finding
 from verification.reference_data import rows
 from verification.reference_run import received_in_error, run_reference, tracked

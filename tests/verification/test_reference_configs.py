@@ -7,7 +7,7 @@ import pytest
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.file.reader import read_ini

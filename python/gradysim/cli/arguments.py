@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from cyclopts import Token
 
 Mode = Literal["integrated", "prototype"]
-"""The same as in `gradysim.results.run_result`, which `gradysim --help` does not load."""
+"""The same as in `gradysim.results.result`, which `gradysim --help` does not load."""
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
 ConfigOption = Annotated[str, Parameter(alias="-c", help="Name of the configuration: a section of the file.")]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def omnetpp_file(scenario: "Scenario", mode: Mode, asked: Asked, suffix: str) -> Path:
     """Return the file of a run's scalars, `.sca`, or vectors, `.vec`."""
-    from gradysim.results.run_file import run_file
+    from gradysim.results.files import run_file
 
     return run_file(asked.directory, scenario.config, scenario.run_number, mode, suffix)
 

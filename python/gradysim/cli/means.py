@@ -1,4 +1,4 @@
-"""`gradysim means`: what many runs have in common."""
+"""`gradysim means`: means over the runs in a directory."""
 
 import shlex
 import sys
@@ -11,21 +11,21 @@ from gradysim.cli.exit_code import OK, say_mistake
 
 
 def print_means(
-    directory: Annotated[Path, Parameter(name="DIR", help="The folder of `run --result-dir`.")],
+    directory: Annotated[Path, Parameter(name="DIR", help="The directory of `run --result-dir`.")],
     /,
     *quantities: Annotated[
         str,
         Parameter(
             name="QUANTITY",
-            help="Which ones, by name, such as `uavs[*] heard` or `*delay*`: `*` is any letters, `?` any one;"
-            " all by default.",
+            help="Quantities to print, by name, such as `uavs[*] heard` or `*delay*`: `*` is any letters, `?`"
+            " any single one. Default: all.",
         ),
     ],
     as_csv: Annotated[
-        bool, Parameter(name="--csv", negative="", help="As CSV, with all digits, for other programs.")
+        bool, Parameter(name="--csv", negative="", help="Print CSV, with all digits, for other programs.")
     ] = False,
 ) -> int:
-    """Print means over runs, of the last values of tracked variables and of fates, with 95 % intervals."""
+    """Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence intervals."""
     from gradysim.cli.console import console
     from gradysim.cli.means_table import means_table, write_csv
     from gradysim.results.means import (
@@ -36,56 +36,56 @@ def print_means(
         read_results,
         repeated,
     )
-    from gradysim.results.wanted_names import wanted
+    from gradysim.results.quantity import name_filter
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.errors.nearest import did_you_mean
 
     quoted = shlex.quote(str(directory))
     try:
         if not directory.is_dir():
-            reason = "it is no folder" if directory.exists() else "there is no such folder"
+            reason = "it is not a directory" if directory.exists() else "there is no such directory"
             raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
         results = read_results(directory)
         if not results:
-            are_others = has_files_for_omnetpp_alone(directory)
-            reason = "it has only files for OMNeT++'s tools" if are_others else "it has no results"
+            reason = (
+                "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
+            )
             raise ConfigError(
-                f"{directory}: {reason} of runs that came to their end; expected the JSON files of"
+                f"{directory}: it has {reason} of complete runs; expected the JSON files of"
                 f" `gradysim run FILE --result-dir {quoted}`"
             )
         found = means(results)
         names = dict.fromkeys(mean.quantity for mean in found)
         for quantity in quantities:
-            if not any(map(wanted(quantity), names)):
+            if not any(map(name_filter(quantity), names)):
                 raise ConfigError(
                     f"{directory}: no quantity is called `{quantity}`; expected one that"
                     f" `gradysim means {quoted}` prints{did_you_mean(quantity, names)}"
                 )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
-    if (two := of_different_settings(results)) is not None:
+    if (pair := of_different_settings(results)) is not None:
         print(
-            f"{directory}: warning: {two[0]} and {two[1]} are of different settings (`settings_hash`), and"
-            " their mean is one of both; expected a folder for each",
+            f"{directory}: warning: {pair[0]} and {pair[1]} have different settings (`settings_hash`), and"
+            " their mean mixes both; expected a directory for each",
             file=sys.stderr,
         )
-    elif (of_files := of_different_files(results)) is not None:
+    elif (changed := of_different_files(results)) is not None:
         print(
-            f"{directory}: warning: {of_files[2]} changed between {of_files[0]} and {of_files[1]}"
-            " (`file_hashes`), so that they cannot be compared; expected one version of it, as"
-            f" `gradysim run FILE --result-dir {quoted} --resume` makes",
+            f"{directory}: warning: {changed[2]} changed between {changed[0]} and {changed[1]}"
+            " (`file_hashes`), so they cannot be compared; expected one version of it: run"
+            f" `gradysim run FILE --result-dir {quoted} --resume`",
             file=sys.stderr,
         )
     if repetitions := repeated(results):
-        one, another = repetitions[0]
+        original, repetition = repetitions[0]
         print(
-            f"{directory}: warning: {len(repetitions)} of {len(results)} runs are another one over again,"
-            f" with its seed and its results, as {another} is {one}: they count as if they were independent,"
-            " which makes the intervals too narrow; expected a seed for each, as `seed-set = ${runnumber}`,"
-            " the default, gives them",
+            f"{directory}: warning: {len(repetitions)} of {len(results)} runs repeat another one with the"
+            f" same seed and results, such as {repetition} and {original}: the intervals are too narrow;"
+            " expected a seed for each, as `seed-set = ${runnumber}`, the default, sets it",
             file=sys.stderr,
         )
-    fits = wanted(quantities or None)
+    fits = name_filter(quantities or None)
     found = [mean for mean in found if fits(mean.quantity)]
     if as_csv:
         write_csv(found, sys.stdout)

@@ -1,4 +1,4 @@
-"""Mean values of many runs, as a table for people and as CSV."""
+"""Means over runs, as a table for people and as CSV."""
 
 import csv
 from collections.abc import Iterator, Sequence
@@ -15,9 +15,9 @@ _AFTER = ("quantity", "runs", "mean", "half_width", "left_out")
 
 
 def means_table(means: Sequence[Mean]) -> Table:
-    """Return a row for each mean; what is the same in all of them is the title.
+    """Return a row for each mean; the configuration and mode that all have in common are the title.
 
-    Names and values come from files: a `Text` takes none of their brackets for markup.
+    Names and values come from files: `Text` does not take their brackets for markup.
     """
     config, mode = {mean.config for mean in means}, {mean.mode for mean in means}
     title = [*(config if len(config) == 1 else ()), *(f"{m} mode" for m in mode if len(mode) == 1)]
@@ -47,7 +47,7 @@ def means_table(means: Sequence[Mean]) -> Table:
 def write_csv(means: Sequence[Mean], output: TextIO) -> None:
     """Write a heading and a line for each mean, with all digits.
 
-    A variable that is called as another column is goes by `$mode`.
+    A variable with the name of another column, such as `mode`, gets the column `$mode`.
     """
     writer = csv.writer(output, lineterminator="\n")
     variables = _variables(means)

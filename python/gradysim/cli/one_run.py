@@ -10,7 +10,7 @@ from gradysim.cli.exit_code import FAILED, INTERRUPTED, OK
 if TYPE_CHECKING:
     from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.supervised_run import Outcome, Run
-    from gradysim.results.run_result import RunResult
+    from gradysim.results.result import RunResult
     from gradysim.scenario.scenario import Scenario
 
 

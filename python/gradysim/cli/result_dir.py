@@ -70,7 +70,7 @@ def check_file_names(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) 
 
 def _all_files(scenario: "Scenario", mode: Mode, asked: Asked) -> Iterator[Path]:
     """Give the files that a run will write, those that are renamed once they are complete as until then."""
-    from gradysim.results.run_file import run_file
+    from gradysim.results.files import run_file
 
     yield from capture_files_of(scenario, asked)
     complete = files_for_omnetpp(scenario, mode, asked)

@@ -19,7 +19,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
 
     Raises ConfigError without a folder.
     """
-    from gradysim.results.run_file import files_changed_since
+    from gradysim.results.files import files_changed_since
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.runs.file_hashes import text_of_files
     from gradysim.scenario.runs.run_numbers import text_of_runs
@@ -58,7 +58,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
 
 def _has_left_its_files(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
     """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
-    from gradysim.results.run_file import has_written
+    from gradysim.results.files import has_written
 
     files = files_for_omnetpp(scenario, mode, asked)
     return (
@@ -70,9 +70,8 @@ def _has_left_its_files(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
 
 def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
     """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
-    from gradysim.results.database import storable
-    from gradysim.results.read_files import run_attributes
-    from gradysim.results.run_identity import lasting_attributes
+    from gradysim.results.omnetpp import lasting_attributes, storable
+    from gradysim.results.omnetpp_reader import run_attributes
 
     expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
     found = [run_attributes(file) for file in files]
@@ -84,7 +83,7 @@ def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> boo
 
 def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:
     """Whether the last of the files has vectors of all nodes that are asked for."""
-    from gradysim.results.read_files import recorded_modules
+    from gradysim.results.omnetpp_reader import recorded_modules
 
     expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, asked)}
     return not expected or expected <= recorded_modules(files[-1])

@@ -1,6 +1,6 @@
-"""What came out of one run, for people: times, nodes and what they tracked, fates."""
+"""Summary of one run, for people: times, nodes and their tracked variables, outcomes and delays."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from numbers import Real
 
 from rich import box
@@ -8,36 +8,26 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from gradysim.cli.count_tables import CountTables
-from gradysim.cli.fates_at_nodes import (
-    fates_at_nodes,
+from gradysim.cli.outcome_tables import (
+    frames_at_nodes,
     interferer_table,
     kinds_overheard,
     messages_from_nodes,
+    network_outcomes,
 )
 from gradysim.protocol.plain_value import plain_value
 from gradysim.protocol.readable_number import readable_number
 from gradysim.results.delays import Delays
-from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.outcomes import LEDGERS
+from gradysim.results.quantity import quantities
+from gradysim.results.result import NodeResult, RunResult
 from gradysim.scenario.runs.iterations import text_of_iterations
 
 MAX_VALUE_LENGTH = 200
-"""Characters shown of one tracked variable; all of it is in the JSON."""
+"""Characters shown of one tracked variable; the JSON object has all."""
 
 MAX_NODES, NODES_OF_MANY = 50, 20
-"""Nodes up to which all are shown, and how many are shown of more."""
-
-FATE_TITLES = {
-    "frames": "Fates of frames, a copy for each radio",
-    "copies": "Fates of messages, a copy for each receiver",
-    "messages": "Messages",
-}
-
-OF_OPTIONS = {
-    *("preamble_undetected", "header_error", "captured", "channel_access_failure"),
-    *("rts", "rts overheard", "cts", "cts overheard"),
-}
-"""Fates and kinds of frames that take no room in the summaries of those who do not use them."""
+"""Number of nodes up to which all are shown, and number of nodes shown of more."""
 
 
 def print_summary(result: RunResult, console: Console) -> None:
@@ -47,45 +37,41 @@ def print_summary(result: RunResult, console: Console) -> None:
 
 def summary(result: RunResult) -> RenderableType:
     """Return the summary of `result` as something that rich can print."""
-    parts: list[RenderableType] = [heading(result), cost(result)]
+    parts: list[RenderableType] = [heading(result), Text("\n".join(numbers(result)))]
     if result.nodes:
         shown, rest = some_of(result.nodes)
         parts += [title("Nodes"), node_table(shown), *rest]
-    for what, kinds in result.fates.items():
-        if has_counts(kinds):
-            parts += [title(FATE_TITLES.get(what, what)), CountTables("fate", counted(kinds))]
+    for ledger, counts in result.fates.items():
+        if (table := network_outcomes(counts)) is not None:
+            parts += [title(LEDGERS[ledger].title), table]
     if result.message_delays:
         parts += [title("Delays of messages, from protocol to protocol"), delay_table(result.message_delays)]
     return Group(*parts, *at_nodes(result))
 
 
 def at_nodes(result: RunResult) -> list[RenderableType]:
-    """Return what became of frames at the nodes that the run was asked for, and of messages from them."""
-    told = tuple(node for node in result.nodes if node.frame_fates is not None)
-    if not told:
+    """Return the outcomes at the nodes of `--fates-at`, and of messages from them."""
+    chosen = tuple(node for node in result.nodes if node.frame_fates is not None)
+    if not chosen:
         return []
-    shown, rest = some_of(told)
-    frames, messages = (names_of(result.fates[what]) for what in ("frames", "messages"))
-    parts = [title("Fates of frames at nodes, whoever they were for"), fates_at_nodes(shown, frames)]
+    shown, rest = some_of(chosen)
+    parts: list[RenderableType] = [title("Outcomes of frames at nodes, whoever they were for")]
+    parts.append(frames_at_nodes(shown, result.fates["frames"]))
     if overheard := kinds_overheard(shown):
         parts.append(Text(f"of {overheard}, frames for other nodes that were overheard count, too"))
     if any(node.interferers for node in shown):
-        parts += [title("Lost to interference, and to whose frames"), interferer_table(shown)]
-    parts += [title("Messages from nodes and what became of them"), messages_from_nodes(shown, messages)]
+        parts += [title("Lost to interference, and with frames of which nodes"), interferer_table(shown)]
+    parts.append(title("Messages from nodes and their outcomes"))
+    parts.append(messages_from_nodes(shown, result.fates["messages"]))
     return [*parts, *rest]
 
 
 def some_of(nodes: tuple[NodeResult, ...]) -> tuple[tuple[NodeResult, ...], list[Text]]:
-    """Return the nodes that are shown, and what is said of the others if there are any."""
+    """Return the nodes that are shown, and a line about the others if there are any."""
     if len(nodes) <= MAX_NODES:
         return nodes, []
     left = len(nodes) - NODES_OF_MANY
     return nodes[:NODES_OF_MANY], [Text(f"… and {left:,} more nodes; --json has all")]
-
-
-def names_of(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, None]:
-    """Return all fates in their order, whether there were any or not."""
-    return dict.fromkeys(fate for counts in kinds.values() for fate in counts)
 
 
 def title(text: str) -> Text:
@@ -103,21 +89,22 @@ def heading(result: RunResult) -> Text:
     return text
 
 
-def cost(result: RunResult) -> Text:
-    """Return the times, the events and the fingerprint, one line each."""
-    speed = f" ({result.sim_time_s / result.wall_s:,.0f} x real time)" if result.wall_s > 0 else ""
-    lines = [
-        f"simulated time  {result.sim_time_s:,.9g} s",
-        f"wall time       {result.wall_s:.3f} s{speed}, {result.cpu_s:.3f} s of processor time",
-        f"events          {result.events:,}",
-    ]
-    if result.fingerprint is not None:
-        lines.append(f"fingerprint     {result.fingerprint}")
-    return Text("\n".join(lines))
+def numbers(result: RunResult) -> Iterator[str]:
+    """Yield a line for each number that is declared with a label for the summary."""
+    shown = {name: quantity for name, quantity in quantities(RunResult).items() if quantity.summary}
+    width = max(len(quantity.summary) for quantity in shown.values())
+    for name, quantity in shown.items():
+        value = getattr(result, name)
+        if value is not None:
+            unit = f" {quantity.unit}" if quantity.unit else ""
+            speed = (
+                f" ({result.sim_time_s / value:,.0f} x real time)" if name == "wall_s" and value > 0 else ""
+            )
+            yield f"{quantity.summary:{width}}  {value:{quantity.digits}}{unit}{speed}"
 
 
 def node_table(nodes: tuple[NodeResult, ...]) -> Table:
-    """Return a row per node: where it is and what it tracked."""
+    """Return a row for each node: its position and its tracked variables."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True)
     table.add_column("id", justify="right", no_wrap=True)
     table.add_column("name", overflow="fold")
@@ -129,14 +116,14 @@ def node_table(nodes: tuple[NodeResult, ...]) -> Table:
             Text(str(node.id)),
             Text(node.name),
             Text(node.protocol),
-            Text(", ".join(map(metres, node.position))),
+            Text(", ".join(map(meters, node.position))),
             Text("\n".join(map(tracked, node.tracked_variables.items()))),
         )
     return table
 
 
 def delay_table(delays: Mapping[str, Delays]) -> Table:
-    """Return a row per kind of message: how many were received, and how long they took."""
+    """Return a row for each kind of message: number of receptions and delays."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("kind", no_wrap=True)
     for column in ("received", "mean", "median", "95 %", "longest"):
@@ -148,31 +135,31 @@ def delay_table(delays: Mapping[str, Delays]) -> Table:
 
 
 def milliseconds(time_s: float) -> str:
-    """Return a time to four digits, or to the millisecond if it is longer than that."""
+    """Return a time with four digits, from 1 s on to the millisecond."""
     time_ms = time_s * 1e3
     return f"{time_ms:,.0f} ms" if time_ms >= 1000 else f"{time_ms:.4g} ms"
 
 
-def metres(coordinate: float) -> str:
-    """Return a coordinate to a tenth of a metre; what rounds to zero has no sign."""
+def meters(coordinate: float) -> str:
+    """Return a coordinate to a tenth of a meter; one that rounds to zero has no sign."""
     return f"{coordinate:z.1f}"
 
 
 def tracked(variable: tuple[str, object]) -> str:
-    """Return the line of a tracked variable. Lone surrogates, which no output can hold, are escaped."""
+    """Return the line of a tracked variable. Lone surrogates, which cannot be encoded, are escaped."""
     name, value = variable
     return f"{name} = {short(value)}".encode(errors="backslashreplace").decode()
 
 
 def short(value: object) -> str:
-    """Return `value` as text of at most `MAX_VALUE_LENGTH` characters."""
+    """Return `value` as a string of at most `MAX_VALUE_LENGTH` characters."""
     is_nan = isinstance(value, Real) and value != value
     text = "nan" if is_nan else str(_readable(plain_value(value)))
     return text if len(text) <= MAX_VALUE_LENGTH else text[: MAX_VALUE_LENGTH - 1] + "…"
 
 
 def _readable(plain: object) -> object:
-    """Return a plain value with all its numbers as people read them."""
+    """Return a plain value with all its numbers rounded for people."""
     if isinstance(plain, float):
         return readable_number(plain)
     if isinstance(plain, list):
@@ -180,22 +167,3 @@ def _readable(plain: object) -> object:
     if isinstance(plain, dict):
         return {key: _readable(item) for key, item in plain.items()}
     return plain
-
-
-def counted(kinds: Mapping[str, Mapping[str, int]]) -> dict[str, dict[str, int]]:
-    """Return {kind: {fate: count}} for people, without what belongs to an option and of which was nothing."""
-    met = {fate for counts in kinds.values() for fate, count in counts.items() if count}
-    return {
-        kind: {
-            fate.replace("_", " "): count
-            for fate, count in counts.items()
-            if fate in met or fate not in OF_OPTIONS
-        }
-        for kind, counts in kinds.items()
-        if any(counts.values()) or kind not in OF_OPTIONS
-    }
-
-
-def has_counts(kinds: Mapping[str, Mapping[str, int]]) -> bool:
-    """Return whether anything was counted at all."""
-    return any(any(fates.values()) for fates in kinds.values())

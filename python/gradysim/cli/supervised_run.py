@@ -8,7 +8,7 @@ from rich.console import Console
 
 from gradysim.cli.progress import RunProgress
 from gradysim.integrated.compiled_part import CompiledPartMissingError
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.lint import Finding
 from gradysim.scenario.scenario import Scenario

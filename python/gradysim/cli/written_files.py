@@ -9,7 +9,7 @@ from gradysim.cli.files_of_run import files_beside_result, omnetpp_file
 from gradysim.cli.simulators import capture_files_of
 
 if TYPE_CHECKING:
-    from gradysim.results.run_result import RunResult
+    from gradysim.results.result import RunResult
     from gradysim.scenario.scenario import Scenario
 
 
@@ -23,7 +23,7 @@ def write_files(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iter
     The result comes first: it is there if the disk has no room for the others. Once they are complete it is
     written again, and names them.
     """
-    from gradysim.results.run_file import write_run_file
+    from gradysim.results.files import write_run_file
 
     if asked.writes_files:
         yield from _remove_of_earlier_runs(scenario, result.mode, asked)
@@ -48,17 +48,13 @@ def _remove_of_earlier_runs(scenario: "Scenario", mode: Mode, asked: Asked) -> I
 
 
 def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", asked: Asked) -> Iterator[str]:
-    from gradysim.results.histograms import histograms
-    from gradysim.results.run_identity import identity_of
-    from gradysim.results.scalar_file import write_scalar_file
-    from gradysim.results.scalars import scalars
-    from gradysim.results.vector_file import vectors_of, write_vector_file
+    from gradysim.results.omnetpp import identity_of, vectors_of, write_scalar_file, write_vector_file
 
     identity = identity_of(result, scenario, asked.directory)
     if asked.scalars:
         path = omnetpp_file(scenario, result.mode, asked, ".sca")
-        distributions = histograms(result, scenario.network)
-        write_scalar_file(scalars(result, scenario.network), identity, path, distributions)
+        network = scenario.network
+        write_scalar_file(result.scalars(network), identity, path, result.histograms(network))
         yield f"scalars in {path}"
     if asked.vectors:
         path = omnetpp_file(scenario, result.mode, asked, ".vec")

@@ -1,4 +1,4 @@
-"""Capture files: what the radios of some nodes sent and received, one pcap file for each radio."""
+"""Capture files: what radios sent and received, one pcap file for each radio."""
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
-from gradysim.results.node_ids import checked_ids
+from gradysim.results.recorder import checked_ids
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.node_names import nodes_named
 from gradysim.scenario.scenario import Scenario
@@ -21,24 +21,24 @@ _EXPECTED = "a file for each id of a node, such as {0: 'node.pcap'}"
 
 
 class CaptureError(RuntimeError):
-    """A capture file lacks its end. The text says which and why, and no code led to it."""
+    """A capture file lacks its end. The message says which one and why."""
 
 
 def capture_files(scenario: Scenario, names: Iterable[str], directory: Path) -> dict[int, Path]:
     """Return {id of a node: the file for what it sends and receives}, in the order of ids.
 
-    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `all`; there is no file for a name that the
-    scenario has not. The files are `directory`/CONFIG-#RUN-NODE.pcap.
+    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `all`; names that do not exist are ignored.
+    The files are `directory`/CONFIG-#RUN-NODE.pcap.
     """
     prefix = f"{scenario.config}-#{scenario.run_number}"
     return {node.id: directory / f"{prefix}-{node.name}.pcap" for node in nodes_named(scenario, names)}
 
 
 def checked_captures(captures: Mapping[int, str | Path], scenario: Scenario) -> dict[int, Path]:
-    """Return the files for the ids of nodes that a script gives.
+    """Return the files for the ids of nodes that a script passes.
 
-    Raises TypeError for what are none, and ValueError for a node that is not there and for a file that two
-    interfaces would write.
+    Raises TypeError for arguments of another kind, and ValueError for a node that does not exist and for a
+    file that two interfaces would write.
     """
     if not isinstance(captures, Mapping):
         raise TypeError(f"captures = {captures!r:.80}: expected {_EXPECTED}")
@@ -68,7 +68,7 @@ def files_of_interfaces(scenario: Scenario, files: Mapping[int, Path]) -> dict[t
 
 
 def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, Path]) -> None:
-    """Open the capture files of all interfaces of these nodes; folders are made when missing.
+    """Open the capture files of all interfaces of these nodes, and create missing directories.
 
     Raises ConfigError for a file that cannot be written, and for a medium without radios.
     """
@@ -83,11 +83,11 @@ def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, P
 
 @contextmanager
 def capture_errors() -> Iterator[None]:
-    """Turn what the engine says of captures that it completes into a CaptureError."""
+    """Raise the engine's error about completing captures as a CaptureError."""
     netsim = load_netsim()
     try:
         yield
-    except netsim.ProtocolError:  # which is one, too
+    except netsim.ProtocolError:  # a subclass
         raise
     except netsim.SimulationError as error:
         raise CaptureError(str(error)) from None
@@ -95,7 +95,7 @@ def capture_errors() -> Iterator[None]:
 
 @contextmanager
 def captures_completed_after_failure(network: "Network") -> Iterator[None]:
-    """Complete the captures if what is done inside raises; a note on it tells of a file without its end."""
+    """Complete the captures after an exception; a file without its end becomes a note on the exception."""
     try:
         yield
     except BaseException as failure:

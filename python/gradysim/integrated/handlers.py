@@ -1,17 +1,16 @@
-"""Handlers of the published interface beside the engine: assertions, viewers, and users' own.
+"""Handlers that watch a run of the engine: assertions, viewers, and users' own.
 
-The engine is what the communication, timer and mobility handlers are in prototype mode. Every other handler
-needs an event loop, nodes to look at and its turn at the right moments, which it is given here in the same
-order as there.
+The engine replaces the communication, timer and mobility handlers of prototype mode. All other handlers get
+an event loop, nodes and their calls here, in the same order as in prototype mode.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.integrated.event_loop import EngineEventLoop
 from gradysim.integrated.native_protocols import NativeView
-from gradysim.integrated.node_view import NodeView
+from gradysim.protocol.position import Position
+from gradysim.simulator.event import EventLoopException
 from gradysim.simulator.handler.given import (
     finalize_after_failure,
     given_handlers,
@@ -29,9 +28,89 @@ MODE = "integrated mode"
 
 
 def checked_handlers(handlers: Iterable[INodeHandler]) -> dict[str, INodeHandler]:
-    """Return `handlers` by their labels; TypeError or ValueError for one that cannot work here."""
+    """Return `handlers` by their labels. Raises TypeError or ValueError for one that cannot work here."""
     world = "the engine is its {label}, set in the scenario"
     return given_handlers(handlers, MODE, world, asynchronous=False)
+
+
+class EngineEventLoop:
+    """Event loop of the engine, for `INodeHandler.inject`; the counterpart of `simulator.event.EventLoop`.
+
+    The engine runs the events: handlers cannot pop or cancel them.
+    """
+
+    def __init__(self, network: "Network") -> None:
+        self._network = network
+
+    @property
+    def current_time(self) -> float:
+        """Simulated time in seconds."""
+        return self._network.now
+
+    def __len__(self) -> int:
+        """Return the number of pending events: those of the network, and those of all handlers."""
+        return self._network.pending_count
+
+    def schedule_event(
+        self, timestamp: float, callback: Callable[[], Any], context: str = ""
+    ) -> tuple[Callable[[], Any], str]:
+        """Call `callback()` at `timestamp`, after all events scheduled for that time so far.
+
+        Args:
+            timestamp: Absolute simulated time in seconds, not before `current_time`; rounded to ps.
+            callback: Takes no arguments; an exception ends the run.
+            context: What the event is about; not used in this mode.
+
+        Raises:
+            EventLoopException: The time is in the past or not a time, or the callback is not callable.
+        """
+        if not callable(callback):
+            raise EventLoopException(f"an event's callback must be callable, got {callback!r}")
+        try:
+            self._network.schedule(timestamp, callback)
+        except (TypeError, RuntimeError) as error:  # the engine's SimulationError is one
+            raise EventLoopException(
+                f"cannot schedule an event at {timestamp!r}: expected a finite number of seconds, "
+                f"at or after the current time, {self.current_time} s"
+            ) from error
+        return (callback, context)
+
+    def __getattr__(self, name: str) -> Any:
+        raise AttributeError(
+            f"the event loop has no {name!r} in integrated mode, where the engine runs the events: handlers "
+            "use schedule_event, current_time and len()"
+        )
+
+
+class NodeView:
+    """Node of the engine, for `INodeHandler.register_node`; the counterpart of `simulator.node.Node`.
+
+    Attributes:
+        id: Unique in the network.
+        protocol_encapsulator: Holds its protocol.
+        seed: Seed of the run.
+    """
+
+    def __init__(
+        self, node: "Node", protocol_encapsulator: NetsimEncapsulator[Any] | NativeView, seed: int
+    ) -> None:
+        self.id = node.id
+        self.protocol_encapsulator = protocol_encapsulator
+        self.seed = seed
+        self._node = node
+
+    @property
+    def position(self) -> Position:
+        """Current (x, y, z) in meters. It cannot be set: the engine moves the nodes."""
+        return self._node.position
+
+    @position.setter
+    def position(self, _: Position) -> None:
+        raise AttributeError(
+            f"the position of node {self.id} cannot be set in integrated mode, where the engine moves "
+            "the nodes: a handler that moves them works in prototype mode only; a protocol sends mobility "
+            "commands"
+        )
 
 
 class EngineHandlers:

@@ -1,18 +1,19 @@
 """One run in integrated mode.
 
-`run(scenario)` is all that most callers need. Who wants to keep what a failing run computed takes the
-object: `execute` may raise, `result` tells at any time how far the run came.
+`run(scenario)` is all that most callers need. Use `IntegratedRun` if you need the partial results of a
+failing run.
 """
 
 import weakref
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gradysim.encapsulator.failure import add_protocol_note
 from gradysim.encapsulator.garbage_collection import garbage_left_alone
-from gradysim.encapsulator.global_random import global_random_of
 from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.encapsulator.watched_provider import watch_tracked_variables
 from gradysim.integrated.capture import (
     capture_errors,
     captures_completed_after_failure,
@@ -20,35 +21,36 @@ from gradysim.integrated.capture import (
     start_captures,
 )
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.fates_at import checked_fates_at, with_fates
 from gradysim.integrated.flown_nodes import FlownNodes
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
 from gradysim.integrated.real_time import RealTimeRun
-from gradysim.integrated.recorded_nodes import record_node, record_protocol
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.delays import Delays
-from gradysim.results.node_recorder import recorders_of
-from gradysim.results.node_results import node_results
-from gradysim.results.run_account import RunAccount
-from gradysim.results.run_file import run_name
-from gradysim.results.run_result import RunResult
-from gradysim.results.slices import run_in_slices
-from gradysim.scenario.lint import Finding, RunLint
+from gradysim.results.execution import ScenarioRun
+from gradysim.results.files import run_name
+from gradysim.results.outcomes import Counts
+from gradysim.results.recorder import NodeRecorder, checked_ids
+from gradysim.results.result import RunResult
 from gradysim.scenario.protocol.parametrize import parametrize
-from gradysim.scenario.protocol.siblings import siblings_importable
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor
 
 if TYPE_CHECKING:
-    from gradysim._netsim import ProtocolError
+    from gradysim._netsim import Node, ProtocolError
 
 
-class IntegratedRun:
-    """A scenario on the compiled engine: built by the constructor, run once by `execute`."""
+class IntegratedRun(ScenarioRun):
+    """A scenario on the compiled engine: built by the constructor, run once by `execute`.
+
+    What a native protocol does wrong raises NativeProtocolError from `execute`. A capture file that could not
+    be completed raises CaptureError after all else is done, or adds a note to an earlier exception.
+    """
+
+    mode = "integrated"
 
     def __init__(
         self,
@@ -62,56 +64,51 @@ class IntegratedRun:
     ) -> None:
         """Build the network and the protocols.
 
-        `handlers` watch the run, as those of prototype mode: assertions, a viewer, one's own. One of them
-        that overrides `after_simulation_step` gets its turn after every event of the engine, of which there
-        are several for each frame. The run is slow then, one event at a time; other handlers do not slow it.
+        Args:
+            scenario: One of those that `load_scenarios` returns.
+            captures: {id of a node: pcap file of what it sends and receives}. `wlan[1]` of a node with
+                FILE.pcap writes FILE-wlan1.pcap. The files are complete when `execute` returns or raises.
+            fates_at: Ids of the nodes whose results have outcomes and interferers:
+                `NodeResult.frame_fates`, `interferers` and `message_fates`. They do not change or slow the
+                run.
+            vectors_of: Ids of the nodes whose results have numbers over time, `NodeResult.vectors`.
+            handlers: Watch the run, as in prototype mode: assertions, a viewer, your own. A handler that
+                overrides `after_simulation_step` is called after every event of the engine, several for each
+                frame: then the run is slow. Other handlers do not slow it.
+            real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed. For
+                viewers: events are up to 10 ms of wall time late.
 
-        `captures` says for the ids of some nodes in which pcap file to write what they send and receive:
-        what `wlan[1]` of a node with FILE.pcap does is in FILE-wlan1.pcap. The files are complete when
-        `execute` returns or raises.
-
-        `fates_at` are the ids of the nodes whose results tell what became of frames there, who interfered,
-        and what became of messages that they sent: `NodeResult.frame_fates`, `interferers` and
-        `message_fates`. The run itself is the same, and as fast.
-
-        `vectors_of` are the ids of the nodes whose results have a row for each assignment of a tracked
-        variable that is a number, and for each telemetry: `NodeResult.vectors`.
-
-        `real_time` lets simulated time go by as on the wall clock (True), or so many times as fast; False or
-        0 is full speed. For viewers: events are up to 10 ms of wall time late.
-
-        Raises CompiledPartMissingError when the engine has not been built, ConfigError when it does not
-        accept a value of the scenario or cannot write a capture file, SitlError when an autopilot does not
-        start, ValueError or TypeError when `scenario` is none, `fates_at`, `vectors_of` or `captures`
-        names what is no node, two interfaces would write one file, a handler cannot work in this mode or
-        `real_time` is no factor, and what the constructor of a protocol raises.
+        Raises:
+            CompiledPartMissingError: The engine has not been built.
+            ConfigError: The engine does not accept a value of the scenario, or cannot write a capture file.
+            SitlError: An autopilot does not start.
+            ValueError, TypeError: `scenario` is not a scenario, an argument names a node that does not exist,
+                two interfaces would write one file, a handler cannot work in this mode, or `real_time` is not
+                a factor. Exceptions of a protocol's constructor are raised, too.
         """
-        self._account = RunAccount(scenario)
-        self._scenario = scenario
-        self._lint = RunLint(scenario)
+        super().__init__(scenario, vectors_of)
         self._real_time_factor = real_time_factor(real_time)
-        self._fates_at = checked_fates_at(fates_at, len(scenario.nodes))
-        self._recorders = recorders_of(vectors_of, len(scenario.nodes))
+        self._fates_at = frozenset(checked_ids("fates_at", fates_at, len(scenario.nodes)))
         files = checked_captures(captures or {}, scenario)
         with garbage_left_alone():
             self._network, self._nodes = build_network(scenario)
         start_captures(self._network, scenario, files)
-        # Protocols and network refer to each other; `execute` parts them, but need not be called or reached.
+        # Protocols and network form a cycle; `execute` breaks it, but may never be called.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
         self._flown = FlownNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
-        siblings = siblings_importable(spec.protocol for spec in scenario.nodes)
-        with garbage_left_alone(), siblings, global_random_of(scenario.seed):
+        with self._building():
             self._make_protocols()
         self._flown.take_off()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
-        name = run_name(scenario, "integrated")
-        for node_id, recorder in self._recorders.items():
-            record_node(self._nodes[node_id], recorder)
+        name = run_name(scenario, self.mode)
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
+            recorder = self._recorders.get(node.id)
+            if recorder is not None:
+                node.observe(recorder.position_told, recorder.variable_set)
             if is_native(spec):
                 view = NativeView(node, spec)
                 self._encapsulators.append(view)
@@ -126,103 +123,104 @@ class IntegratedRun:
                 steer=self._flown.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
-            if node.id in self._recorders:
-                record_protocol(encapsulator, node, self._recorders[node.id])
+            if recorder is not None:
+                _record_tracked_variables(encapsulator, node, recorder)
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
             self._handlers.register_node(node, encapsulator, scenario.seed)
 
-    def execute(
-        self,
-        progress: Callable[[float], None] | None = None,
-        should_stop: Callable[[], bool] | None = None,
-    ) -> None:
-        """Run to the time limit, or until `should_stop()`, then `finish` the protocols.
-
-        `should_stop()` and `progress(sim_time_s)` are called about ten times a second of wall time. After a
-        KeyboardInterrupt, too, protocols are finished before it is passed on: `result` has what was computed.
-        Python's `random` is as before when this returns or raises. What a protocol raises is
-        passed on, with a note of node, time and callback, and ends the run without `finish`; what a native
-        one gets wrong becomes a NativeProtocolError with such a note. So does what a handler raises, as for
-        an assertion that failed. Handlers are finalized in any case. A capture file that could not be written
-        to its end raises CaptureError when all else is done, or adds a note to what was raised before.
-        """
-        siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
-        captures = captures_completed_after_failure(self._network)
-        stream = global_random_of(self._scenario.seed)
-        with captures, siblings, stream, self._account.of_execution():
-            self._execute(progress, should_stop)
-
-    def _execute(
-        self, progress: Callable[[float], None] | None, should_stop: Callable[[], bool] | None
-    ) -> None:
-        network, account = self._network, self._account
-        interrupt: KeyboardInterrupt | None = None
-        try:
+    @contextmanager
+    def _execution(self) -> Iterator[None]:
+        with captures_completed_after_failure(self._network), super()._execution():
             try:
-                self._handlers.initialize()
-                network.initialize()
-                self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
-                self._flown.initialize()
-                account.complete = run_in_slices(self._advance(), lambda: network.now, progress, should_stop)
-            except KeyboardInterrupt as pressed:
-                interrupt = pressed
-            with capture_errors():
-                network.finish()
-            self._handlers.finalize(complete=account.complete)
-            if interrupt is not None:
-                raise interrupt
-        except load_netsim().ProtocolError as failure:
-            raise self._native_failure(failure) from None
-        finally:
-            self._handlers.finalize_after_failure()
-            self._flown.close()
-            network.release_protocols()
+                yield
+            except load_netsim().ProtocolError as failure:
+                raise self._native_failure(failure) from None
+            finally:
+                self._handlers.finalize_after_failure()
+                self._flown.close()
+                self._network.release_protocols()
 
-    def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
-        """Return what a native protocol got wrong, told as the exception of one in Python."""
-        told = NativeProtocolError(str(failure))
-        add_protocol_note(
-            told,
-            node_id=failure.node_id,
-            protocol=self._scenario.nodes[failure.node_id].protocol,
-            time_s=failure.time_s,
-            callback=failure.callback,
-        )
-        return told
-
-    def _advance(self) -> Callable[[int], bool]:
-        """Return what runs the next events, at the pace that is wanted; its clock starts now."""
+    def _start(self) -> Callable[[int], bool]:
+        self._handlers.initialize()
+        self._network.initialize()
+        self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
+        self._flown.initialize()
         handlers, limit_s, factor = self._handlers, self._scenario.sim_time_limit_s, self._real_time_factor
         if factor == 0:
             return lambda max_events: handlers.run_until(limit_s, max_events)
         return RealTimeRun(handlers.run_until, limit_s, factor, lambda: handlers.held_up_s).advance
 
-    def findings(self) -> list[Finding]:
-        """Return what lint checks found in the protocols up to now."""
-        return self._lint.findings()
+    def _now(self) -> float:
+        return self._network.now
 
-    def result(self) -> RunResult:
-        """Return what has been computed up to now."""
+    def _finish(self) -> None:
+        with capture_errors():
+            self._network.finish()
+        self._handlers.finalize(complete=self._complete)
+
+    def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
+        """Return the error of a native protocol, with the note that one in Python has."""
+        error = NativeProtocolError(str(failure))
+        add_protocol_note(
+            error,
+            node_id=failure.node_id,
+            protocol=self._scenario.nodes[failure.node_id].protocol,
+            time_s=failure.time_s,
+            callback=failure.callback,
+        )
+        return error
+
+    def _measured(self) -> Mapping[str, Any]:
         network = self._network
-        nodes = node_results(
-            self._scenario,
-            (
-                (node.position, encapsulator.provider.tracked_variables)
-                for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True)
-            ),
-            [network.frames_by_bitrate(node.id) for node in self._nodes],
-            self._recorders,
-        )
-        return self._account.result(
-            mode="integrated",
-            sim_time_s=network.now,
-            events=network.event_count,
-            fingerprint=network.fingerprint,
-            fates={"frames": network.frame_fates(), "messages": network.message_fates()},
-            message_delays={kind: Delays(**told) for kind, told in network.message_delays().items()},
-            nodes=with_fates(nodes, self._fates_at, network),
-        )
+        return {
+            "sim_time_s": network.now,
+            "events": network.event_count,
+            "fingerprint": network.fingerprint,
+            "fates": {"frames": network.frame_fates(), "messages": network.message_fates()},
+            "message_delays": {kind: Delays(**delays) for kind, delays in network.message_delays().items()},
+        }
+
+    def _measured_nodes(self) -> Iterator[Mapping[str, Any]]:
+        network = self._network
+        for node, encapsulator in zip(self._nodes, self._encapsulators, strict=True):
+            measured: dict[str, Any] = {
+                "position": node.position,
+                "tracked_variables": dict(encapsulator.provider.tracked_variables),
+                "frames_by_bitrate": network.frames_by_bitrate(node.id),
+            }
+            if node.id in self._fates_at:
+                measured.update(self._outcomes_at(node.id))
+            yield measured
+
+    def _outcomes_at(self, node_id: int) -> Mapping[str, Any]:
+        """Return the counts at one node. Only where asked for: at thousands of nodes they take long."""
+        network, specs = self._network, self._scenario.nodes
+        return {
+            "frame_fates": _without_zeros(network.frame_fates_at(node_id)),
+            "interferers": {specs[by].name: count for by, count in network.interferers_at(node_id).items()},
+            "message_fates": {
+                interface: _without_zeros(counts)
+                for interface, counts in network.message_fates_from(node_id).items()
+            },
+        }
+
+
+def _record_tracked_variables(
+    encapsulator: NetsimEncapsulator[Any], node: "Node", recorder: NodeRecorder
+) -> None:
+    """Record what a protocol in Python tracks; to be called before the protocol is made."""
+    watch_tracked_variables(
+        encapsulator.provider,
+        lambda name, value: recorder.variable_set(node.current_time_ps(), name, value),
+    )
+
+
+def _without_zeros(counts: Counts) -> dict[str, dict[str, int]]:
+    met = {
+        kind: {outcome: count for outcome, count in each.items() if count} for kind, each in counts.items()
+    }
+    return {kind: each for kind, each in met.items() if each}
 
 
 def run(
@@ -236,7 +234,7 @@ def run(
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
 ) -> RunResult:
-    """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the details."""
+    """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the arguments."""
     integrated_run = IntegratedRun(
         scenario,
         captures,

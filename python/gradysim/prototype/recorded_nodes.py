@@ -5,7 +5,7 @@ from typing import Any
 
 from gradysim.encapsulator.watched_provider import watch_tracked_variables
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.results.node_recorder import NodeRecorder
+from gradysim.results.recorder import NodeRecorder
 from gradysim.simulator.node import Node
 
 _PS_PER_S = 1e12

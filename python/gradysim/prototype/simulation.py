@@ -6,8 +6,8 @@ from typing import Any
 from gradysim.autopilots.scenario_flights import flights_of
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.prototype.recorded_nodes import record_node
-from gradysim.results.node_recorder import NodeRecorder
-from gradysim.results.run_file import run_name
+from gradysim.results.files import run_name
+from gradysim.results.recorder import NodeRecorder
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.keys import MASSLESS, STATIONARY
 from gradysim.scenario.node.node_spec import NodeSpec

@@ -1,24 +1,29 @@
-"""How long messages took, from the protocol that sent one to the protocol that got it."""
+"""Delays of messages, from the protocol that sends one to the protocol that receives it."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
+
+from gradysim.results.quantity import Average, Histogram, Scalar, recorded
 
 QUANTILES = (0.5, 0.9, 0.95, 0.99)
-"""Those that results tell."""
+"""Those that JSON objects have."""
+
+_NARROWEST_S = 1e-12
+"""Width of the bin of a single value, so that it has a density."""
 
 
 @dataclass(frozen=True)
 class Delays:
-    """Of the messages of one kind, once for each receiver whose protocol got one; all times in seconds.
+    """Delays of the messages of one kind, one for each receiver; all times in seconds.
 
-    A delay begins with the command to send and ends with `handle_packet`: waiting for the channel, retries
-    and the time on the air are part of it.
+    A delay begins with the command to send and ends with `handle_packet`. It includes waiting for the
+    channel, retries and the time on the air.
 
     Attributes:
-        count: One at least.
-        bins: (begin, end, how many are in it) of each bin that is not empty, by time; `end` is just beyond
-            it.
+        count: At least 1.
+        bins: (begin, end, count) of each bin that is not empty, by time; `end` is just beyond it.
     """
 
     count: int
@@ -30,21 +35,21 @@ class Delays:
 
     @property
     def mean_s(self) -> float:
-        """Their mean."""
+        """Mean."""
         return self._between_extremes(self.sum_s / self.count)
 
     @property
     def stddev_s(self) -> float:
-        """Their sample standard deviation; 0 for a single one, and for equal ones."""
-        if self.min_s == self.max_s:  # else what rounding has left of a difference of sums
+        """Sample standard deviation; 0 for a single delay, and for equal ones."""
+        if self.min_s == self.max_s:  # a difference of sums would leave a rounding error
             return 0.0
         squares = self.sum_of_squares_s2 - self.sum_s * self.mean_s
         return math.sqrt(max(0.0, squares) / (self.count - 1))
 
     def quantile_s(self, share: float) -> float:
-        """Return the delay that `share` of all, 0 to 1, do not exceed, as exactly as the bins tell.
+        """Return the delay that `share` of all, 0 to 1, do not exceed.
 
-        That is to 3 % in integrated mode, and exactly in prototype mode.
+        It is exact to 3 % in integrated mode, the width of the bins, and exact in prototype mode.
         """
         rank, before = share * self.count, 0
         for begin, end, count in self.bins:
@@ -58,7 +63,7 @@ class Delays:
         return min(max(time_s, self.min_s), self.max_s)
 
     def to_json_object(self) -> dict[str, object]:
-        """Return what results tell of them."""
+        """Return what JSON objects have of them."""
         return {
             "count": self.count,
             "mean_s": self.mean_s,
@@ -70,7 +75,7 @@ class Delays:
 
 
 def constant_delays(counts: Mapping[float, int]) -> Delays:
-    """Return the delays {delay in s: how many messages took just that}; one message at least."""
+    """Return the delays of {delay in s: count}, of at least one message."""
     met = sorted((delay_s, count) for delay_s, count in counts.items() if count)
     return Delays(
         count=sum(count for _, count in met),
@@ -80,3 +85,38 @@ def constant_delays(counts: Mapping[float, int]) -> Delays:
         max_s=met[-1][0],
         bins=tuple((delay_s, math.nextafter(delay_s, math.inf), count) for delay_s, count in met),
     )
+
+
+def delay_scalars(delays: Mapping[str, Delays], network: str) -> Iterator[Scalar]:
+    """Yield `unicastMessage:delay:mean` and so on; `delays` are by the kind of message."""
+    for kind, each in delays.items():
+        for mode, value_s in (("mean", each.mean_s), ("max", each.max_s)):
+            yield recorded(network, f"{kind}Message:delay:{mode}", value_s, "s")
+
+
+def delay_histograms(delays: Mapping[str, Delays], network: str) -> Iterator[Histogram]:
+    """Yield `unicastMessage:delay:histogram` and so on."""
+    for kind, each in delays.items():
+        source = f"{kind}Message:delay"
+        attributes = {"unit": "s", "source": source, "recordingmode": "histogram"}
+        yield Histogram(network, f"{source}:histogram", each, attributes)
+
+
+def delay_averages(delays: Mapping[str, Any]) -> Iterator[Average]:
+    """Yield `unicast messages delay in s` and so on, of the delays in a JSON object."""
+    for kind, each in delays.items():
+        yield Average(f"{kind} messages delay in s", each["mean_s"])
+
+
+def bin_rows(values: Delays) -> Iterator[tuple[float, float]]:
+    """Yield (lower edge, count) of adjacent bins, as OMNeT++'s table has them.
+
+    The first row is what is below all bins, and the last one what is above them: both are empty.
+    """
+    yield float("-inf"), 0.0
+    following = [begin for begin, _, _ in values.bins[1:]] + [math.inf]
+    for (begin, end, count), next_begin in zip(values.bins, following, strict=True):
+        yield begin, float(count)
+        edge = max(end, min(begin + _NARROWEST_S, next_begin))
+        if edge < next_begin:
+            yield edge, 0.0

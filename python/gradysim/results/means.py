@@ -1,5 +1,6 @@
-"""Mean values over the runs of a study, from the files that `--result-dir` holds."""
+"""Means over the runs of a study with confidence intervals, from the files of `--result-dir`."""
 
+import hashlib
 import json
 import os
 from collections import Counter
@@ -8,27 +9,27 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gradysim.results.run_figures import RunFigures
-from gradysim.results.shares import ALWAYS_TOLD
-from gradysim.results.student import mean_with_half_width
-from gradysim.results.wanted_names import Names, wanted
+from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.quantity import Average, Names, averages_of, name_filter
+from gradysim.results.result import RunResult
+from gradysim.results.tracked_variables import TrackedGroup, numeric_variables, tracked_by_group
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
-"""What tells a result of a run from other files."""
+"""Fields that distinguish the result of a run from other JSON files."""
 
 
 @dataclass(frozen=True)
 class Mean:
-    """One quantity of the runs with the same values of iteration variables.
+    """Mean of one quantity over the runs with the same values of iteration variables.
 
     Attributes:
-        iterations: {name: value}, as the results have it.
+        iterations: {name: value}, as the result files have it.
         quantity: `uavs[*] heard`: a tracked variable, the mean of a group's nodes; `unicast messages retry
-            limit`: a share; `unicast messages delay in s`: the mean of a run's messages.
-        runs: Those in which there was a number.
-        mean: None if there was none in any run.
+            limit`: a ratio; `unicast messages delay in s`: the mean of a run's messages.
+        runs: Number of runs that have a number.
+        mean: None if no run has a number.
         half_width: Of the 95 % confidence interval; None for a single run.
-        left_out: The values of a tracked variable, at all nodes in all runs, that are no finite numbers and
+        left_out: Values of a tracked variable, at all nodes in all runs, that are not finite numbers and so
             left out: `5 inf, 3 missing of 15`.
     """
 
@@ -42,122 +43,175 @@ class Mean:
     left_out: str = ""
 
 
-def read_means(directory: str | os.PathLike[str], quantities: Names | None = None) -> list[Mean]:
-    """Return what `gradysim means` prints of a folder, without its warnings of runs that do not fit together.
+@dataclass(frozen=True)
+class RunSummary:
+    """What means over runs need of one run: a result has all its nodes, and a study many results.
 
-    Runs that were interrupted are left out. `quantities` are those that are wanted, `"uavs[*] heard"` or
-    `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any one; None for all. Raises
-    OSError.
+    Attributes:
+        computed: Hash of all that the run computed.
+        groups: Tracked variables by group of nodes.
+        numeric_variables: (group, name) of those that are a number at any node, even an infinite one.
+        averages: Numbers of the run, by name.
     """
-    fits = wanted(quantities)
+
+    config: str
+    mode: str
+    run: int
+    iterations: Mapping[str, object]
+    seed: object
+    settings_hash: object
+    file_hashes: Mapping[str, str]
+    computed: str
+    groups: Mapping[str, TrackedGroup]
+    numeric_variables: tuple[tuple[str, str], ...]
+    averages: Mapping[str, Average]
+
+    @classmethod
+    def of(cls, result: Mapping[str, Any]) -> "RunSummary":
+        """Return the summary of a JSON object."""
+        hashes = result.get("file_hashes")
+        tracked = tracked_by_group(result["nodes"])
+        return cls(
+            result["config"],
+            result["mode"],
+            result["run"],
+            result["iterations"],
+            result.get("seed"),
+            result.get("settings_hash"),
+            hashes if isinstance(hashes, dict) else {},
+            _hash([result.get(field) for field in ("fingerprint", "fates", "nodes")]),
+            {group: TrackedGroup.of(nodes) for group, nodes in tracked.items()},
+            tuple(numeric_variables(tracked)),
+            {average.name: average for average in averages_of(RunResult, result)},
+        )
+
+    @property
+    def values(self) -> str:
+        """Key of the runs that a mean is taken over."""
+        return json.dumps([self.config, self.mode, self.iterations], sort_keys=True)
+
+    @property
+    def name(self) -> str:
+        """Name for messages."""
+        return f"{self.config}-#{self.run}"
+
+
+def _hash(content: object) -> str:
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def read_means(directory: str | os.PathLike[str], quantities: Names | None = None) -> list[Mean]:
+    """Return the means that `gradysim means` prints of a directory.
+
+    Interrupted runs are left out. `quantities` selects by name, `"uavs[*] heard"` or
+    `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any single one; None for all.
+    Raises OSError.
+    """
+    fits = name_filter(quantities)
     return [mean for mean in means(read_results(Path(directory))) if fits(mean.quantity)]
 
 
-def read_results(directory: Path) -> list[RunFigures]:
-    """Return what counts of the results in the files of a folder, in the order of configurations and runs.
+def read_results(directory: Path) -> list[RunSummary]:
+    """Return summaries of the runs in a directory, sorted by configuration, mode and run.
 
-    Files of other kinds, and runs that were interrupted, are left out. Raises OSError.
+    Other files and interrupted runs are left out. Raises OSError.
     """
-    found = [RunFigures.of(result) for result in _results_in(directory) if not result["interrupted"]]
+    found = [RunSummary.of(result) for result in _results_in(directory) if not result["interrupted"]]
     return sorted(found, key=lambda result: (result.config, result.mode, result.run))
 
 
 def has_files_for_omnetpp_alone(directory: Path) -> bool:
-    """Whether a folder has result files for OMNeT++'s tools, and no other of any run. Raises OSError."""
+    """Return whether a directory has `.sca` or `.vec` files, but no JSON file of a run. Raises OSError."""
     others = any(file.suffix in (".sca", ".vec") for file in directory.iterdir())
     return others and not any(_results_in(directory))
 
 
 def _results_in(directory: Path) -> Iterator[dict[str, Any]]:
-    """Give the results in the files of a folder, those of interrupted runs, too."""
+    """Yield the JSON objects of the runs in a directory, including interrupted ones."""
     for file in sorted(directory.iterdir()):
         if file.suffix == ".json" and file.is_file():
             try:
                 result = json.loads(file.read_text(encoding="utf-8"))
-            except (ValueError, RecursionError):  # no JSON, or too deep
+            except (ValueError, RecursionError):  # not JSON, or too deeply nested
                 continue
             if isinstance(result, dict) and result.keys() >= _FIELDS:
                 yield result
 
 
-def means(results: Iterable[RunFigures]) -> list[Mean]:
-    """Return the mean of each quantity over the runs that have equal values of iteration variables.
+def means(results: Iterable[RunSummary]) -> list[Mean]:
+    """Return the mean of each quantity over the runs with equal values of iteration variables.
 
-    Which quantities there are, all runs of a configuration and a mode decide together, so that what was lost
-    in some of them only is 0 in the others.
+    A quantity that occurs in some runs of a configuration and mode has a row for all of their values, so that
+    it is 0 in the others.
     """
     found: list[Mean] = []
     for study in _by(results, lambda result: (result.config, result.mode)):
         variables = dict.fromkeys(each for run in study for each in run.numeric_variables)
-        told = dict.fromkeys(
-            quantity
+        shown = dict.fromkeys(
+            name
             for run in study
-            for quantity, figure in run.figures.items()
-            if figure or quantity.endswith(ALWAYS_TOLD)
+            for name, average in run.averages.items()
+            if average.value or average.shown_at_zero
         )
         for alike in _by(study, lambda result: result.values):
             for group, name in variables:
                 found += _mean_of_variable(alike, group, name)
-            for quantity in told:
-                if values := [run.figures[quantity] for run in alike if quantity in run.figures]:
-                    found.append(_mean(alike[0], quantity, values))
+            for name in shown:
+                if values := [run.averages[name].value for run in alike if name in run.averages]:
+                    found.append(_mean(alike[0], name, values))
     return found
 
 
-def of_different_settings(results: Iterable[RunFigures]) -> tuple[str, str] | None:
-    """Name two of the runs with equal values of variables, if there are any whose settings differ."""
-    first: dict[str, RunFigures] = {}
+def of_different_settings(results: Iterable[RunSummary]) -> tuple[str, str] | None:
+    """Return the names of two runs with equal values of variables but different settings, if any."""
+    first: dict[str, RunSummary] = {}
     for result in results:
         other = first.setdefault(result.values, result)
         if other.settings_hash != result.settings_hash:
-            return _name(other), _name(result)
+            return other.name, result.name
     return None
 
 
-def repeated(results: Iterable[RunFigures]) -> list[tuple[str, str]]:
-    """Name the runs that are another one over again, of equal values of variables, each after that one.
+def repeated(results: Iterable[RunSummary]) -> list[tuple[str, str]]:
+    """Return (original, repeated) names of runs that repeat another one.
 
-    They have its seed, its settings and all that it computed.
+    They have the same values of variables, seed, settings and results.
     """
-    first: dict[object, RunFigures] = {}
+    first: dict[object, RunSummary] = {}
     found = []
     for alike in _by(results, lambda result: (result.values, result.seed)):
         for result in alike:
             same = (result.values, result.seed, result.settings_hash, result.computed)
             other = first.setdefault(same, result)
             if other is not result:
-                found.append((_name(other), _name(result)))
+                found.append((other.name, result.name))
     return found
 
 
-def of_different_files(results: Iterable[RunFigures]) -> tuple[str, str, str] | None:
-    """Name two runs of one configuration, and a file of that name that differs between them, if there is one.
+def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | None:
+    """Return the names of two runs of one configuration and of a file that differs between them, if any does.
 
-    They may be of different values: these are there to be compared.
+    Their values of variables may differ: such runs are compared with each other.
     """
-    first: dict[tuple[str, str], tuple[str, RunFigures]] = {}
+    first: dict[tuple[str, str], tuple[str, RunSummary]] = {}
     for result in results:
         for name, file_hash in result.file_hashes.items():
             known, other = first.setdefault((result.config, name), (file_hash, result))
             if known != file_hash:
-                one, another = (f"{_name(each)}.{each.mode}" for each in (other, result))
+                one, another = (f"{each.name}.{each.mode}" for each in (other, result))
                 return one, another, name
     return None
 
 
-def _name(result: RunFigures) -> str:
-    return f"{result.config}-#{result.run}"
-
-
-def _by(results: Iterable[RunFigures], key: Callable[[RunFigures], object]) -> list[list[RunFigures]]:
+def _by(results: Iterable[RunSummary], key: Callable[[RunSummary], object]) -> list[list[RunSummary]]:
     """Return the results in groups of equal keys."""
-    groups: dict[object, list[RunFigures]] = {}
+    groups: dict[object, list[RunSummary]] = {}
     for result in results:
         groups.setdefault(key(result), []).append(result)
     return list(groups.values())
 
 
-def _mean_of_variable(runs: Sequence[RunFigures], group: str, name: str) -> Iterator[Mean]:
+def _mean_of_variable(runs: Sequence[RunSummary], group: str, name: str) -> Iterator[Mean]:
     of_runs: list[float] = []
     left_out: Counter[str] = Counter()
     nodes = 0
@@ -172,7 +226,7 @@ def _mean_of_variable(runs: Sequence[RunFigures], group: str, name: str) -> Iter
         yield _mean(runs[0], f"{group} {name}", of_runs, f"{text} of {nodes}" if text else "")
 
 
-def _mean(result: RunFigures, quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
+def _mean(result: RunSummary, quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
     mean, half_width = mean_with_half_width(values) if values else (None, None)
     return Mean(
         result.config,

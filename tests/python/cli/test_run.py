@@ -9,7 +9,7 @@ from dataclasses import fields
 import pytest
 
 from gradysim.cli.app import main
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from python.cli.command import PROTOCOL, both_modes, compiled, environment, objects
 
 

@@ -7,7 +7,7 @@ from rich.console import Console
 
 from gradysim.cli.summary import MAX_VALUE_LENGTH, print_summary, short
 from gradysim.results.delays import constant_delays
-from gradysim.results.run_result import NodeResult, RunResult
+from gradysim.results.result import NodeResult, RunResult
 
 
 def printed(width=100, **changes):
@@ -44,7 +44,7 @@ def printed(width=100, **changes):
         "seed 7, integrated mode",
         "7,200 s",
         "2.000 s (3,600 x real time)",
-        "1.900 s of processor time",
+        "processor time  1.900 s",
         "123,456",
         "0123456789abcdef",
         "uavs[0]",
@@ -52,7 +52,7 @@ def printed(width=100, **changes):
         "1.0, 2.2, -3.0",
         "data = 5",
         "colour = [red]",
-        "Fates of frames, a copy for each radio",
+        "Outcomes of frames, a reception for each radio",
     ],
 )
 def test_what_is_in_it(what):
@@ -96,14 +96,14 @@ def test_values_of_iteration_variables_are_in_the_heading():
 
 def test_fates_are_a_table_with_a_column_per_kind():
     lines = [line.split() for line in printed().splitlines()]
-    assert ["fate", "broadcast", "ack"] in lines
+    assert ["outcome", "broadcast", "ack"] in lines
     assert ["delivered", "1,500", "3"] in lines
     assert ["below", "sensitivity", "2", "0"] in lines
     assert ["sum", "1,502", "3"] in lines
 
 
 def test_a_table_of_nothing_is_left_out():
-    assert "Fates" not in printed(fates={"frames": {"broadcast": {"delivered": 0}}})
+    assert "Outcomes" not in printed(fates={"frames": {"broadcast": {"delivered": 0}}})
 
 
 def test_what_belongs_to_options_is_shown_where_there_was_any():
@@ -114,7 +114,7 @@ def test_what_belongs_to_options_is_shown_where_there_was_any():
         "cts": {"delivered": 3, "noise": 0, "captured": 0, "header_error": 0},
     }
     lines = [line.split() for line in printed(fates={"frames": kinds}).splitlines()]
-    assert ["fate", "unicast", "ack", "cts"] in lines
+    assert ["outcome", "unicast", "ack", "cts"] in lines
     assert ["noise", "0", "0", "0"] in lines
     assert ["captured", "2", "0", "0"] in lines
     assert not any("header" in line for line in lines)
@@ -212,7 +212,7 @@ def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
     assert ["uavs[0]", "broadcast", "2", "1"] in lines
     assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
     assert ["uavs[0]", "unicast", "4"] in lines
-    assert "Fates of frames at nodes" not in printed()
+    assert "Outcomes of frames at nodes" not in printed()
 
 
 @pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])
@@ -224,7 +224,7 @@ def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
 
 @pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
 def test_fates_at_many_nodes_are_cut_short(count, shown):
-    _, _, text = printed(nodes=told_nodes(count)).partition("Fates of frames at nodes")
+    _, _, text = printed(nodes=told_nodes(count)).partition("Outcomes of frames at nodes")
     assert (text.count(" broadcast "), text.count(" unicast ")) == (shown, shown)
     assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
 

@@ -8,7 +8,7 @@ from rich.console import Console
 
 from gradysim.cli.supervised_run import carry_out
 from gradysim.integrated.compiled_part import CompiledPartMissingError
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario.errors.config_error import ConfigError
 
 SCENARIO = SimpleNamespace(config="General", run_number=0, sim_time_limit_s=10.0, file=Path("a.ini"))

@@ -8,7 +8,7 @@ import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.node_spec import NodeSpec

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.integrated.run import IntegratedRun
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).parents[3]

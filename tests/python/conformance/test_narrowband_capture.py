@@ -14,7 +14,7 @@ from scapy.layers.dot15d4 import Dot15d4FCS
 from scapy.utils import PcapReader
 
 from gradysim.integrated.run import IntegratedRun
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 INI = Path(__file__).parents[3] / "configs" / "sensor_field.ini"

@@ -11,7 +11,7 @@ import pytest
 
 from gradysim.integrated.native_protocols import is_native, native_protocols
 from gradysim.integrated.run import run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 
 ROOT = Path(__file__).parents[3]

@@ -2,6 +2,7 @@
 
 import random
 import traceback
+from itertools import chain, repeat
 
 import pytest
 
@@ -52,8 +53,9 @@ def test_result_of_a_whole_run(result_of, mode):
 
 
 def test_the_cost_counts_from_building_to_the_end(result_of, monkeypatch):
-    for clock, times in (("perf_counter", [10.0, 12.5]), ("process_time", [3.0, 4.0])):
-        monkeypatch.setattr(f"gradysim.results.run_account.{clock}", iter(times).__next__)
+    for clock, begin, end in (("perf_counter", 10.0, 12.5), ("process_time", 3.0, 4.0)):
+        times = chain([begin], repeat(end))
+        monkeypatch.setattr(f"gradysim.results.execution.{clock}", times.__next__)
     result = result_of()
     assert (result.wall_s, result.cpu_s) == (2.5, 1.0)
 

@@ -10,9 +10,8 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.results import read_scalars, read_vectors
-from gradysim.results.run_identity import RunIdentity
-from gradysim.results.scalar_file import write_scalar_file
-from gradysim.results.scalars import Scalar
+from gradysim.results.omnetpp import RunIdentity, write_scalar_file
+from gradysim.results.quantity import Scalar
 from gradysim.scenario import load_scenarios
 
 GUIDE = "docs/guides/omnetpp-results.md"

@@ -16,7 +16,7 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.run import run
-from gradysim.results.student import mean_with_half_width
+from gradysim.results.confidence_interval import mean_with_half_width
 from gradysim.scenario import load_scenarios
 
 GUIDE = "docs/guides/paper.md"

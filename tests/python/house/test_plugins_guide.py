@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from gradysim.protocol.plugin.random_mobility import RandomMobilityConfig
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 Run = Callable[[str], RunResult]

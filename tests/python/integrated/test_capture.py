@@ -35,17 +35,13 @@ def test_each_further_interface_has_a_file_of_its_own(make_scenario):
     "captures", ["all", [0], {"uavs[0]": "a.pcap"}, {(0, 1): "a.pcap"}, {0: 3}, {0: b"a"}]
 )
 def test_what_are_no_files_of_nodes_is_refused(make_scenario, captures):
-    with pytest.raises(
-        TypeError, match=r"^captures = .*: expected a file for each id of a node, such as \{0"
-    ):
+    with pytest.raises(TypeError, match=r"^captures = "):
         checked_captures(captures, make_scenario())
 
 
 @pytest.mark.parametrize("node_id", [-1, 2])
 def test_a_node_that_is_not_there_is_refused(make_scenario, node_id):
-    with pytest.raises(
-        ValueError, match=f"^captures: there is no node {node_id}; expected ids of the 2 nodes"
-    ):
+    with pytest.raises(ValueError, match=f"^captures: .* {node_id}; "):
         IntegratedRun(make_scenario(), {node_id: "a.pcap"})
 
 
@@ -53,7 +49,7 @@ def test_one_file_for_two_nodes_is_refused(make_scenario, tmp_path, monkeypatch)
     monkeypatch.chdir(tmp_path)
     with pytest.raises(
         ValueError,
-        match=r"^captures: wlan\[0\] of node 0 and wlan\[0\] of node 1 would write one file, 'x/../a.pcap'",
+        match=r"^captures: wlan\[0\] of node 0 and wlan\[0\] of node 1 .*'x/../a.pcap'",
     ):
         IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap", 1: "x/../a.pcap"})
     assert not (tmp_path / "a.pcap").exists()
@@ -74,18 +70,18 @@ def test_a_path_may_be_a_text(make_scenario, tmp_path):
 
 def test_a_unit_disk_medium_has_nothing_to_capture(make_scenario, tmp_path):
     scenario = make_scenario("class Tested(Talker): pass", UNIT_DISK)
-    with pytest.raises(ConfigError, match=r"^override .*no radios; expected Ieee80211ScalarRadioMedium"):
+    with pytest.raises(ConfigError, match="Ieee80211ScalarRadioMedium"):
         IntegratedRun(scenario, {0: tmp_path / "a"})
 
 
 def test_a_file_that_cannot_be_written_is_found_before_the_run(make_scenario, tmp_path):
-    with pytest.raises(ConfigError, match=r"cannot write the capture file '.*': Is a directory"):
+    with pytest.raises(ConfigError, match="Is a directory"):
         IntegratedRun(make_scenario(), {0: tmp_path})
 
 
 def test_a_folder_that_cannot_be_made_is_found_before_the_run(make_scenario, tmp_path):
     (tmp_path / "file").touch()
-    with pytest.raises(ConfigError, match=r"cannot write the capture file '.*file/a\.pcap'"):
+    with pytest.raises(ConfigError, match=r"file/a\.pcap"):
         IntegratedRun(make_scenario(), {0: tmp_path / "file" / "a.pcap"})
 
 
@@ -122,7 +118,7 @@ def test_a_file_that_lacks_its_end(make_scenario, tmp_path):
     captured = IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap"})
     with (
         full_disk(),
-        pytest.raises(CaptureError, match=r"a\.pcap': File too large; it lacks the last frames"),
+        pytest.raises(CaptureError, match=r"a\.pcap': File too large"),
     ):
         captured.execute()
     assert captured.result().interrupted
@@ -133,9 +129,8 @@ def test_a_file_that_lacks_its_end_is_told_beside_what_a_protocol_raised(make_sc
     with full_disk(), pytest.raises(RuntimeError, match="spoilt") as caught:
         failing.execute()
     assert caught.value.__context__ is None
-    assert caught.value.__notes__[1:] == [
-        f"cannot write the capture file '{tmp_path}/a.pcap': File too large; it lacks the last frames"
-    ]
+    (note,) = caught.value.__notes__[1:]
+    assert f"'{tmp_path}/a.pcap': File too large" in note
 
 
 @pytest.fixture
@@ -154,11 +149,11 @@ def test_a_name_may_be_any_bytes(make_scenario, odd_folder):
 def test_a_name_of_any_bytes_that_cannot_be_written_is_told(make_scenario, odd_folder):
     with pytest.raises(ConfigError) as caught:
         IntegratedRun(make_scenario(), {0: odd_folder})
-    assert str(caught.value).endswith(f"cannot write the capture file '{odd_folder}': Is a directory")
+    assert str(caught.value).endswith(f"'{odd_folder}': Is a directory")
 
 
 def test_a_file_with_a_name_of_any_bytes_that_lacks_its_end_is_told(make_scenario, odd_folder):
     captured = IntegratedRun(make_scenario(), {0: odd_folder / "a.pcap"})
     with full_disk(), pytest.raises(CaptureError) as caught:
         captured.execute()
-    assert str(caught.value).startswith(f"cannot write the capture file '{odd_folder}/a.pcap': File too")
+    assert f"'{odd_folder}/a.pcap': File too large" in str(caught.value)

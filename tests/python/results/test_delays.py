@@ -1,3 +1,4 @@
+import itertools
 import math
 from statistics import fmean, stdev
 
@@ -5,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results.delays import Delays, constant_delays
+from gradysim.results.delays import Delays, bin_rows, constant_delays, delay_histograms
 
 times_s = st.integers(0, 10**18).map(lambda picoseconds: picoseconds / 1e12)
 
@@ -69,3 +70,30 @@ def test_what_results_tell():
         "quantiles_s": dict.fromkeys(("0.5", "0.9", "0.95", "0.99"), 0.5),
         "max_s": 0.5,
     }
+
+
+def test_a_histogram_for_each_kind_of_message():
+    delays = constant_delays({0.5: 2})
+    (histogram,) = delay_histograms({"broadcast": delays}, "Field")
+    assert (histogram.module, histogram.name) == ("Field", "broadcastMessage:delay:histogram")
+    assert histogram.values is delays
+    assert histogram.attributes == {
+        "unit": "s",
+        "source": "broadcastMessage:delay",
+        "recordingmode": "histogram",
+    }
+
+
+def test_a_bin_of_a_single_value_is_wide_enough_for_a_density():
+    edges, found = zip(*bin_rows(constant_delays({0.0: 3})), strict=True)
+    assert found[1] / (edges[2] - edges[1]) == pytest.approx(3e12)
+
+
+@pytest.mark.parametrize(
+    "counts", [{0.0: 1}, {0.5: 2, 0.5000001: 7, 3.0: 1}, {0.5: 1, 0.5 + 1e-13: 2, 0.5 + 2e-13: 1, 5e5: 1}]
+)
+def test_edges_are_strictly_increasing_and_all_values_are_between_them(counts):
+    edges, found = zip(*bin_rows(constant_delays(counts)), strict=True)
+    assert all(one < other for one, other in itertools.pairwise(edges))
+    assert (found[0], found[-1]) == (0, 0)
+    assert sum(found) == sum(counts.values())

@@ -1,4 +1,5 @@
 import json
+import pickle
 import sys
 from pathlib import Path
 from typing import Any
@@ -7,6 +8,7 @@ import pytest
 
 from gradysim.results.means import (
     Mean,
+    RunSummary,
     has_files_for_omnetpp_alone,
     means,
     of_different_files,
@@ -15,7 +17,7 @@ from gradysim.results.means import (
     read_results,
     repeated,
 )
-from gradysim.results.run_figures import RunFigures
+from gradysim.results.tracked_variables import TrackedVariable
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -34,11 +36,11 @@ def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> 
     }
 
 
-def figures(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> RunFigures:
-    return RunFigures.of(result(run, heard, **changes))
+def figures(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> RunSummary:
+    return RunSummary.of(result(run, heard, **changes))
 
 
-def quantities(results: list[RunFigures]) -> dict[str, float | None]:
+def quantities(results: list[RunSummary]) -> dict[str, float | None]:
     return {mean.quantity: mean.mean for mean in means(results)}
 
 
@@ -256,3 +258,40 @@ def test_a_folder_with_any_result_has_not_only_files_for_omnetpp(tmp_path: Path,
     assert has_files_for_omnetpp_alone(tmp_path)
     (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result(interrupted=interrupted)))
     assert not has_files_for_omnetpp_alone(tmp_path)
+
+
+def summary_of(*tracked: dict[str, Any], **changes: Any) -> RunSummary:
+    result = {
+        "config": "Study",
+        "mode": "integrated",
+        "run": 0,
+        "iterations": {},
+        "fates": {},
+        "nodes": [
+            {"name": f"uavs[{index}]", "tracked_variables": each} for index, each in enumerate(tracked)
+        ],
+    }
+    return RunSummary.of({**result, **changes})
+
+
+def test_of_a_variable_its_mean_is_kept_and_what_is_no_number() -> None:
+    group = summary_of({"x": 1}, {"x": 4}, {"x": "inf"}, {"y": None}).groups["uavs[*]"]
+    assert group.node_count == 4
+    assert group.variable("x") == TrackedVariable(2.5, {"inf": 1, "missing": 1})
+    assert group.variable("y") == TrackedVariable(None, {"missing": 3, "nan or None": 1})
+    assert group.variable("z") == TrackedVariable(None, {"missing": 4})
+
+
+def test_a_run_of_many_nodes_takes_no_more_memory() -> None:
+    few, many = (len(pickle.dumps(summary_of(*[{"x": 1.5}] * count))) for count in (10, 1000))
+    assert many <= few + 10
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"fingerprint": "f"}, {"fates": {"messages": {}}}, {"nodes": []}],
+    ids=lambda change: next(iter(change)),
+)
+def test_what_a_run_computed_differs(change: dict[str, Any]) -> None:
+    assert summary_of({"x": 1}).computed == summary_of({"x": 1}).computed
+    assert summary_of({"x": 1}, **change).computed != summary_of({"x": 1}).computed

@@ -8,7 +8,7 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.prototype.run
 from gradysim.integrated.run import run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "sensor_field.ini"

@@ -9,7 +9,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 import gradysim.integrated.run
 import gradysim.prototype.run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"

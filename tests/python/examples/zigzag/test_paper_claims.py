@@ -17,7 +17,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 import gradysim.prototype.run
 from gradysim.integrated.run import run
-from gradysim.results.run_result import RunResult
+from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"

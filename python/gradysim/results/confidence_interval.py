@@ -1,0 +1,64 @@
+"""Confidence intervals of a mean, by Student's t distribution."""
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from statistics import fmean, stdev
+
+CONFIDENCE = 0.95
+"""Share of such intervals that contain the true mean."""
+
+_LARGEST = 1000.0
+"""Upper bound of all quantiles: that of one degree of freedom is 12.7."""
+
+_HUGE, _SMALLER = 2.0**900, 2.0**-100
+"""Above `_HUGE`, deviations may overflow a float; such values are scaled by `_SMALLER`."""
+
+
+def mean_of(values: Sequence[float]) -> float:
+    """Return the mean of finite numbers, even if their sum overflows a float."""
+    try:
+        return fmean(values)
+    except OverflowError:
+        return float(sum(map(Fraction, values)) / len(values))
+
+
+def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
+    """Return the mean and half the width of its 95 % confidence interval, None for a single value.
+
+    The values are assumed to be independent and normally distributed. A width that overflows a float is
+    infinite.
+    """
+    if len(values) < 2:
+        return mean_of(values), None
+    scale = _SMALLER if max(map(abs, values)) > _HUGE else 1.0
+    deviation = stdev([value * scale for value in values])
+    return mean_of(values), _quantile(len(values) - 1) * deviation / math.sqrt(len(values)) / scale
+
+
+def _quantile(freedom: int) -> float:
+    """Return the t that is exceeded in absolute value with probability 1 - CONFIDENCE; `freedom` >= 1."""
+    low, high = 0.0, _LARGEST
+    while high - low > 1e-9:
+        middle = (low + high) / 2
+        if _probability_within(middle, freedom) < CONFIDENCE:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def _probability_within(t: float, freedom: int) -> float:
+    """Return the probability of values from -t to t.
+
+    Source: M. Abramowitz and I. Stegun, Handbook of Mathematical Functions, 1964, 26.7.3 and 26.7.4.
+    """
+    theta = math.atan(t / math.sqrt(freedom))
+    sine, cosine = math.sin(theta), math.cos(theta)
+    odd = freedom % 2 == 1
+    term = cosine if odd else 1.0
+    total = term if freedom > 1 else 0.0
+    for step in range(3 if odd else 2, freedom - 1, 2):
+        term *= cosine * cosine * ((step - 1) / step)
+        total += term
+    return (theta + sine * total) * 2 / math.pi if odd else sine * total

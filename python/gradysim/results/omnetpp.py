@@ -1,0 +1,329 @@
+"""Writes OMNeT++ 6's result files: SQLite databases of scalars (`.sca`) and of vectors (`.vec`)."""
+
+import contextlib
+import errno
+import math
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from heapq import merge
+from itertools import repeat
+from operator import mul
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gradysim.results.delays import bin_rows
+from gradysim.results.quantity import Histogram, Scalar
+from gradysim.results.recorder import Values, Vector
+from gradysim.results.result import Mode, RunResult
+from gradysim.scenario.runs.iterations import PREDEFINED
+from gradysim.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    import sqlite3
+
+SIMTIME_EXPONENT = -12
+"""Times are integers, in units of 10 to this power seconds: picoseconds, as in the engine."""
+
+NO_EVENT = 0
+"""Event number of all rows: the two modes count different events."""
+
+_FOREIGN_KEY = "INTEGER NOT NULL REFERENCES {table}({key}) ON DELETE CASCADE"
+_KEY = "INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL"
+_OF_RUN = _FOREIGN_KEY.format(table="run", key="runId")
+_TEXT = "TEXT NOT NULL"
+_INTEGER = "INTEGER NOT NULL"
+
+
+def _attributes(table: str, key: str) -> dict[str, str]:
+    return {key: _FOREIGN_KEY.format(table=table, key=key), "attrName": _TEXT, "attrValue": _TEXT}
+
+
+TABLES: Mapping[str, Mapping[str, str]] = {
+    "run": {"runId": _KEY, "runName": _TEXT, "simtimeExp": _INTEGER},
+    "runAttr": _attributes("run", "runId"),
+    "runItervar": {"runId": _OF_RUN, "itervarName": _TEXT, "itervarValue": _TEXT},
+    "runConfig": {"runId": _OF_RUN, "configKey": _TEXT, "configValue": _TEXT, "configOrder": _INTEGER},
+    "scalar": {
+        "scalarId": _KEY,
+        "runId": _OF_RUN,
+        "moduleName": _TEXT,
+        "scalarName": _TEXT,
+        "scalarValue": "REAL",
+    },
+    "scalarAttr": _attributes("scalar", "scalarId"),
+    "parameter": {
+        "paramId": _KEY,
+        "runId": _OF_RUN,
+        "moduleName": _TEXT,
+        "paramName": _TEXT,
+        "paramValue": _TEXT,
+    },
+    "paramAttr": _attributes("parameter", "paramId"),
+    "statistic": {
+        "statId": _KEY,
+        "runId": _OF_RUN,
+        "moduleName": _TEXT,
+        "statName": _TEXT,
+        "isHistogram": _INTEGER,
+        "isWeighted": _INTEGER,
+        "statCount": _INTEGER,
+        **dict.fromkeys(("statMean", "statStddev", "statSum", "statSqrsum", "statMin", "statMax"), "REAL"),
+        **dict.fromkeys(
+            ("statWeights", "statWeightedSum", "statSqrSumWeights", "statWeightedSqrSum"), "REAL"
+        ),
+    },
+    "statisticAttr": _attributes("statistic", "statId"),
+    "histogramBin": {
+        "statId": _FOREIGN_KEY.format(table="statistic", key="statId"),
+        "lowerEdge": "REAL NOT NULL",
+        "binValue": "REAL NOT NULL",
+    },
+    "vector": {
+        "vectorId": _KEY,
+        "runId": _OF_RUN,
+        "moduleName": _TEXT,
+        "vectorName": _TEXT,
+        "vectorCount": "INTEGER",
+        **dict.fromkeys(("vectorMin", "vectorMax", "vectorSum", "vectorSumSqr"), "REAL"),
+        **dict.fromkeys(("startEventNum", "endEventNum", "startSimtimeRaw", "endSimtimeRaw"), "INTEGER"),
+    },
+    "vectorAttr": _attributes("vector", "vectorId"),
+    "vectorData": {
+        "vectorId": _FOREIGN_KEY.format(table="vector", key="vectorId"),
+        "eventNumber": _INTEGER,
+        "simtimeRaw": _INTEGER,
+        "value": "REAL",
+    },
+}
+"""{table: {column: its type}}. Numbers that may be NaN may be NULL: SQLite stores NaN as NULL."""
+
+RUN_ID = 1
+"""Of the only run in a file."""
+
+
+@dataclass(frozen=True)
+class RunIdentity:
+    """Identity of a run, the same in all of its files.
+
+    Attributes:
+        name: Unique among runs.
+        attributes: Run attributes by name.
+        iterations: Value of each named iteration variable, as the .ini file writes it.
+        settings: The lines of the .ini file that this run consists of, overrides first.
+    """
+
+    name: str
+    attributes: Mapping[str, str]
+    iterations: Mapping[str, str]
+    settings: tuple[tuple[str, str], ...]
+
+
+def identity_of(result: RunResult, scenario: Scenario, directory: Path) -> RunIdentity:
+    """Return the identity of a run that has just ended, whose results go to `directory`."""
+    began = datetime.now() - timedelta(seconds=result.wall_s)
+    attributes = {
+        **lasting_attributes(scenario, result.mode, interrupted=result.interrupted),
+        "inifile": str(scenario.file),
+        "datetime": f"{began:%Y%m%d-%H:%M:%S}",
+        "datetimef": f"{began:%Y%m%d-%H%M%S}",
+        "processid": str(os.getpid()),
+        "resultdir": str(directory),
+    }
+    return RunIdentity(
+        name=f"{result.config}-{result.run}-{attributes['datetime']}-{attributes['processid']}",
+        attributes=dict(sorted(attributes.items())),
+        iterations={name: text for name, text in sorted(result.iterations.items()) if not name.isdigit()},
+        settings=tuple((entry.key, entry.text) for entry in scenario.entries),
+    )
+
+
+def lasting_attributes(scenario: Scenario, mode: Mode, *, interrupted: bool = False) -> dict[str, str]:
+    """Return the attributes that stay the same when the run is done again, from any folder."""
+    known = scenario.variables
+    return {
+        **{name: known[name] for name in PREDEFINED if name in known and name != "inifile"},
+        "mode": mode,
+        "settings_hash": scenario.settings_hash,
+        "interrupted": str(interrupted).lower(),
+    }
+
+
+@contextlib.contextmanager
+def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connection"]:
+    """Create a file with these tables and the rows about its run; the caller adds the others.
+
+    An earlier file of that name is replaced, by the complete file or not at all. Missing directories are
+    created. Raises OSError, with the name of the file, when it cannot be written.
+    """
+    import sqlite3
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = path.with_name(f"{path.name}.{os.getpid()}")
+    unfinished.unlink(missing_ok=True)
+    try:
+        connection = sqlite3.connect(unfinished, isolation_level=None)
+        try:
+            # No other process opens the file until it is complete, and an incomplete one is deleted.
+            connection.execute("PRAGMA journal_mode = OFF")
+            connection.execute("PRAGMA synchronous = OFF")
+            connection.execute("BEGIN")
+            for table, columns in TABLES.items():
+                listed = ", ".join(f"{name} {kind}" for name, kind in columns.items())
+                connection.execute(f"CREATE TABLE {table} ({listed})")
+            _insert_run(connection, identity)
+            yield connection
+            connection.execute("COMMIT")
+        finally:
+            connection.close()
+        unfinished.replace(path)
+    except BaseException as error:
+        with contextlib.suppress(OSError):  # a read-only directory
+            unfinished.unlink(missing_ok=True)
+        if isinstance(error, sqlite3.Error):
+            raise OSError(errno.EIO, str(error), str(path)) from error
+        if isinstance(error, OSError):
+            raise OSError(error.errno, error.strerror, str(path)) from error
+        raise
+
+
+def storable(text: str) -> str:
+    """Return the string with what UTF-8 cannot encode, such as half of a surrogate pair, escaped."""
+    return text.encode(errors="backslashreplace").decode()
+
+
+def _insert_run(connection: "sqlite3.Connection", identity: RunIdentity) -> None:
+    connection.execute(
+        "INSERT INTO run VALUES (?, ?, ?)", (RUN_ID, storable(identity.name), SIMTIME_EXPONENT)
+    )
+    for table, values in (("runAttr", identity.attributes), ("runItervar", identity.iterations)):
+        connection.executemany(
+            f"INSERT INTO {table} VALUES (?, ?, ?)",
+            [(RUN_ID, storable(name), storable(value)) for name, value in values.items()],
+        )
+    connection.executemany(
+        "INSERT INTO runConfig VALUES (?, ?, ?, ?)",
+        [
+            (RUN_ID, storable(key), storable(value), order)
+            for order, (key, value) in enumerate(identity.settings)
+        ],
+    )
+
+
+def write_scalar_file(
+    scalars: Iterable[Scalar], identity: RunIdentity, path: Path, histograms: Iterable[Histogram] = ()
+) -> None:
+    """Write a `.sca` file, complete or not at all. Raises OSError, with its name."""
+    with new_database(path, identity) as connection:
+        for scalar in scalars:
+            inserted = connection.execute(
+                "INSERT INTO scalar (runId, moduleName, scalarName, scalarValue) VALUES (?, ?, ?, ?)",
+                (RUN_ID, storable(scalar.module), storable(scalar.name), scalar.value),
+            )
+            connection.executemany(
+                "INSERT INTO scalarAttr VALUES (?, ?, ?)",
+                [(inserted.lastrowid, name, storable(value)) for name, value in scalar.attributes.items()],
+            )
+        for histogram in histograms:
+            _insert_histogram(connection, histogram)
+
+
+def _insert_histogram(connection: "sqlite3.Connection", histogram: Histogram) -> None:
+    values = histogram.values
+    row = {
+        "runId": RUN_ID,
+        "moduleName": storable(histogram.module),
+        "statName": storable(histogram.name),
+        "isHistogram": 1,
+        "isWeighted": 0,
+        "statCount": values.count,
+        "statMean": values.mean_s,
+        "statStddev": values.stddev_s if values.count > 1 else None,  # as OMNeT++ has it
+        "statSum": values.sum_s,
+        "statSqrsum": values.sum_of_squares_s2,
+        "statMin": values.min_s,
+        "statMax": values.max_s,
+    }
+    inserted = connection.execute(
+        f"INSERT INTO statistic ({', '.join(row)}) VALUES ({', '.join('?' * len(row))})", tuple(row.values())
+    )
+    connection.executemany(
+        "INSERT INTO statisticAttr VALUES (?, ?, ?)",
+        [(inserted.lastrowid, name, value) for name, value in histogram.attributes.items()],
+    )
+    connection.executemany(
+        "INSERT INTO histogramBin VALUES (?, ?, ?)",
+        [(inserted.lastrowid, *bin_row) for bin_row in bin_rows(values)],
+    )
+
+
+def vectors_of(result: RunResult, network: str) -> Iterator[tuple[str, Vector]]:
+    """Yield (path of its module, vector) for each vector of a run; paths begin with `network`."""
+    for node in result.nodes:
+        for vector in node.vectors or ():
+            yield f"{network}.{node.name}.{vector.part}", vector
+
+
+def write_vector_file(vectors: Iterable[tuple[str, Vector]], identity: RunIdentity, path: Path) -> None:
+    """Write a `.vec` file, complete or not at all. Raises OSError, with its name.
+
+    `vectors` are pairs (path of its module, vector), as `vectors_of` yields them.
+    """
+    with new_database(path, identity) as connection:
+        rows = [
+            zip(
+                vector.times_ps,
+                repeat(_insert_vector(connection, module, vector), len(vector.times_ps)),
+                vector.values,
+                strict=True,
+            )
+            for module, vector in vectors
+        ]
+        connection.executemany(
+            f"INSERT INTO vectorData (simtimeRaw, vectorId, value, eventNumber) VALUES (?, ?, ?, {NO_EVENT})",
+            merge(*rows),  # by time; vectors have different ids, so that values are never compared
+        )
+        connection.execute("CREATE INDEX vectorData_idx ON vectorData (vectorId)")
+
+
+def _insert_vector(connection: "sqlite3.Connection", module: str, vector: Vector) -> int | None:
+    """Insert a vector without its rows, and return its id."""
+    times = vector.times_ps
+    values = (
+        *(RUN_ID, storable(module), f"{storable(vector.name)}:vector", len(times)),
+        *_statistics(vector.values),
+        *(NO_EVENT, NO_EVENT, *((times[0], times[-1]) if times else (0, 0))),
+    )
+    columns = (
+        "runId, moduleName, vectorName, vectorCount, vectorMin, vectorMax, vectorSum, vectorSumSqr,"
+        " startEventNum, endEventNum, startSimtimeRaw, endSimtimeRaw"
+    )
+    marks = ", ".join("?" * len(values))
+    inserted = connection.execute(f"INSERT INTO vector ({columns}) VALUES ({marks})", values)
+    connection.executemany(
+        "INSERT INTO vectorAttr VALUES (?, ?, ?)",
+        [(inserted.lastrowid, name, storable(value)) for name, value in _vector_attributes(vector)],
+    )
+    return inserted.lastrowid
+
+
+def _statistics(values: Values) -> tuple[float, float, float, float]:
+    """Return minimum, maximum, sum and sum of squares. The sums are NaN if a value is."""
+    numbers = values if not any(map(math.isnan, values)) else [v for v in values if not math.isnan(v)]
+    return (
+        min(numbers, default=math.inf),
+        max(numbers, default=-math.inf),
+        sum(values),
+        sum(map(mul, values, values)),
+    )
+
+
+def _vector_attributes(vector: Vector) -> Iterator[tuple[str, str]]:
+    yield "title", vector.name
+    yield "source", vector.name
+    yield "recordingmode", "vector"
+    # A variable keeps its value until it is set again; a vehicle moves between two telemetries.
+    yield "interpolationmode", "linear" if vector.part == "mobility" else "sample-hold"
+    if vector.unit:
+        yield "unit", vector.unit

@@ -1,0 +1,110 @@
+"""Outcomes of frames and messages: counts by kind and outcome, as scalars and as ratios.
+
+A frame has a reception at each radio that could decode it, and each reception has one outcome. In files these
+counts are called `fates`.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gradysim.results.quantity import Average, Scalar, recorded
+
+Counts = Mapping[str, Mapping[str, int]]
+"""{kind of frame or message: {outcome: count}}."""
+
+Outcomes = Mapping[str, Counts]
+"""{ledger: its counts}; see `LEDGERS`."""
+
+_UNDECIDED = {"queued", "in_air"}
+"""Outcomes of what was still under way when the run ended."""
+
+
+@dataclass(frozen=True)
+class Ledger:
+    """What a table of outcomes counts.
+
+    Attributes:
+        title: Of its table in the summary.
+        module: Of its scalars, in the network; "" for the network itself.
+        suffix: Follows the kind in the names of scalars.
+    """
+
+    title: str
+    module: str = ""
+    suffix: str = ""
+
+
+LEDGERS = {
+    "frames": Ledger("Outcomes of frames, a reception for each radio", "radioMedium"),
+    "copies": Ledger("Outcomes of messages, a reception for each receiver", "communicationMedium"),
+    "messages": Ledger("Messages", suffix="Message"),
+}
+"""Integrated mode has "frames" and "messages", prototype mode "copies" and "messages"."""
+
+
+def plain_counts(counts: Counts) -> dict[str, dict[str, int]]:
+    """Return counts as plain dicts. Large networks have millions of them, all plain already."""
+    return {kind: dict(outcomes) for kind, outcomes in counts.items()}
+
+
+def outcome_scalars(outcomes: Outcomes, network: str) -> Iterator[Scalar]:
+    """Yield `broadcast:delivered:count` and so on, of the whole network."""
+    for name, counts in outcomes.items():
+        ledger = LEDGERS[name]
+        module = f"{network}.{ledger.module}" if ledger.module else network
+        yield from count_scalars(counts, module, ledger.suffix)
+
+
+def interface_scalars(interfaces: Mapping[str, Counts], node: str) -> Iterator[Scalar]:
+    """Yield the outcomes of messages from a node, in a module for each of its interfaces."""
+    for interface, counts in interfaces.items():
+        yield from count_scalars(counts, f"{node}.{interface}", LEDGERS["messages"].suffix)
+
+
+def count_scalars(counts: Counts, module: str, suffix: str = "") -> Iterator[Scalar]:
+    """Yield a scalar for each count."""
+    for kind, outcomes in counts.items():
+        for outcome, count in outcomes.items():
+            yield recorded(module, f"{_camel_case(kind)}{suffix}:{_camel_case(outcome)}:count", count)
+
+
+def _camel_case(text: str) -> str:
+    """Return `unicast overheard` and `below_sensitivity` in the style of OMNeT++'s models."""
+    return re.sub(r"[ _](\w)", lambda match: match[1].upper(), text)
+
+
+def outcome_ratios(outcomes: Mapping[str, Any]) -> Iterator[Average]:
+    """Yield `unicast messages acknowledged`, its share of all that were decided, and so on.
+
+    Of messages there is a ratio for each outcome. Of frames, and of broadcasts in prototype mode, there is
+    the delivery ratio of receptions. Kinds of which nothing was decided are left out, and so are frames that
+    were overheard.
+    """
+    copies, frames, messages = (outcomes.get(ledger) or {} for ledger in ("copies", "frames", "messages"))
+    # In prototype mode a message to one node has one reception, whose outcome is that of the message.
+    unicast = copies.get("unicast") or messages.get("unicast") or {}
+    for outcome, ratio in _ratios(unicast):
+        shown_at_zero = outcome in ("acknowledged", "delivered")
+        yield Average(f"unicast messages {outcome}", ratio, shown_at_zero)
+    for outcome, ratio in _ratios(messages.get("broadcast") or {}):
+        if outcome not in ("sent", "acknowledged"):  # all others are sent, and broadcasts have no ACK
+            yield Average(f"broadcast messages {outcome}", ratio, outcome == "delivered")
+    for kind, counts in frames.items():
+        if not kind.endswith(" overheard"):
+            yield from _delivered(f"{kind} frames", counts)
+    yield from _delivered("broadcast copies", copies.get("broadcast") or {})
+
+
+def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[Average]:
+    ratios = dict(_ratios(counts))
+    if "delivered" in ratios:
+        yield Average(f"{what} delivered", ratios["delivered"])
+
+
+def _ratios(counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:
+    decided = {outcome: count for outcome, count in counts.items() if outcome not in _UNDECIDED}
+    total = sum(decided.values())
+    for outcome, count in decided.items() if total else ():
+        yield outcome.replace("_", " "), count / total

@@ -1,0 +1,156 @@
+"""Declares the numbers of a run: each field of a result once, for all outputs that show it.
+
+A field of `RunResult` or `NodeResult` is annotated with a `Quantity`. The JSON object, the scalars of `.sca`
+files, the summary, `gradysim means` and the reference table of docs/guides/results.md follow from it.
+"""
+
+import dataclasses
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from typing import TYPE_CHECKING, Any, get_args
+
+from gradysim.protocol.plain_value import plain_value
+
+if TYPE_CHECKING:
+    from gradysim.results.delays import Delays
+
+Names = str | Iterable[str]
+"""One name or several, with `*` for any letters and `?` for any single one."""
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """One number in a `.sca` file.
+
+    Attributes:
+        module: Full path, which begins with the name of the network.
+    """
+
+    module: str
+    name: str
+    value: float
+    attributes: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """One distribution in a `.sca` file.
+
+    Attributes:
+        module: Full path, which begins with the name of the network.
+    """
+
+    module: str
+    name: str
+    values: "Delays"
+    attributes: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Average:
+    """One number of a run that `gradysim means` averages over runs.
+
+    Attributes:
+        name: As in its column `quantity`.
+        shown_at_zero: Whether it has a row, too, if it is 0 in all runs.
+    """
+
+    name: str
+    value: float
+    shown_at_zero: bool = True
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Declaration of one field of a result.
+
+    A number needs names only. A family (a mapping of any size) brings functions that make scalars and
+    averages of its value.
+
+    Attributes:
+        text: What it is, for the reference table, in Markdown.
+        unit: Of a number, in scalars and in the summary; "" for none.
+        scalar: Its name in `.sca` files; of a family the pattern of its names. "" if it is not there.
+        summary: Its label in the summary; "" if it has no line there.
+        digits: Format specification of the number in the summary.
+        mean: Its name in `gradysim means`; of a family the pattern of its names. "" if it is not averaged.
+        in_json: Whether the JSON object has it.
+        omitted: Values with which the JSON object leaves it out.
+        to_json: Makes the value plain.
+        scalars: (value, module) to scalars, of a family.
+        averages: Plain value to averages, of a family.
+    """
+
+    text: str
+    unit: str = ""
+    scalar: str = ""
+    summary: str = ""
+    digits: str = ""
+    mean: str = ""
+    in_json: bool = True
+    omitted: tuple[object, ...] = ()
+    to_json: Callable[[Any], object] = plain_value
+    scalars: Callable[[Any, str], Iterator[Scalar]] | None = None
+    averages: Callable[[Any], Iterator[Average]] | None = None
+
+
+def quantities(result: type[Any]) -> Mapping[str, Quantity]:
+    """Return {field: its declaration} of a class of results, in the order of the fields."""
+    if result not in _known:
+        fields: Iterable[dataclasses.Field[Any]] = dataclasses.fields(result)
+        _known[result] = {each.name: get_args(each.type)[1] for each in fields}
+    return _known[result]
+
+
+_known: dict[type, Mapping[str, Quantity]] = {}
+
+
+def json_object(result: Any) -> dict[str, object]:
+    """Return the fields of a result as plain dicts, lists, strings and numbers."""
+    plain = {}
+    for name, quantity in quantities(type(result)).items():
+        value = getattr(result, name)
+        if quantity.in_json and value not in quantity.omitted:
+            plain[name] = quantity.to_json(value)
+    return plain
+
+
+def scalars_of(result: Any, module: str) -> Iterator[Scalar]:
+    """Yield the scalars of all fields of a result; the paths of their modules begin with `module`."""
+    for name, quantity in quantities(type(result)).items():
+        value = getattr(result, name)
+        if value is None:
+            continue
+        if quantity.scalars is not None:
+            yield from quantity.scalars(value, module)
+        elif quantity.scalar:
+            yield recorded(module, quantity.scalar, value, quantity.unit)
+
+
+def averages_of(result_type: type, plain: Mapping[str, Any]) -> Iterator[Average]:
+    """Yield what `gradysim means` averages of a JSON object, which may be of an older version."""
+    for name, quantity in quantities(result_type).items():
+        value = plain.get(name)
+        if quantity.averages is not None:
+            yield from quantity.averages(value or {})
+        elif quantity.mean and value is not None:
+            yield Average(quantity.mean, value)
+
+
+def recorded(module: str, name: str, value: float, unit: str = "") -> Scalar:
+    """Return a scalar; `heard:last` says that its source is `heard` and its recording mode `last`."""
+    source, _, mode = name.rpartition(":")
+    attributes = {"unit": unit} if unit else {}
+    if source:
+        attributes |= {"source": source, "recordingmode": mode}
+    return Scalar(module, name, value, attributes)
+
+
+def name_filter(names: Names | None) -> Callable[[str], bool]:
+    """Return a function that says whether a name fits one of the patterns; without any, every name does."""
+    if names is None:
+        return lambda _: True
+    # A bracket is a bracket, as in `received[0]:last`.
+    patterns = [name.replace("[", "[[]") for name in ([names] if isinstance(names, str) else names)]
+    return lambda name: any(fnmatchcase(name, pattern) for pattern in patterns)

@@ -1,0 +1,109 @@
+"""Tracked variables: as scalars, and by groups of nodes for means over runs."""
+
+import math
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gradysim.protocol.number import as_float
+from gradysim.protocol.plain_value import key_text
+from gradysim.results.confidence_interval import mean_of
+from gradysim.results.quantity import Scalar, recorded
+
+Tracked = Mapping[str, Any]
+"""{name: value} at one node, as JSON objects have them."""
+
+
+def tracked_scalars(tracked: Mapping[str, object], node: str) -> Iterator[Scalar]:
+    """Yield `heard:last` and so on, of the variables that are numbers."""
+    for name, value in tracked.items():
+        if (number := as_float(value)) is not None:
+            yield recorded(f"{node}.protocol", f"{key_text(name)}:last", number)
+
+
+@dataclass(frozen=True)
+class TrackedVariable:
+    """A tracked variable at the nodes of a group.
+
+    Attributes:
+        mean: Of the finite numbers; None if no node has one.
+        others: {what it is instead: number of nodes}.
+    """
+
+    mean: float | None
+    others: Mapping[str, int]
+
+
+@dataclass(frozen=True)
+class TrackedGroup:
+    """The tracked variables of the nodes of a group."""
+
+    node_count: int
+    variables: Mapping[str, TrackedVariable]
+
+    @classmethod
+    def of(cls, nodes: list[Tracked]) -> "TrackedGroup":
+        """Return those of its nodes."""
+        variables = {}
+        for name in dict.fromkeys(name for tracked in nodes for name in tracked):
+            numbers, others = numbers_and_others(nodes, name)
+            variables[name] = TrackedVariable(mean_of(numbers) if numbers else None, Counter(others))
+        return cls(len(nodes), variables)
+
+    def variable(self, name: str) -> TrackedVariable:
+        """Return one of them, which may be missing at all nodes of this run."""
+        return self.variables.get(name) or TrackedVariable(None, {"missing": self.node_count})
+
+
+def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Tracked]]:
+    """Return {`uavs[*]`: the variables of each of its nodes} for the nodes of a JSON object."""
+    groups: dict[str, list[Tracked]] = {}
+    for node in nodes:
+        groups.setdefault(re.sub(r"\[\d+\]$", "[*]", node["name"]), []).append(node["tracked_variables"])
+    return groups
+
+
+def numeric_variables(groups: Mapping[str, Iterable[Tracked]]) -> dict[tuple[str, str], None]:
+    """Return (group, name) of each variable that is a number at any node, even if only an infinite one."""
+    return {
+        (group, name): None
+        for group, nodes in groups.items()
+        for tracked in nodes
+        for name in tracked
+        if _not_finite(tracked[name]) in (None, "inf", "-inf", "too large")
+    }
+
+
+def numbers_and_others(nodes: Iterable[Tracked], name: str) -> tuple[list[float], list[str]]:
+    """Return the finite numbers of the variable `name` at `nodes`, and what it is at the others.
+
+    That is "inf", "-inf", "nan or None" (JSON objects do not distinguish these two), "too large" for a float,
+    "no number", or "missing" where a node does not have the variable.
+    """
+    numbers: list[float] = []
+    others: list[str] = []
+    for tracked in nodes:
+        what = _not_finite(tracked[name]) if name in tracked else "missing"
+        if what is None:
+            numbers.append(tracked[name])
+        else:
+            others.append(what)
+    return numbers, others
+
+
+def _not_finite(value: object) -> str | None:
+    """Return what `value` is; None for a finite number."""
+    if value in ("inf", "-inf"):
+        return str(value)
+    if value is None:
+        return "nan or None"
+    if not isinstance(value, int | float):
+        return "no number"
+    if isinstance(value, int):
+        return "too large" if abs(value) > sys.float_info.max else None
+    if math.isnan(value):
+        return "nan or None"
+    return None if math.isfinite(value) else str(value)
