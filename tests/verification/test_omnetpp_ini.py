@@ -11,9 +11,8 @@ from gradysim.scenario.file.sections import Ranked, search_order
 from gradysim.scenario.functions import Value
 from gradysim.scenario.matching.lookup import is_option
 from gradysim.scenario.patterns import compile_pattern
-from gradysim.scenario.runs.iterations import name_iterations, text_of_iterations
-from gradysim.scenario.runs.numbered_runs import numbered_runs
-from gradysim.scenario.runs.variables import run_variables, substitute
+from gradysim.scenario.runs import numbered_runs
+from gradysim.scenario.sweep import name_iterations, run_variables, substitute, text_of_iterations
 from gradysim.scenario.units import Quantity
 from verification.finding import Finding
 from verification.reference_data import rows

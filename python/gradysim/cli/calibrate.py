@@ -45,7 +45,7 @@ def calibrate_power(
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.parameter_types import quantity, whole_bytes
-    from gradysim.scenario.runs.iterations import text_of_iterations
+    from gradysim.scenario.sweep import text_of_iterations
 
     try:
         scenario = check(file, config, "0", settings).scenarios[0]

@@ -10,7 +10,7 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     """List the runs of a configuration."""
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.lint import unread_variables
-    from gradysim.scenario.runs.iterations import text_of_iterations
+    from gradysim.scenario.sweep import text_of_iterations
 
     try:
         scenarios = check(file, config, None, settings).scenarios

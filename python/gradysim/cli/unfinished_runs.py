@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from gradysim.scenario.runs.run_numbers import text_of_runs
+from gradysim.scenario.runs import text_of_runs
 
 
 def text_of_unfinished(

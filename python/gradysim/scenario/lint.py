@@ -17,7 +17,7 @@ from gradysim.scenario.matching.pattern_index import PatternIndex
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.protocol.parameter_unit import annotations_of, unit_of
-from gradysim.scenario.runs.unread_variables import UnreadVariables
+from gradysim.scenario.runs import UnreadVariables
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.units import Dimension, Quantity
 

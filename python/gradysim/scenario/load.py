@@ -16,14 +16,24 @@ from gradysim.scenario.matching.lookup import is_option, network_name, options_i
 from gradysim.scenario.network import Network
 from gradysim.scenario.networks import Networks
 from gradysim.scenario.options import NETWORK, OPTIONS
-from gradysim.scenario.runs.iterations import name_iterations
-from gradysim.scenario.runs.labels import free_text, with_labels
-from gradysim.scenario.runs.numbered_runs import numbered_runs
-from gradysim.scenario.runs.seed import check_seeds_of_runs, seed_of_file, whole_seed
-from gradysim.scenario.runs.settings_hash import entries_of_the_hash, settings_hash
-from gradysim.scenario.runs.variables import run_variables, substitute, substituted
+from gradysim.scenario.runs import (
+    check_seeds_of_runs,
+    entries_of_the_hash,
+    numbered_runs,
+    seed_of_file,
+    settings_hash,
+    whole_seed,
+)
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.settings import read_scalar
+from gradysim.scenario.sweep import (
+    free_text,
+    name_iterations,
+    run_variables,
+    substitute,
+    substituted,
+    with_labels,
+)
 
 
 def load_scenarios(

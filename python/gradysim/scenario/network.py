@@ -24,7 +24,7 @@ from gradysim.scenario.node.nodes import build_nodes, load_protocols
 from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
 from gradysim.scenario.protocol.loader import ProtocolLoader
 from gradysim.scenario.protocol.native import file_of_native
-from gradysim.scenario.runs.file_hashes import FileHashes
+from gradysim.scenario.runs import FileHashes
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader

@@ -12,11 +12,9 @@ from gradysim.scenario.matching.key_check import NoSuchNodeError
 from gradysim.scenario.matching.lookup import is_ignored, is_option
 from gradysim.scenario.network import Network, read_network
 from gradysim.scenario.protocol.loader import ProtocolLoader
-from gradysim.scenario.runs.file_hashes import FileHashes
-from gradysim.scenario.runs.iterations import IterationVariable
-from gradysim.scenario.runs.unread_variables import UnreadVariables, line_instead, unread_variables
-from gradysim.scenario.runs.variables import depends_on_run, substitute, substituted
+from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.settings import SettingReader
+from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
 
 
 class _Read(NamedTuple):

@@ -5,7 +5,7 @@ import pytest
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.runs.constraint import Constraint
+from gradysim.scenario.sweep import Constraint
 
 VALUES = {"x": "3", "y": "4", "t": "10ms", "p": "-80dBm", "name": '"a"', "0": "7"}
 

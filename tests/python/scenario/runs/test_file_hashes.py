@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.runs.file_hashes import FileHashes, text_of_files
+from gradysim.scenario.runs import FileHashes, text_of_files
 
 
 def test_names_are_seen_from_the_folder(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.runs.iterations import (
+from gradysim.scenario.sweep import (
     IterationVariable,
     check_lock_step,
     combinations,

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
-from gradysim.scenario.runs.run_numbers import select_runs, text_of_runs
+from gradysim.scenario.runs import select_runs, text_of_runs
 
 SOURCE = Source(Path("a.ini"), 3)
 

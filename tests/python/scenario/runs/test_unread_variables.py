@@ -3,7 +3,7 @@ from typing import Any
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.runs.unread_variables import UnreadVariables
+from gradysim.scenario.runs import UnreadVariables
 from python.scenario.conftest import BASE
 
 RTS = "**.rtsThreshold = ${rts=3000B, 100B}\n"

@@ -6,7 +6,7 @@ import pytest
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.runs.variables import depends_on_run, run_variables, substitute
+from gradysim.scenario.sweep import depends_on_run, run_variables, substitute
 
 
 def entry(text: str) -> Entry:
