@@ -161,7 +161,7 @@ def test_too_many_combinations_are_refused_before_they_are_made() -> None:
     variables = named("${1..1000}", "${1..1000}", "${1..1000}")[1]
     with pytest.raises(ConfigError) as error:
         count_combinations(variables)
-    assert error.value.line == 2
+    assert error.value.line == 3
 
 
 @given(st.lists(st.integers(1, 4), max_size=4))
