@@ -12,7 +12,7 @@ from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.file.reader import read_ini
 from gradysim.scenario.file.sections import config_names
-from gradysim.scenario.protocol.native import NativeProtocol
+from gradysim.scenario.native_protocols import NativeProtocol
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from gradysim.protocol.position import Position
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
+from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node.autopilot_spec import AutopilotSpec
 from gradysim.scenario.node.node_spec import NodeSpec
-from gradysim.scenario.protocol.native import NativeProtocol
 from gradysim.scenario.scenario import Scenario
 from gradysim.sitl.arducopter import find_arducopter
 from gradysim.sitl.dialect import load_dialect

@@ -13,9 +13,14 @@ def with_fresh_protocols(scenario: "Scenario") -> "Scenario":
     What runs before it have left in the bodies of classes, or in modules beside them, makes no difference
     then: a run is the same as in a process of its own.
     """
-    from gradysim.scenario.protocol.anew import loaded_anew
+    from gradysim.scenario.protocol_modules import ModuleLoader, origin_of
 
-    anew = loaded_anew({node.protocol for node in scenario.nodes})
+    loader = ModuleLoader()
+    anew = {
+        cls: replace(origin, loader=loader).load()
+        for cls in {node.protocol for node in scenario.nodes}
+        if (origin := origin_of(cls)) is not None
+    }
     if not anew:
         return scenario
     nodes = (replace(node, protocol=anew.get(node.protocol, node.protocol)) for node in scenario.nodes)

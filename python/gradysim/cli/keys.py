@@ -18,13 +18,12 @@ def list_keys(
 ) -> int:
     """List the keys of .ini files: unit, default, meaning."""
     from gradysim.cli import key_table
-    from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.integrated.native_protocols import native_protocols
     from gradysim.scenario.key_list import key_meant, key_sections, matching
+    from gradysim.scenario.native_protocols import native_protocols
 
     try:
         natives = list(native_protocols().values())
-    except CompiledPartMissingError:
+    except ImportError:
         natives = []
         print("the engine is not installed: its own protocols are not listed", file=sys.stderr)
     everything = key_sections(natives)

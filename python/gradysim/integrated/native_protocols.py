@@ -1,25 +1,17 @@
-"""Native protocols: the engine's table of them for the reader of .ini files, and their place on a node."""
+"""Native protocols on the nodes of the engine."""
 
 from collections.abc import Mapping
-from functools import cache
 from typing import TYPE_CHECKING, Any, cast
 
-from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider
+from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node.node_spec import NodeSpec
-from gradysim.scenario.protocol.native import NativeParameter, NativeProtocol
-from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim
-
-
-@cache
-def native_protocols() -> dict[str, type[NativeProtocol]]:
-    """Return the engine's protocols by name. Raises CompiledPartMissingError when it has not been built."""
-    return {row.name: _class_of(row) for row in load_netsim().native_protocols()}
 
 
 def is_native(spec: NodeSpec) -> bool:
@@ -75,21 +67,3 @@ class NativeProvider:
     def get_id(self) -> int:
         """Return the id of the node."""
         return self._node.id
-
-
-def _class_of(row: "_netsim.NativeProtocol") -> type[NativeProtocol]:
-    parameters = {
-        parameter.name: NativeParameter(parameter.unit, parameter.meaning) for parameter in row.parameters
-    }
-    return type(
-        row.name,
-        (NativeProtocol,),
-        {
-            "__module__": __name__,
-            "__doc__": row.meaning,
-            "_meaning": row.meaning,
-            "_python_class": row.python_class,
-            "_parameters": parameters,
-            **{parameter.name: parameter.default for parameter in row.parameters},
-        },
-    )

@@ -34,7 +34,7 @@ from gradysim.results.files import run_name
 from gradysim.results.outcomes import Counts
 from gradysim.results.recorder import NodeRecorder, checked_ids
 from gradysim.results.result import RunResult
-from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor

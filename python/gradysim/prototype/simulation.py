@@ -10,9 +10,9 @@ from gradysim.results.files import run_name
 from gradysim.results.recorder import NodeRecorder
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.keys import MASSLESS, STATIONARY
+from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_integrated
 from gradysim.scenario.node.node_spec import NodeSpec
-from gradysim.scenario.protocol.native import NativeProtocol, text_of_only_integrated
-from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.copy_ledger import CopyLedger

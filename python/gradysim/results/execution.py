@@ -14,7 +14,7 @@ from gradysim.encapsulator.global_random import global_random_of
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
 from gradysim.scenario.lint import Finding, RunLint
-from gradysim.scenario.protocol.siblings import siblings_importable
+from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario, require_scenario
 
 CHUNK_S = 0.05

@@ -17,7 +17,7 @@ from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.load import load_scenarios
 from gradysim.scenario.node.node_spec import NodeSpec
-from gradysim.scenario.protocol.parametrize import parametrize
+from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.settings import Setting
 

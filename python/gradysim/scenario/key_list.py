@@ -15,9 +15,9 @@ from gradysim.scenario.keys import (
     PROTOCOL_KEYS,
     PROTOCOL_PARAMETER,
 )
+from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.options import OPTION_KEYS
-from gradysim.scenario.protocol.native import NativeProtocol
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.schema import Key
 
 _INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)

@@ -18,12 +18,12 @@ from gradysim.scenario.matching.key_check import (
 )
 from gradysim.scenario.matching.lookup import Lookup
 from gradysim.scenario.matching.struct_reader import read_struct
+from gradysim.scenario.native_protocols import file_of_native
 from gradysim.scenario.node.interfaces import interface_counts
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.node.nodes import build_nodes, load_protocols
 from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
-from gradysim.scenario.protocol.loader import ProtocolLoader
-from gradysim.scenario.protocol.native import file_of_native
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.runs import FileHashes
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.schema import Key

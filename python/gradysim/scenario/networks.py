@@ -11,7 +11,7 @@ from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.matching.key_check import NoSuchNodeError
 from gradysim.scenario.matching.lookup import is_ignored, is_option
 from gradysim.scenario.network import Network, read_network
-from gradysim.scenario.protocol.loader import ProtocolLoader
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.settings import SettingReader
 from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted

@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
-from gradysim.integrated.native_protocols import native_protocols
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
+from gradysim.scenario.native_protocols import native_protocols
 
 GUIDE = "docs/guides/native-protocols.md"
 REST = """

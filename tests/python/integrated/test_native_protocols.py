@@ -3,15 +3,15 @@ from pathlib import Path
 import pytest
 
 import gradysim.prototype.run
-from gradysim.integrated.native_protocols import native_protocols
 from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import IntegratedRun, run
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors.config_error import ConfigError
 from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.protocol.loader import ProtocolLoader
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.native_protocols import native_protocols
+from gradysim.scenario.parameters import parameters_of
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.simulator.handler.assertion import AssertionHandler, assert_always_true_for_protocol
 from python.integrated.watching import Watching
 

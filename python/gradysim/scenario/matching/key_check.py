@@ -30,8 +30,8 @@ from gradysim.scenario.matching.key_suggestion import unknown_name_text, unknown
 from gradysim.scenario.matching.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.matching.text_index import TextIndex
 from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.patterns import Pattern
-from gradysim.scenario.protocol.parameters import parameters_of
 
 
 class NoSuchNodeError(ConfigError):

@@ -19,9 +19,8 @@ from gradysim.scenario.keys import (
 from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.inet_modules import instead_of_module
 from gradysim.scenario.matching.lookup import Found
+from gradysim.scenario.parameters import annotations_of, parameters_of
 from gradysim.scenario.patterns import Pattern, compile_pattern
-from gradysim.scenario.protocol.parameter_unit import annotations_of
-from gradysim.scenario.protocol.parameters import parameters_of
 
 _PROTOCOL = "protocol."
 

@@ -10,9 +10,8 @@ from gradysim.scenario.errors.nearest import did_you_mean
 from gradysim.scenario.errors.source import Source
 from gradysim.scenario.node.autopilot_spec import AutopilotSpec
 from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.protocol.origin import Origin
-from gradysim.scenario.protocol.parameters import can_be_set, parameters_of
-from gradysim.scenario.protocol.portable import class_from, portable
+from gradysim.scenario.parameters import can_be_set, parameters_of
+from gradysim.scenario.protocol_modules import Origin, origin_of
 from gradysim.scenario.settings import Setting
 
 
@@ -67,9 +66,9 @@ class NodeSpec:
 
     def __reduce__(self) -> tuple[object, ...]:
         """For pickle: other processes load the protocol from its file."""
-        return _from_fields, ({**vars(self), "protocol": portable(self.protocol)},)
+        return _from_fields, ({**vars(self), "protocol": origin_of(self.protocol) or self.protocol},)
 
 
 def _from_fields(fields: dict[str, Any]) -> NodeSpec:
     protocol: type[IProtocol] | Origin = fields["protocol"]
-    return NodeSpec(**{**fields, "protocol": class_from(protocol)})
+    return NodeSpec(**{**fields, "protocol": protocol.load() if isinstance(protocol, Origin) else protocol})

@@ -28,15 +28,15 @@ from gradysim.scenario.matching.groups import Group
 from gradysim.scenario.matching.key_suggestion import is_misspelt_class
 from gradysim.scenario.matching.lookup import Candidates, Found, Lookup
 from gradysim.scenario.matching.struct_reader import read_struct
+from gradysim.scenario.native_protocols import native_protocol
 from gradysim.scenario.node.autopilot_spec import AutopilotSpec, read_autopilot
 from gradysim.scenario.node.grid import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
 from gradysim.scenario.node.interface_spec import InterfaceSpec
 from gradysim.scenario.node.interfaces import InterfaceBuilder
 from gradysim.scenario.node.node_spec import NodeSpec
 from gradysim.scenario.parameter_types import ParameterType
-from gradysim.scenario.protocol.loader import ProtocolLoader
-from gradysim.scenario.protocol.native import native_protocol
-from gradysim.scenario.protocol.parameters import parameters_of
+from gradysim.scenario.parameters import parameters_of
+from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 

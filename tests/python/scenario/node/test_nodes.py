@@ -267,8 +267,8 @@ def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None
         ),
         (
             "**.retries = 1.5\n",
-            "**.retries = 1.5: for uavs[0].protocol.retries: `1.5` is no whole number; expected a whole"
-            " number, as the parameter is an int; for other numbers write `retries: float = 3` in the class",
+            "**.retries = 1.5: for uavs[0].protocol.retries: `1.5` is no whole number; expected an"
+            " integer, as the parameter is an int; for other numbers write `retries: float = 3` in the class",
         ),
         (
             "**.launch_interval = -15deg\n",

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.protocol.imported_files import files_of_python, root_of_module
+from gradysim.scenario.imported_files import imported_files, root_of_module
 
 
 def files(root: Path, **texts: str) -> set[str]:
@@ -11,7 +11,7 @@ def files(root: Path, **texts: str) -> set[str]:
         file = root / f"{name.replace('__', '/')}.py"
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
-    return names(root, files_of_python(root / "main.py", root))
+    return names(root, imported_files(root / "main.py", root))
 
 
 def names(root: Path, found: tuple[Path, ...]) -> set[str]:
@@ -44,7 +44,7 @@ def test_the_packages_around_a_file_count_with_what_they_import(tmp_path: Path) 
     (package / "__init__.py").write_text("from p import a")
     for name in ("a", "b", "q/main"):
         (root / "p" / f"{name}.py").write_text("")
-    assert names(root, files_of_python(package / "main.py", root)) == {
+    assert names(root, imported_files(package / "main.py", root)) == {
         "p/q/main.py",
         "p/q/__init__.py",
         "p/a.py",
@@ -61,7 +61,7 @@ def test_relative_imports_end_at_the_root(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["def", "\0", "\udcff"])
-def test_what_is_no_python_imports_nothing(tmp_path: Path, text: str) -> None:
+def test_a_file_that_is_not_python_imports_nothing(tmp_path: Path, text: str) -> None:
     (tmp_path / "a.py").write_bytes(text.encode(errors="surrogateescape"))
     assert files(tmp_path, main="import a") == {"main.py", "a.py"}
 
@@ -69,7 +69,7 @@ def test_what_is_no_python_imports_nothing(tmp_path: Path, text: str) -> None:
 def test_other_installed_packages_do_not_count(tmp_path: Path) -> None:
     root = tmp_path / "site-packages"
     files(root, p__main="import p.a, other", p__a="", other="")
-    assert names(root, files_of_python(root / "p" / "main.py", root)) == {"p/main.py", "p/a.py"}
+    assert names(root, imported_files(root / "p" / "main.py", root)) == {"p/main.py", "p/a.py"}
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,214 @@
+"""Loads the Python files of protocols as modules that do not collide, with the files beside them importable.
+
+The name of a module is made of its whole path, so that files of one name are different modules. Files beside
+it can be imported while it loads and while a run goes on. Between these they are not in `sys.modules`, where
+a file of the same name in another folder would find them.
+"""
+
+import hashlib
+import importlib.util
+import os
+import sys
+import threading
+import uuid
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from weakref import WeakValueDictionary
+
+from gradysim.protocol.interface import IProtocol
+
+_loading = threading.RLock()
+"""`sys.path` and `sys.modules` belong to the whole process."""
+
+_running = threading.RLock()
+"""Held while the files of one scenario are importable during its run."""
+
+_being_loaded: set[Path] = set()
+"""Files whose code is running as that of a module now."""
+
+
+class BeingLoadedError(ImportError):
+    """The code of a file loads that file again, which would never end."""
+
+
+class ModuleLoader:
+    """Loads each file once. Another loader loads the file again.
+
+    Attributes:
+        name: Tells loaders apart, also in other processes.
+    """
+
+    def __init__(self, name: str = "") -> None:
+        self.name = name or uuid.uuid4().hex
+        self._modules: dict[Path, ModuleType] = {}
+        self._siblings: dict[Path, dict[str, ModuleType]] = {}
+        _loaders[self.name] = self
+        importlib.invalidate_caches()
+
+    def load(self, file: Path) -> ModuleType:
+        """Return the module of a file. What its code raises is passed on.
+
+        Raises:
+            BeingLoadedError: The code of the file itself called this.
+        """
+        file = file.resolve()
+        if file not in self._modules:
+            with _loading, self.siblings_importable(file.parent, first=True):
+                if file in _being_loaded:
+                    raise BeingLoadedError(f"{file} is being loaded already")
+                _being_loaded.add(file)
+                try:
+                    self._modules[file] = _execute(file)
+                finally:
+                    _being_loaded.remove(file)
+        return self._modules[file]
+
+    @contextmanager
+    def siblings_importable(self, folder: Path, *, first: bool) -> Iterator[None]:
+        """Inside, the files of a folder can be imported. Each of them is loaded once by this loader.
+
+        If they come `first`, files with names of the standard library are found, too, as by a script there.
+        """
+        siblings = self._siblings.setdefault(folder, {})
+        names = _module_names(folder)
+        # A list, since looking at a lazy module may import others, and other threads import modules, too.
+        hidden = {
+            name: module
+            for name, module in list(sys.modules.items())
+            if name.partition(".")[0] in names and not _is_in(name, module, folder)
+        }
+        for name in hidden:
+            del sys.modules[name]
+        before = set(sys.modules)
+        sys.modules.update(
+            {name: module for name, module in siblings.items() if first or not _is_stdlib(name)}
+        )
+        sys.path.insert(0 if first else len(sys.path), str(folder))
+        try:
+            yield
+        finally:
+            if str(folder) in sys.path:
+                sys.path.remove(str(folder))
+            for name, module in list(sys.modules.items()):
+                if name not in before and _is_in(name, module, folder):
+                    siblings[name] = sys.modules.pop(name)
+            sys.modules.update(hidden)
+
+
+_loaders: WeakValueDictionary[str, ModuleLoader] = WeakValueDictionary()
+
+
+def _execute(file: Path) -> ModuleType:
+    digest = hashlib.sha256(os.fsencode(file)).hexdigest()[:12]
+    name = f"_gradysim_protocol_{digest}_{file.stem}"
+    spec = importlib.util.spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{file.name} is not a Python source file")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+def _is_stdlib(name: str) -> bool:
+    return name.partition(".")[0] in sys.stdlib_module_names
+
+
+def _module_names(folder: Path) -> set[str]:
+    """Return the names of the modules of a folder that hide modules from elsewhere."""
+    try:
+        entries = list(os.scandir(folder))
+    except OSError:  # the folder is gone, or was never there
+        return set()
+    files = {entry.name.removesuffix(".py") for entry in entries if entry.name.endswith(".py")}
+    packages = {entry.name for entry in entries if os.path.isfile(os.path.join(entry.path, "__init__.py"))}
+    return (files | packages) - sys.stdlib_module_names - {"__main__", "gradysim"}
+
+
+def _is_in(name: str, module: ModuleType, folder: Path) -> bool:
+    """Return whether a module is a file in the folder, or belongs to a package there."""
+    top_level, *_ = name.split(".")
+    file = getattr(module, "__file__", None)
+    if file is None:
+        return any(Path(path).parent == folder for path in getattr(module, "__path__", ()) if "." not in name)
+    path = Path(file).resolve()
+    return path == folder / f"{top_level}.py" or path.is_relative_to(folder / top_level)
+
+
+_ORIGIN = "_gradysim_origin"
+"""The attribute of a class that has its Origin. In a table of classes, these would never be freed."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a class was loaded from. A scenario that goes to another process has it instead of the class.
+
+    Attributes:
+        file: The file, with its whole path.
+        name: The name of the class in it.
+        loader: What loaded it.
+    """
+
+    file: Path
+    name: str
+    loader: ModuleLoader
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _origin_in_this_process, (self.file, self.name, self.loader.name)
+
+    def load(self) -> type[IProtocol]:
+        """Return the class."""
+        cls: type[IProtocol] = getattr(self.loader.load(self.file), self.name)
+        if origin_of(cls) is None:
+            remember_origin(cls, self)
+        return cls
+
+
+def _origin_in_this_process(file: Path, name: str, loader: str) -> Origin:
+    return Origin(file, name, _loaders.get(loader) or ModuleLoader(loader))
+
+
+def remember_origin(cls: type[IProtocol], origin: Origin) -> None:
+    """Note where a class was loaded from. The first place counts."""
+    if _ORIGIN not in vars(cls):
+        setattr(cls, _ORIGIN, origin)
+
+
+def origin_of(cls: type[IProtocol]) -> Origin | None:
+    """Return where a class was loaded from; None if it was imported by the name of its module."""
+    origin: Origin | None = vars(cls).get(_ORIGIN)
+    return origin
+
+
+@contextmanager
+def siblings_importable(classes: Iterable[type[IProtocol]]) -> Iterator[None]:
+    """Inside, the files beside those of protocols can be imported, by functions and by pickle.
+
+    A name that several of their folders have cannot be imported. While another thread runs a scenario, only
+    the files beside the protocols of that one can be.
+    """
+    origins = {origin for cls in set(classes) if (origin := origin_of(cls)) is not None}
+    folders = {(origin.loader, origin.file.parent) for origin in origins}
+    if not folders or not _running.acquire(blocking=False):
+        yield
+        return
+    try:
+        with ExitStack() as stack:
+            for loader, folder in folders:
+                stack.enter_context(loader.siblings_importable(folder, first=False))
+            counts = Counter(name for _, folder in folders for name in _module_names(folder))
+            ambiguous = [name for name, count in counts.items() if count > 1]
+            for name in ambiguous:
+                sys.modules[name] = None  # type: ignore[assignment]  # which makes the import fail
+            stack.callback(lambda: [sys.modules.pop(name, None) for name in ambiguous])
+            yield
+    finally:
+        _running.release()

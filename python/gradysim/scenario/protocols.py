@@ -1,0 +1,218 @@
+"""Finds the class that `protocol.class` names, and checks that it is a protocol that can run."""
+
+import importlib
+import inspect
+import os
+import sys
+import traceback
+from pathlib import Path
+from types import FunctionType, ModuleType
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors.nearest import did_you_mean, misspelt
+from gradysim.scenario.errors.sibling_files import file_meant
+from gradysim.scenario.imported_files import imported_files, root_of_module
+from gradysim.scenario.native_protocols import is_native_name
+from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
+
+_REFERENCE = 'a protocol as "file.py:Class" or "package.module:Class"'
+"""Expected where a reference leads to no file or module."""
+
+
+class ProtocolLoader:
+    """Loads each file and module once for a configuration."""
+
+    def __init__(self) -> None:
+        self._modules = ModuleLoader()
+        self._files: dict[tuple[Path, Path], tuple[Path, ...]] = {}
+
+    def load(self, reference: str, folder: Path) -> type[IProtocol]:
+        """Return the class of "file.py:Class", seen from `folder`, or "package.module:Class".
+
+        Raises:
+            BadValue: There is no such file, module or class, it does not load, or it is not a complete
+                protocol.
+        """
+        place, colon, class_name = reference.rpartition(":")
+        if not (colon and place and class_name.isidentifier()):
+            hint = _class_meant(reference, folder)
+            raise BadValue(f"`{reference}` does not name a class", hint, expected=_REFERENCE)
+        if not _is_file(place):
+            return _protocol_in(_import_module(place, folder, class_name), class_name, place)
+        protocol = _protocol_in(self._load_file(place, folder), class_name, place)
+        remember_origin(protocol, Origin((folder / place).resolve(), class_name, self._modules))
+        return protocol
+
+    def files(self, reference: str, folder: Path) -> tuple[Path, ...]:
+        """Return the files that the protocol of a reference consists of, once it is loaded."""
+        place = reference.rpartition(":")[0]
+        if _is_file(place):
+            file = (folder / place).resolve()
+            root = file.parent
+        else:
+            file_of_module = getattr(sys.modules.get(place), "__file__", None)
+            if file_of_module is None:  # a module that is built in
+                return ()
+            file = Path(file_of_module).resolve()
+            root = root_of_module(place, file)
+        if (file, root) not in self._files:
+            self._files[file, root] = imported_files(file, root)
+        return self._files[file, root]
+
+    def _load_file(self, place: str, folder: Path) -> ModuleType:
+        file = folder / place
+        try:
+            is_file = file.is_file()
+        except OSError as error:
+            raise BadValue(f"{file}: {error.strerror}") from error
+        if not is_file:
+            hint = file_meant(file, (".py",), place)
+            raise BadValue(f"there is no file {file}", hint, expected=_REFERENCE)
+        try:
+            return self._modules.load(file)
+        except KeyboardInterrupt:
+            raise
+        except BeingLoadedError as error:
+            raise BadValue(
+                f"{error}: it reads this configuration when it is imported",
+                expected='that below `if __name__ == "__main__":`, or the class as `__main__:Class`',
+            ) from error
+        except BaseException as error:
+            raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
+
+
+def _is_file(place: str) -> bool:
+    """Return whether the part before the colon is a file rather than a module."""
+    return place.endswith(".py") or "/" in place or "\\" in place
+
+
+def _import_module(name: str, folder: Path, class_name: str) -> ModuleType:
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name is None or not f"{name}.".startswith(f"{error.name}."):
+            raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
+        file = f"{name.replace('.', '/')}.py"
+        hint = f"; did you mean `{file}:{class_name}`?" if (folder / file).is_file() else ""
+        raise BadValue(f"this Python finds no module `{error.name}`", hint, expected=_REFERENCE) from error
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
+        raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
+
+
+def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
+    cls = getattr(module, name, None)
+    protocols = [key for key, value in vars(module).items() if _is_protocol(value)]
+    others = f"; there are {', '.join(protocols)}" if protocols else ""
+    if cls is None:
+        raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or others)
+    if not _is_protocol(cls):
+        why = "is not a protocol: it does not derive from IProtocol"
+        if cls is IProtocol:
+            why = "is not a protocol but the interface that protocols derive from"
+        raise BadValue(f"`{name}` in {place} {why}", others)
+    protocol: type[IProtocol] = cls
+    if inspect.isabstract(protocol):
+        missing = sorted(protocol.__abstractmethods__)
+        own = [key for key in dir(protocol) if not key.startswith("_") and key not in dir(IProtocol)]
+        alike = [meant for method in missing if (meant := misspelt(method, own))]
+        hint = f"; it has {_calls(alike)}" if alike else ""
+        raise BadValue(f"`{name}` in {place} is not complete, it lacks {_calls(missing)}", hint)
+    check_contract(protocol)
+    return protocol
+
+
+def _class_meant(reference: str, folder: Path) -> str:
+    """Return a hint for the name of a native protocol, and for a dot instead of the colon."""
+    if is_native_name(reference):
+        return "; did you mean `protocol.typename`?"
+    module, _, class_name = reference.rpartition(".")
+    file = f"{module.replace('.', '/')}.py"
+    is_meant = module and class_name.isidentifier() and class_name != "py" and os.path.isfile(folder / file)
+    return f"; did you mean `{file}:{class_name}`?" if is_meant else ""
+
+
+def _calls(methods: list[str]) -> str:
+    return ", ".join(f"{method}()" for method in methods)
+
+
+def _is_protocol(value: object) -> bool:
+    return isinstance(value, type) and issubclass(value, IProtocol) and value is not IProtocol
+
+
+def _error_text(error: BaseException, folder: Path | None = None) -> str:
+    """Return what was raised, and the innermost line of the user's own files that led to it."""
+    text = "".join(traceback.format_exception_only(error)[-1:]).strip()
+    if isinstance(error, SyntaxError) and error.filename and error.lineno:
+        return f"{text} ({error.filename}:{error.lineno})" if "line " not in text else text
+    frames = [
+        frame for frame in traceback.extract_tb(error.__traceback__) if "importlib" not in frame.filename
+    ]
+    own = [
+        frame
+        for frame in frames
+        if folder is not None and Path(frame.filename).resolve().is_relative_to(folder.resolve())
+    ]
+    innermost = (own or frames)[-1:]
+    return f"{text} ({innermost[0].filename}:{innermost[0].lineno})" if innermost else text
+
+
+_CALLBACKS = {
+    name: tuple(inspect.signature(vars(IProtocol)[name]).parameters)
+    for name in ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
+}
+"""Their arguments, with `self`. All are passed by position."""
+
+
+def check_contract(protocol: type[IProtocol]) -> None:
+    """Check that the constructor and the callbacks of a complete protocol can be called.
+
+    Python finds a wrong signature only at the call: in the middle of a run, or never.
+
+    Raises:
+        BadValue: A method has other arguments, or its code would not run.
+    """
+    if vars(IProtocol)["instantiate"] is inspect.getattr_static(protocol, "instantiate"):
+        _check_method(protocol, "__init__", ("self",))
+    for name, arguments in _CALLBACKS.items():
+        _check_method(protocol, name, arguments)
+
+
+def _check_method(protocol: type[IProtocol], name: str, arguments: tuple[str, ...]) -> None:
+    method = inspect.getattr_static(protocol, name)
+    given = arguments
+    if isinstance(method, staticmethod | classmethod):
+        method, given = getattr(protocol, name), arguments[1:]
+    elif not isinstance(method, FunctionType):
+        if hasattr(method, "__get__"):
+            return  # only an instance tells what such a descriptor returns
+        given = arguments[1:]
+    expected = f"`def {name}({', '.join(arguments)})`"
+    if not callable(method):
+        raise BadValue(f"`{name}` of `{protocol.__name__}` is {method!r}", expected=expected)
+    code = getattr(inspect.unwrap(method), "__code__", None)
+    where = f"of `{protocol.__name__}`" + (f" ({code.co_filename}:{code.co_firstlineno})" if code else "")
+    signature = _signature_of(method)
+    try:
+        if signature is not None:
+            signature.bind(*given)
+    except TypeError:
+        call = f"with `{arguments[1]}` alone" if arguments[1:] else "without arguments"
+        raise BadValue(f"`{name}{signature}` {where} cannot be called {call}", expected=expected) from None
+    if inspect.iscoroutinefunction(method) or inspect.isasyncgenfunction(method):
+        raise BadValue(f"`{name}` {where} is asynchronous, and nothing would await it", expected=expected)
+    if inspect.isgeneratorfunction(method):
+        problem = f"`{name}` {where} is a generator, as it has a `yield`, and its code would not run"
+        raise BadValue(problem, expected=expected)
+
+
+def _signature_of(function: object) -> inspect.Signature | None:
+    """Return what the function itself takes, not what a decorated one takes; None if nothing tells."""
+    if "__signature__" in getattr(function, "__dict__", {}):
+        return None  # it is for display
+    try:
+        return inspect.signature(function, follow_wrapped=False)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        return None
