@@ -132,27 +132,27 @@ class EngineHandlers:
     def register_node(
         self, node: "Node", encapsulator: NetsimEncapsulator[Any] | NativeView, seed: int
     ) -> None:
-        """Show every handler one more node."""
+        """Register one more node with every handler."""
         if self.by_label:
             view = cast("SimulatorNode[Any]", NodeView(node, encapsulator, seed))
             for handler in self.by_label.values():
                 handler.register_node(view)
 
     def initialize(self) -> None:
-        """Begin; before the protocols do."""
+        """Initialize the handlers, before the protocols."""
         for handler in self.by_label.values():
             self._live.append(handler)
             handler.initialize()
 
     @property
     def held_up_s(self) -> float:
-        """Wall seconds for which the handlers held the run up on purpose."""
+        """Wall time for which handlers paused the run, in seconds."""
         return sum(getattr(handler, "held_up_s", 0.0) for handler in self.by_label.values())
 
     def run_until(self, limit_s: float, max_events: int) -> bool:
-        """Run at most so many events up to `limit_s`, and say whether that was all of them.
+        """Run at most `max_events` events up to `limit_s`; return whether these were all.
 
-        If a handler wants its turn after every event, the events are run one at a time.
+        The events are run one at a time if a handler is called after each of them.
         """
         network, hooks = self._network, self._hooks
         if not hooks:
@@ -166,12 +166,12 @@ class EngineHandlers:
         return False
 
     def finalize(self, *, complete: bool = True) -> None:
-        """End; after the protocols have. Unless the run is complete, assertions judge nothing more."""
+        """Finalize the handlers, after the protocols. Assertions are checked only if the run is complete."""
         if not complete:
             judge_nothing_more(self._live)
         while self._live:
             self._live.pop(0).finalize()
 
     def finalize_after_failure(self) -> None:
-        """End those that are left; what they raise is logged, and does not hide the failure before."""
+        """Finalize the remaining handlers; their exceptions are logged and do not hide the earlier one."""
         finalize_after_failure(self._live)

@@ -1,15 +1,15 @@
-"""A run of the engine at the pace of the wall clock, for those who watch it."""
+"""A run of the engine at the pace of the wall clock, for viewers."""
 
 from collections.abc import Callable
 
 from gradysim.simulator.real_time import RealTimePacer
 
 TURN_S = 0.01
-"""Wall time between two looks at the clock, in seconds: an event is up to so much late, and never early."""
+"""Wall time between two readings of the clock, in seconds: events are up to this late, and never early."""
 
 
 class RealTimeRun:
-    """Runs the events that are due, and waits; for `run_in_slices`."""
+    """Runs the events that are due, and waits; for `run_in_chunks`."""
 
     def __init__(
         self,
@@ -21,10 +21,11 @@ class RealTimeRun:
         """Start the clock.
 
         Args:
-            run_until: Runs all events up to a simulated time (s), but at most so many; whether it got there.
+            run_until: Runs all events up to a simulated time (s), up to a number of events; returns whether
+                it reached that time.
             limit_s: Simulated time of the end.
             factor: Simulated seconds in each wall second, > 0.
-            held_up_s: Returns the wall seconds for which handlers held the run up on purpose.
+            held_up_s: Returns the wall time (s) for which handlers paused the run.
         """
         self._run_until = run_until
         self._limit_s = limit_s
@@ -33,7 +34,7 @@ class RealTimeRun:
         self._due_s = 0.0
 
     def advance(self, max_events: int) -> bool:
-        """Run at most so many of the events that are due, then wait for the next turn; whether it is over."""
+        """Run at most `max_events` events that are due, then wait; return whether the run is over."""
         pacer = self._pacer
         pacer.held_up_s = self._held_up_s()
         self._due_s = min(max(self._due_s, pacer.due_s()), self._limit_s)
@@ -42,7 +43,7 @@ class RealTimeRun:
         if self._due_s >= self._limit_s:
             return True
         pacer.held_up_s = self._held_up_s()
-        # What was waited for is due, whatever the rounding.
+        # Events up to this time are due after the wait, whatever the rounding.
         self._due_s = min(pacer.due_s(TURN_S), self._limit_s)
         pacer.wait_until(self._due_s)
         return False

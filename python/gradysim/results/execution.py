@@ -45,6 +45,7 @@ class ScenarioRun(ABC):
         self._scenario = scenario
         self._started_s = (perf_counter(), process_time())
         self._cost_s = (0.0, 0.0)
+        self._setup_s = 0.0
         self._complete = False
         self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
@@ -64,6 +65,7 @@ class ScenarioRun(ABC):
         `finish`. So does an exception in a handler, such as that of an assertion that failed. Handlers are
         finalized in any case.
         """
+        self._setup_s = perf_counter() - self._started_s[0]
         interrupt: KeyboardInterrupt | None = None
         try:
             with self._execution():
@@ -99,6 +101,7 @@ class ScenarioRun(ABC):
             mode=self.mode,
             wall_s=self._cost_s[0],
             cpu_s=self._cost_s[1],
+            setup_s=self._setup_s,
             interrupted=not self._complete,
             nodes=tuple(self._node_results()),
             **self._measured(),

@@ -257,6 +257,16 @@ class RunResult:
             to_json=dict,
         ),
     ] = field(default_factory=dict)
+    setup_s: Annotated[
+        float,
+        Quantity(
+            "Part of `wall_s` in which the network and the protocols were built.",
+            unit="s",
+            scalar="setupTime",
+            summary="setup time",
+            digits=".3f",
+        ),
+    ] = 0.0
 
     def to_json_object(self) -> dict[str, object]:
         """Return the result as plain dicts, lists, strings and numbers."""

@@ -11,7 +11,7 @@ import pytest
 from gradysim.cli.app import main
 from python.cli.command import both_modes, environment, objects, run_command
 
-COSTS = ("wall_s", "cpu_s")
+COSTS = ("wall_s", "cpu_s", "setup_s")
 
 TELLS = """
 import os

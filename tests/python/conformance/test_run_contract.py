@@ -57,7 +57,7 @@ def test_the_cost_counts_from_building_to_the_end(result_of, monkeypatch):
         times = chain([begin], repeat(end))
         monkeypatch.setattr(f"gradysim.results.execution.{clock}", times.__next__)
     result = result_of()
-    assert (result.wall_s, result.cpu_s) == (2.5, 1.0)
+    assert (result.wall_s, result.cpu_s, result.setup_s) == (2.5, 1.0, 2.5)
 
 
 def test_what_the_nodes_tracked(result_of):

@@ -1,9 +1,12 @@
 import dataclasses
 import math
+from typing import Annotated
 
 import pytest
 
 from gradysim.results.delays import constant_delays
+from gradysim.results.quantity import Average, Quantity, Scalar, averages_of, json_object, scalars_of
+from gradysim.results.reference import table
 from gradysim.results.result import NodeResult, RunResult
 
 NODE = NodeResult(0, "uavs[0]", "Scout", (1.0, 2.0, 3.0), {})
@@ -25,6 +28,7 @@ def test_of_the_run():
         ("Network", "wallTime"): 0.25,
         ("Network", "cpuTime"): 0.125,
         ("Network", "event:count"): 10,
+        ("Network", "setupTime"): 0.0,
     }
 
 
@@ -98,3 +102,23 @@ def test_names_say_how_the_number_was_made(name):
     (scalar,) = (scalar for scalar in result.scalars("Network") if scalar.name == name)
     source, _, mode = name.rpartition(":")
     assert (scalar.attributes["source"], scalar.attributes["recordingmode"]) == (source, mode)
+
+
+@dataclasses.dataclass(frozen=True)
+class Counted:
+    """A result with one number."""
+
+    hops: Annotated[int, Quantity("Hops.", unit="m", scalar="hops:max", summary="hops", mean="hops in m")]
+    secret: Annotated[int, Quantity("Not in JSON.", in_json=False)] = 0
+
+
+def test_a_number_appears_everywhere_from_its_declaration():
+    assert json_object(Counted(3)) == {"hops": 3}
+    attributes = {"unit": "m", "source": "hops", "recordingmode": "max"}
+    assert list(scalars_of(Counted(3), "N")) == [Scalar("N", "hops:max", 3, attributes)]
+    assert list(averages_of(Counted, {"hops": 3})) == [Average("hops in m", 3)]
+    assert "| `hops` | Hops. | m | `hops:max` | `hops in m` |" in table(Counted)
+
+
+def test_a_result_file_of_an_older_version_lacks_numbers():
+    assert list(averages_of(Counted, {})) == []
