@@ -14,17 +14,24 @@ Each command has its own file in `gradysim.cli`.
 import os
 import sys
 from collections.abc import Sequence
+from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
 from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.cli.calibrate import calibrate_power
-from gradysim.cli.exit_code import INTERRUPTED, MISTAKE, OK, say_mistake
+from gradysim.cli.exit_code import (
+    INTERRUPTED,
+    MISTAKE,
+    OK,
+    abandon_output,
+    is_about_output,
+    say_mistake,
+)
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
-from gradysim.cli.standard_output import is_about_output, named_output
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -70,7 +77,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
-    sys.stdout = named_output(sys.stdout)
+    if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
+        sys.stdout.reconfigure(errors="backslashreplace")  # no character is an error
     try:
         try:
             code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
@@ -81,7 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except SystemExit as end:
-        if isinstance(end.__context__, BrokenPipeError) and is_about_output(end.__context__):
+        if isinstance(end.__context__, BrokenPipeError):
             return OK  # what rich makes of it
         raise
     except OSError as error:
@@ -90,11 +98,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         abandon_output()
         if isinstance(error, BrokenPipeError):  # who reads the output, such as `head`, has had enough
             return OK
-        print(error.filename, error.strerror, sep=": ", file=sys.stderr)
+        print(f"standard output: {error.strerror}", file=sys.stderr)
         return MISTAKE
     return code if isinstance(code, int) else OK
-
-
-def abandon_output() -> None:
-    """Let nothing more be written to standard output: the interpreter flushes it once more as it ends."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

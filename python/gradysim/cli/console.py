@@ -10,6 +10,12 @@ _NO_BOUND = 10_000
 """Columns. Tables take as many as they need."""
 
 
+class _Console(Console):
+    def on_broken_pipe(self) -> None:
+        """Raise the BrokenPipeError, which the command deals with. Rich would exit."""
+        raise
+
+
 def console(output: TextIO | None = None) -> Console:
     """Return a console for `output`, by default standard output.
 
@@ -18,4 +24,4 @@ def console(output: TextIO | None = None) -> Console:
     """
     target = sys.stdout if output is None else output
     has_width = target.isatty() or "COLUMNS" in os.environ
-    return Console(file=target, width=None if has_width else _NO_BOUND)
+    return _Console(file=target, width=None if has_width else _NO_BOUND)

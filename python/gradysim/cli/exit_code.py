@@ -1,17 +1,29 @@
 """How a command ends."""
 
+import errno
+import os
 import sys
 import traceback
 
-from gradysim.cli.standard_output import is_about_output
-
 OK, FAILED, MISTAKE, INTERRUPTED = 0, 1, 2, 130
+
+_TAKES_NO_MORE = {errno.EPIPE, errno.ENOSPC, errno.EFBIG, errno.EDQUOT, errno.EIO}
+
+
+def is_about_output(error: BaseException | None) -> bool:
+    """Return whether standard output takes no more. An error about another file has the name of that file."""
+    return isinstance(error, OSError) and error.errno in _TAKES_NO_MORE and error.filename is None
+
+
+def abandon_output() -> None:
+    """Let nothing more be written to standard output: the interpreter flushes it once more as it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def say_mistake(mistake: Exception) -> int:
     """Say what the user got wrong, without a traceback, and return the exit code."""
     if is_about_output(mistake):
-        raise mistake  # nobody reads it, or the disk is full: `main` deals with it
+        raise mistake  # `main` deals with it
     print(text_of(mistake), file=sys.stderr)
     return MISTAKE
 

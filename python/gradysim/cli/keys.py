@@ -37,9 +37,9 @@ def list_keys(
     if markdown:
         print(key_table.markdown(sections), end="")
     elif sys.stdout.isatty():
-        from rich.console import Console
+        from gradysim.cli.console import console
 
-        Console().print(key_table.rich_tables(sections))
+        console().print(key_table.rich_tables(sections))
     else:
         print(key_table.plain_text(sections), end="")
     return OK

@@ -1,11 +1,10 @@
 """The scenarios that a command line names."""
 
+import contextlib
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
-
-from gradysim.cli.current_folder import back_afterwards
 
 if TYPE_CHECKING:
     from gradysim.scenario.load import CheckedScenarios
@@ -24,13 +23,13 @@ def check(
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
-    with back_afterwards():  # files of protocols are carried out
+    with contextlib.chdir("."):  # afterwards; files of protocols are carried out, and may go elsewhere
         return CheckedScenarios(file, config, runs, settings, seed, names)
 
 
 def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "list[Scenario]":
     """Return some of them with all their nodes where they are."""
-    with back_afterwards():
+    with contextlib.chdir("."):
         return [checked.placed(scenario) for scenario in scenarios]
 
 

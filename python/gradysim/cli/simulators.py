@@ -8,7 +8,7 @@ from gradysim.cli.arguments import Mode
 from gradysim.cli.asked import Asked
 
 if TYPE_CHECKING:
-    from gradysim.cli.supervised_run import Run
+    from gradysim.cli.execution import Run
     from gradysim.scenario.node.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
 

@@ -1,5 +1,7 @@
-"""The command as a process of its own, and the folder that it runs in."""
+"""The command, called in this process or as a process of its own, and the folder that it runs in."""
 
+import contextlib
+import io
 import json
 import os
 import signal
@@ -11,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.cli.app import main
 from python.quiet_protocol import QUIET
 
 PROTOCOL = f"""{QUIET}
@@ -117,8 +120,21 @@ def run_command(folder: Path, *command: str) -> subprocess.CompletedProcess[str]
 
 
 def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the command in a folder."""
+    """Run the command in a folder, as a process of its own. `call_gradysim` takes a tenth of the time."""
     return run_command(folder, sys.executable, "-m", "gradysim", *arguments)
+
+
+def call_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
+    """Call the command in a folder, in this process, which it forks for each run."""
+    output, error_output = io.StringIO(), io.StringIO()
+    streams = contextlib.redirect_stdout(output), contextlib.redirect_stderr(error_output)
+    with contextlib.chdir(folder), streams[0], streams[1], pytest.MonkeyPatch.context() as patch:
+        patch.setenv("COLUMNS", "100")
+        try:
+            code = main(arguments)
+        except SystemExit as end:
+            code = end.code
+    return subprocess.CompletedProcess(arguments, code, output.getvalue(), error_output.getvalue())
 
 
 def run_without(module: str, folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from python.cli.command import INI, PROTOCOL, Gradysim, run_gradysim
+from python.cli.command import INI, PROTOCOL, Gradysim, call_gradysim
 
 
 @pytest.fixture
@@ -18,6 +18,6 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def gradysim(folder: Path) -> Gradysim:
-    """`gradysim(*arguments)` runs the command in the folder with test.ini."""
+    """`gradysim(*arguments)` calls the command in the folder with test.ini."""
 
-    return partial(run_gradysim, folder)
+    return partial(call_gradysim, folder)

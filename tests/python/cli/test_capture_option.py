@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from python.cli.command import Gradysim, compiled, run_gradysim
+from python.cli.command import Gradysim, call_gradysim, compiled
 from python.quiet_protocol import QUIET
 
 PROTOCOL = f"""{QUIET}
@@ -40,7 +40,7 @@ def gradysim_run(tmp_path: Path) -> Gradysim:
     (tmp_path / "protocol.py").write_text(PROTOCOL)
     (tmp_path / "test.ini").write_text(INI)
 
-    return partial(run_gradysim, tmp_path, "run", "test.ini")
+    return partial(call_gradysim, tmp_path, "run", "test.ini")
 
 
 def names_in(folder: Path) -> list[str]:

@@ -1,9 +1,10 @@
+import os
 import signal
 import threading
 
 import pytest
 
-from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.interrupt import FORWARDED, StopOnInterrupt
 
 
 def test_nothing_was_pressed():
@@ -34,7 +35,7 @@ def test_where_nothing_is_lost_the_first_press_is_an_order():
     with StopOnInterrupt() as interrupt:
         with pytest.raises(KeyboardInterrupt), interrupt.at_once():
             signal.raise_signal(signal.SIGINT)
-        assert not interrupt.should_stop()
+        assert interrupt.should_stop()
 
 
 def test_behind_it_the_first_press_is_a_wish_again():
@@ -65,3 +66,30 @@ def test_in_another_thread_it_does_no_harm():
     thread.start()
     thread.join()
     assert answers == [False]
+
+
+def test_presses_are_passed_on_to_workers_and_the_third_one_raises(monkeypatch):
+    sent = []
+    monkeypatch.setattr(os, "kill", lambda *signal: sent.append(signal))
+    with StopOnInterrupt() as interrupt:
+        interrupt.workers = [11, 12]
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    assert sent == [(11, FORWARDED), (12, FORWARDED)] * 3
+
+
+def test_a_worker_counts_one_press_that_terminal_and_command_tell_of_once():
+    before = signal.getsignal(FORWARDED)
+    try:
+        with StopOnInterrupt() as interrupt:
+            interrupt.become_worker()
+            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(FORWARDED)
+            assert interrupt.should_stop()
+            with pytest.raises(KeyboardInterrupt):
+                signal.raise_signal(FORWARDED)
+            signal.raise_signal(signal.SIGINT)  # of the same, second press
+    finally:
+        signal.signal(FORWARDED, before)

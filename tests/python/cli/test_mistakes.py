@@ -1,10 +1,9 @@
 """What a user is told who made a mistake."""
 
-import sys
-
 import pytest
 
-from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, run_command, run_without
+from gradysim.integrated import network
+from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, run_without
 
 
 def test_a_wrong_key_is_named_with_its_place(gradysim):
@@ -40,20 +39,17 @@ def test_a_mistake_that_only_the_whole_network_shows_is_found_before_a_single_ru
 
 
 @compiled
-@pytest.mark.parametrize(("runs", "built"), [("0", 1), ("0..2", 6)])
-def test_a_single_network_is_built_once(folder, runs, built):
-    code = (
-        "import sys; from gradysim.cli.app import main; from gradysim.integrated import network, run\n"
-        "built = []\n"
-        "def build_network(scenario, build=network.build_network):\n"
-        "    built.append(scenario)\n"
-        "    return build(scenario)\n"
-        "network.build_network = run.build_network = build_network\n"
-        f"main(['run', 'test.ini', '-r', '{runs}', '--quiet'])\n"
-        "print('networks:', len(built))"
-    )
-    done = run_command(folder, sys.executable, "-c", code)
-    assert done.stdout.splitlines()[-1] == f"networks: {built}"
+@pytest.mark.parametrize(("runs", "checked"), [("0", 0), ("0..2", 3)])
+def test_a_single_network_is_not_built_before_its_run(gradysim, monkeypatch, runs, checked):
+    built = []  # in this process, not in those of the runs
+
+    def build_network(scenario, build=network.build_network):
+        built.append(scenario)
+        return build(scenario)
+
+    monkeypatch.setattr(network, "build_network", build_network)
+    assert gradysim("run", "test.ini", "-r", runs, "--quiet").returncode == 0
+    assert len(built) == checked
 
 
 @pytest.mark.parametrize(

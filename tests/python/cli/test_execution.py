@@ -1,17 +1,17 @@
 from asyncio import CancelledError
 from io import StringIO
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from rich.console import Console
 
-from gradysim.cli.supervised_run import carry_out
+from gradysim.cli.execution import execute
+from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.results.result import RunResult
 from gradysim.scenario.errors.config_error import ConfigError
 
-SCENARIO = SimpleNamespace(config="General", run_number=0, sim_time_limit_s=10.0, file=Path("a.ini"))
+SCENARIO = SimpleNamespace(config="General", run_number=0, sim_time_limit_s=10.0, nodes=())
 
 
 class FakeRun:
@@ -31,30 +31,29 @@ class FakeRun:
     def result(self):
         return RunResult("General", 0, 0, "prototype", 5.0, 1.0, 1.0, 3, self.interrupted, None, {}, ())
 
-
-def never():
-    return False
+    def findings(self):
+        return []
 
 
 def test_a_whole_run():
-    outcome = carry_out(lambda _: FakeRun(), SCENARIO, never)
+    outcome = execute(lambda _: FakeRun(), SCENARIO, StopOnInterrupt(), None)
     assert (outcome.result.events, outcome.failure, outcome.interrupted) == (3, None, False)
 
 
 def test_a_stopped_run():
-    assert carry_out(lambda _: FakeRun(interrupted=True), SCENARIO, never).interrupted
+    assert execute(lambda _: FakeRun(interrupted=True), SCENARIO, StopOnInterrupt(), None).interrupted
 
 
 @pytest.mark.parametrize("failure", [RuntimeError("spoilt"), SystemExit(3), CancelledError()])
 def test_a_failing_run_keeps_its_result(failure):
-    outcome = carry_out(lambda _: FakeRun(failure, interrupted=True), SCENARIO, never)
+    outcome = execute(lambda _: FakeRun(failure, interrupted=True), SCENARIO, StopOnInterrupt(), None)
     assert outcome.failure is failure
     assert outcome.result.events == 3
     assert not outcome.interrupted
 
 
 def test_an_interrupt_that_comes_through_keeps_the_result():
-    outcome = carry_out(lambda _: FakeRun(KeyboardInterrupt()), SCENARIO, never)
+    outcome = execute(lambda _: FakeRun(KeyboardInterrupt()), SCENARIO, StopOnInterrupt(), None)
     assert outcome.interrupted
     assert outcome.result.events == 3
 
@@ -64,7 +63,7 @@ def test_a_protocol_that_cannot_be_made_is_a_failure_without_a_result(failure):
     def build(_):
         raise failure
 
-    outcome = carry_out(build, SCENARIO, never)
+    outcome = execute(build, SCENARIO, StopOnInterrupt(), None)
     assert outcome.result is None
     assert outcome.failure is failure
 
@@ -77,18 +76,19 @@ def test_a_mistake_and_an_interruption_are_passed_on(mistake):
         raise mistake
 
     with pytest.raises(type(mistake)):
-        carry_out(build, SCENARIO, never)
+        execute(build, SCENARIO, StopOnInterrupt(), None)
 
 
 def test_without_a_console_nothing_is_shown():
     run = FakeRun()
-    carry_out(lambda _: run, SCENARIO, never)
-    assert run.arguments == (None, never)
+    interrupt = StopOnInterrupt()
+    execute(lambda _: run, SCENARIO, interrupt, None)
+    assert run.arguments == (None, interrupt.should_stop)
 
 
 def test_with_a_console_a_bar_that_names_the_run_is_moved():
     run, shown = FakeRun(), StringIO()
-    carry_out(lambda _: run, SCENARIO, never, Console(file=shown, force_terminal=True, width=100))
-    assert run.arguments[1] is never
+    terminal = Console(file=shown, force_terminal=True, width=100)
+    execute(lambda _: run, SCENARIO, StopOnInterrupt(), terminal)
     assert "General run 0" in shown.getvalue()
     assert "5 of 10 s" in shown.getvalue()

@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.cli.unfinished_runs import text_of_unfinished
+from gradysim.cli.study import text_of_unfinished
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,7 @@
-"""The traceback of an exception in a protocol, from the user's code on."""
+"""Why a run failed: the traceback of an exception in a protocol, from the user's code on, or a crash."""
 
+import contextlib
+import faulthandler
 import traceback
 from pathlib import Path
 from types import TracebackType
@@ -22,6 +24,13 @@ REFUSED_COMMANDS = (CommunicationException, MasslessMobilityException, TimerExce
 
 WITHOUT_FRAMES = (NativeProtocolError, CaptureError, SitlError)
 """No code of the user led to these."""
+
+
+def report_crashes() -> None:
+    """Let the interpreter say on the error output in which line it crashes, as in a library written in C."""
+    with contextlib.suppress(OSError, ValueError):  # an error output that is no file
+        if not faulthandler.is_enabled():
+            faulthandler.enable()
 
 
 def print_failure(failure: BaseException, file: TextIO) -> None:
