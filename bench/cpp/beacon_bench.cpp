@@ -1,8 +1,8 @@
 // Beacons in networks of constant density: what a delivered frame costs from 100 to 10,000 nodes.
 //
-// Goals: nanoseconds per delivered frame at 10,000 nodes at most 1.3 times those at 100 nodes; 10,000 nodes faster
-// than real time on one core; less than 4 kB of memory per node, which does not grow over simulated time. The lines of
-// 10,000 nodes end with the distances to them.
+// Goals: nanoseconds per delivered frame at 10,000 nodes at most 1.3 times those at 100 nodes;
+// 10,000 nodes faster than real time on one core; less than 4 kB of memory per node, which does not
+// grow over simulated time. The lines of 10,000 nodes end with the distances to them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,18 +44,19 @@ std::string judged(const std::string& name, double figure, const char* relation,
 // Of one kind of network; nothing about flatness if that of 100 nodes was not run.
 std::string distances_to_goals(double ns_of_100_nodes, double ns_per_frame, double x_real_time,
                                double bytes_per_node) {
-    constexpr double most_times = 1.3;
-    constexpr double most_bytes = 4096;
+    constexpr double max_times = 1.3;
+    constexpr double max_bytes = 4096;
     const double times = ns_per_frame / ns_of_100_nodes;
     return (ns_of_100_nodes > 0
-                ? judged("times 100 nodes'", times, "at most", most_times, times / most_times) + "; "
+                ? judged("times 100 nodes'", times, "at most", max_times, times / max_times) + "; "
                 : "") +
            judged("x_real_time", x_real_time, "more than", 1, 1 / x_real_time) + "; " +
-           judged("bytes per node", bytes_per_node, "less than", most_bytes, bytes_per_node / most_bytes);
+           judged("bytes per node", bytes_per_node, "less than", max_bytes, bytes_per_node / max_bytes);
 }
 
-// Networks of one size, each with places and phases of its own. A single small one says little: its phases are those of its
-// first second for ever, and in one of 100 nodes it is chance whether any two frames overlap.
+// Networks of one size, each with places and phases of its own. A single small one says little: its
+// phases are those of its first second forever, and in one of 100 nodes it is chance whether any
+// two frames overlap.
 class BeaconNetworks {
 public:
     BeaconNetworks(std::int64_t nodes, double speed_mps, double bitrate_bps)
@@ -71,7 +72,8 @@ public:
         }
     }
 
-    // One of them, so long that what the one before left in the caches makes no difference; then the next one.
+    // One of them, so long that what the one before left in the caches makes no difference; then
+    // the next one.
     void run_a_second() {
         netsim::Network& network = *networks_[(seconds_++ / seconds_in_turn_) % networks_.size()];
         network.run_until(network.now() + one_second);
@@ -140,8 +142,9 @@ void standing(benchmark::State& state) {
 }
 BENCHMARK(standing)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
-// As many nodes as in the largest network, in small ones that know nothing of each other: what a frame costs there and not in one
-// small network is not that many nodes share a channel, but that their memory together is more than the caches hold.
+// As many nodes as in the largest network, in small ones that know nothing of each other: what a
+// frame costs there and not in one small network is not that many nodes share a channel, but that
+// their memory together is more than the caches hold.
 void standing_in_100_networks(benchmark::State& state) {
     constexpr std::int64_t count = 100;
     BeaconNetworks networks(count, state.range(0), 0, -1, 1);

@@ -1,8 +1,9 @@
-// Broadcasts that all begin in one instant, as those of protocols whose timers nobody spread, or almost, as those of
-// clocks that GPS synchronises: hardly any is received, and each of them is beside each other one.
+// Broadcasts that all begin in one instant, as those of protocols whose timers nobody spread, or
+// almost, as those of clocks that GPS synchronises: hardly any is received, and each of them is
+// beside each other one.
 //
-// Goals: 1,000 nodes that send in one instant or within 100 ns take at most twice the time of 1,000 that send within a
-// millisecond, those that send within a microsecond at most three times.
+// Goals: 1,000 nodes that send in one instant or within 100 ns take at most twice the time of 1,000
+// that send within a millisecond, those that send within a microsecond at most three times.
 #include <array>
 #include <cstdio>
 #include <ctime>
@@ -22,7 +23,7 @@ double cpu_s_of(double spread_s) {
     return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-void compare_with_spread_out(benchmark::State& state, double spread_s, double most_times) {
+void compare_with_spread_out(benchmark::State& state, double spread_s, double max_times) {
     double spread_out_s = 0;
     double together_s = 0;
     for (auto _ : state) {
@@ -33,7 +34,7 @@ void compare_with_spread_out(benchmark::State& state, double spread_s, double mo
     state.counters["times_spread_out"] = times;
     std::array<char, 80> text{};
     std::snprintf(text.data(), text.size(), "times those within 1 ms %.3g (goal: at most %g, %s)", times,
-                  most_times, times <= most_times ? "reached" : "missed");
+                  max_times, times <= max_times ? "reached" : "missed");
     state.SetLabel(text.data());
 }
 

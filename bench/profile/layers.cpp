@@ -2,10 +2,11 @@
 //
 //     netsim_layers [nodes]        1,000 by default, for 5 s of CPU time
 //
-// The kernel's profiling timer interrupts the run every millisecond of CPU time, and the instruction it stopped at is noted. What
-// source line that is, `addr2line` (Debian's binutils) finds out from the debug information; code that was inlined
-// counts for the layer whose source it is, that of the standard library for who uses it. Time within the C
-// library (memory, mathematics) is a line of its own.
+// The kernel's profiling timer interrupts the run every millisecond of CPU time, and the
+// instruction it stopped at is noted. What source line that is, `addr2line` (Debian's binutils)
+// finds out from the debug information; code that was inlined counts for the layer whose source it
+// is, that of the standard library for who uses it. Time within the C library (memory, mathematics)
+// is a line of its own.
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -31,16 +32,16 @@ namespace {
 using netsim::SimTime;
 
 constexpr double measured_cpu_s = 5;
-constexpr std::size_t most_samples = 20'000;
+constexpr std::size_t max_samples = 20'000;
 constexpr const char* elsewhere = "C library";
 
 // Filled by the signal handler, which may not allocate.
-std::array<std::uintptr_t, most_samples> samples;
+std::array<std::uintptr_t, max_samples> samples;
 volatile std::sig_atomic_t sample_count = 0;
 
 void take_sample(int, siginfo_t*, void* context) {
     const auto count = static_cast<std::size_t>(sample_count);
-    if (count < most_samples) {
+    if (count < max_samples) {
         const auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext;
 #if defined(__x86_64__)
         samples[count] = static_cast<std::uintptr_t>(registers.gregs[REG_RIP]);
@@ -83,7 +84,8 @@ Image own_image() {
     return image;
 }
 
-// "…/netsim/mac/dcf.cpp:12" is "mac", "…/netsim/node/node.cpp:3" is "node"; "" is no source of the engine.
+// "…/netsim/mac/dcf.cpp:12" is "mac", "…/netsim/node/node.cpp:3" is "node"; "" is no source of the
+// engine.
 std::string layer_of(const std::string& place) {
     const std::string root = "/cpp/netsim/";
     const auto start = place.find(root);

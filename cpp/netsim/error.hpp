@@ -1,7 +1,8 @@
 // The two families of failed checks.
 //
-// What a user can cause raises ConfigError (before a run) or SimulationError (during one), with the value, its unit
-// and what was expected. What only a developer of the engine can cause is asserted with NETSIM_ASSERT.
+// Errors that a user can cause throw ConfigError (before a run) or SimulationError (during one),
+// with the value, its unit and what was expected. Errors that only a developer of the engine can
+// cause are asserted with NETSIM_ASSERT.
 #pragma once
 
 #include <memory>
@@ -50,7 +51,8 @@ private:
     std::shared_ptr<const Problem> problem_;  // shared, so that copying an error cannot fail
 };
 
-// A command of a protocol that cannot be carried out: a timer in the past, an unknown destination, …
+// A command of a protocol that cannot be carried out: a timer in the past, an unknown destination,
+// …
 class SimulationError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

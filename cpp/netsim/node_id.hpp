@@ -1,4 +1,5 @@
-// Who a frame is from and for: nodes are numbered from 0, in the order in which they were added to their network.
+// Identifies a node. Nodes are numbered from 0, in the order in which they were added to their
+// network.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,12 @@
 // Conversions between decibels and linear quantities, and the physical constants.
 //
-// The only place of the engine that takes logarithms of powers: inside, powers are watts and ratios are plain
-// numbers; decibels come in through configurations and go out through messages. 0 dBm is 1 mW.
+// The only place of the engine that takes logarithms of powers. Inside, powers are in watts and
+// ratios are linear. Decibels occur in configurations and messages only. 0 dBm is 1 mW.
 #pragma once
 
 namespace netsim {
 
-// In vacuum, exact by the definition of the metre.
+// In vacuum; exact by the definition of the meter.
 inline constexpr double speed_of_light_mps = 299'792'458.0;
 
 // 10^(db/10).

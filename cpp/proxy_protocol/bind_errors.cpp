@@ -1,5 +1,5 @@
-// The engine's exceptions, as exceptions of Python. Texts name files, whose names may be any bytes. A failure of a native
-// protocol knows where in the run it happened.
+// The engine's exceptions, as exceptions of Python. Texts name files, whose names may be any bytes.
+// A failure of a native protocol knows where in the run it happened.
 #include <cstring>
 #include <exception>
 #include <utility>

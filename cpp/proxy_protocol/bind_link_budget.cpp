@@ -1,4 +1,4 @@
-// The chances of a frame over distance, for whoever looks for a transmitter power.
+// Link budgets: the success of a frame over distance, to choose a transmit power.
 #include <pybind11/pybind11.h>
 
 #include "netsim/node/link_budget.hpp"

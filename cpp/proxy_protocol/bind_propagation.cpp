@@ -57,8 +57,7 @@ void bind_propagation(py::module_& module) {
              py::arg("from_node") = 0, py::arg("to_node") = 1, py::arg("time") = 0.0,
              py::arg("transmission") = 0)
         .def("reach_m", &Propagation::reach_m, py::arg("gain"), py::arg("carrier_hz"))
-        .def("most_gain_beyond", &Propagation::most_gain_beyond, py::arg("distance_m"),
-             py::arg("carrier_hz"));
+        .def("most_gain_beyond", &Propagation::max_gain_beyond, py::arg("distance_m"), py::arg("carrier_hz"));
 }
 
 }  // namespace proxy_protocol

@@ -1,4 +1,5 @@
-// The compiled module gradysim._netsim. Python's side of it is described in python/gradysim/_netsim.pyi.
+// The compiled module gradysim._netsim. Python's side of it is described in
+// python/gradysim/_netsim.pyi.
 #include <pybind11/pybind11.h>
 
 #include "netsim/kernel/sim_time.hpp"

@@ -34,8 +34,8 @@ public:
     const char* what() const noexcept override { return "what was given cannot be read as a command"; }
 };
 
-// An attribute of a command. What has none is no command of that kind, but something else that a protocol passed by
-// mistake: a text, or a command to its vehicle in the place of one to its radio.
+// An attribute of a command. What has none is no command of that kind, but something else that a
+// protocol passed by mistake: a text, or a command to its vehicle in the place of one to its radio.
 py::object attribute(py::handle command, PyObject* name) {
     PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
@@ -79,8 +79,9 @@ py::object ask(const char* function, const Arguments&... arguments) {
     return py::module_::import("gradysim.encapsulator.refused_commands").attr(function)(arguments...);
 }
 
-// Carries out a command. What it refuses is raised as that exception of gradysim.protocol.errors, as in every mode.
-// `wrong` asks what is wrong with the command itself; if nothing is, the engine has said what is.
+// Carries out a command. What it refuses is raised as that exception of gradysim.protocol.errors,
+// as in every mode. `wrong` asks what is wrong with the command itself; if nothing is, the engine
+// has said what is.
 template <typename Command, typename Wrong>
 void carry_out(const char* exception, Command command, Wrong wrong) {
     std::string words;

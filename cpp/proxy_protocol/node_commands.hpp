@@ -1,4 +1,5 @@
-// What a Python protocol asks of its node, taken apart: commands and numbers of Python to calls of the engine.
+// What a Python protocol asks of its node, taken apart: commands and numbers of Python to calls of
+// the engine.
 //
 // What cannot be carried out raises an exception of gradysim.protocol.errors.
 #pragma once
@@ -9,9 +10,11 @@
 
 namespace proxy_protocol {
 
-// command: gradysim.protocol.messages.communication.CommunicationCommand (or an object with its attributes).
+// command: gradysim.protocol.messages.communication.CommunicationCommand (or an object with its
+// attributes).
 void send_communication_command(netsim::Node& node, pybind11::handle command);
-// command: gradysim.protocol.messages.mobility.MobilityCommand; not GOTO_GEO_COORDS, which is converted before.
+// command: gradysim.protocol.messages.mobility.MobilityCommand; not GOTO_GEO_COORDS, which is
+// converted before.
 void send_mobility_command(netsim::Node& node, pybind11::handle command);
 // timestamp: absolute simulated time in seconds.
 void schedule_timer(netsim::Node& node, pybind11::handle timer, pybind11::handle timestamp);

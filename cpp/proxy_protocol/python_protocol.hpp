@@ -1,7 +1,8 @@
 // The proxy protocol: a protocol of the engine that hands every event to a Python object.
 //
-// The methods are called by name at each event, not through bound methods kept from the start: the dispatcher plugin
-// binds them anew on the instance at any time. A call by name costs what the same call costs within Python.
+// The methods are called by name at each event, not through bound methods kept from the start: the
+// dispatcher plugin binds them anew on the instance at any time. A call by name costs what the same
+// call costs within Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,8 +14,9 @@ namespace proxy_protocol {
 
 class PythonProtocol final : public netsim::Protocol {
 public:
-    // `protocol` has the five methods of IProtocol. `on_failure(exception, callback_name)` is called when one of
-    // them raises, before the exception goes on through the engine to the caller of run_until.
+    // `protocol` has the five methods of IProtocol. `on_failure(exception, callback_name)` is
+    // called when one of them raises, before the exception goes on through the engine to the caller
+    // of run_until.
     PythonProtocol(pybind11::object protocol, pybind11::object on_failure);
 
     void initialize() override;

@@ -1,6 +1,7 @@
 // Text across the border: Python str <-> UTF-8.
 //
-// Any Python string may be sent, also one with lone surrogates, which plain UTF-8 cannot hold ("surrogatepass").
+// Any Python string may be sent, also one with lone surrogates, which plain UTF-8 cannot hold
+// ("surrogatepass").
 #pragma once
 
 #include <string>

@@ -1,7 +1,9 @@
-// The Telemetry of Python that a protocol is handed, up to a hundred times a second for each node.
+// The Python Telemetry object that is passed to a protocol, up to a hundred times a second per
+// node.
 //
-// To make one takes as long as many a callback. So the last one is used again, as zip() does with its tuples, if nobody can
-// tell it from a new one: nobody has kept it, its fields or its position, and nothing was written on it.
+// Creating one takes as long as many callbacks. So the last one is reused, as zip() does with its
+// tuples, if the protocol cannot notice: it kept no reference to the object, its fields or its
+// position, and did not change it.
 #pragma once
 
 #include <pybind11/pybind11.h>

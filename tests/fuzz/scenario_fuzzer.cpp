@@ -1,4 +1,5 @@
-// Searches for bytes whose scenario crashes, hangs or leaves a ledger out of balance. `make fuzz` runs it.
+// Searches for bytes whose scenario crashes, hangs or leaves a ledger out of balance. `make fuzz`
+// runs it.
 #include <cstdio>
 #include <cstdlib>
 

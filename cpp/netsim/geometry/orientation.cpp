@@ -4,8 +4,8 @@
 
 namespace netsim {
 
-// H. Goldstein, "Classical Mechanics", 1980, appendix B (xyz convention, Tait-Bryan angles); an elevation is the
-// negative of the angle about y.
+// H. Goldstein, "Classical Mechanics", 1980, appendix B (xyz convention, Tait-Bryan angles); an
+// elevation is the negative of the angle about y.
 Orientation::Orientation(const EulerAngles& angles) {
     const double heading_cos = std::cos(angles.heading_rad);
     const double heading_sin = std::sin(angles.heading_rad);

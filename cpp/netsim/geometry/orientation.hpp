@@ -1,8 +1,10 @@
-// How a body is turned: a rotation from its own frame to that of the scene. A value; used for nodes and antennas.
+// The orientation of a body: a rotation from its own frame to the scene's. Used for nodes and
+// antennas.
 //
-// The angles are INET's heading, elevation and bank (OMNeT++'s INET framework, MobilityBase): a body that is not
-// turned looks along x with z up; it is turned about z by the heading (x towards y), then about its own y axis by the
-// elevation (the nose up), then about its own x axis by the bank (y towards z).
+// The angles are INET's heading, elevation and bank (OMNeT++'s INET framework, MobilityBase).
+// Without rotation, a body faces along x with z up. It is rotated about z by the heading (x towards
+// y), then about its own y axis by the elevation (nose up), then about its own x axis by the bank
+// (y towards z).
 #pragma once
 
 #include "netsim/geometry/position.hpp"
@@ -19,11 +21,12 @@ struct EulerAngles {
 
 class Orientation {
 public:
-    // Not turned.
+    // Without rotation.
     constexpr Orientation() = default;
     explicit Orientation(const EulerAngles& angles);
 
-    // Looks along `direction`, which is of any length but 0, with no bank. Straight up and down, the heading is 0.
+    // Faces along `direction`, of any length but 0, without bank. Straight up and down, the heading
+    // is 0.
     static Orientation facing(const Position& direction);
 
     Position to_scene(const Position& own) const { return own.x * x_ + own.y * y_ + own.z * z_; }
@@ -31,7 +34,7 @@ public:
         return {dot_product(x_, scene), dot_product(y_, scene), dot_product(z_, scene)};
     }
 
-    // Of a part that is mounted on this body; `offset` is seen from the body.
+    // The orientation of a part mounted on this body. `offset`: relative to the body.
     Orientation mounted(const Orientation& offset) const {
         return {to_scene(offset.x_), to_scene(offset.y_), to_scene(offset.z_)};
     }

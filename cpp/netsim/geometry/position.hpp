@@ -1,11 +1,12 @@
-// A point, or the difference of two points, in the scene's Cartesian frame: metres, z up.
+// A point, or the difference of two points, in the scene's Cartesian frame: meters, z up.
 #pragma once
 
 #include <cmath>
 
 namespace netsim {
 
-// The scene ends there: beyond, a signal would be on its way for longer than a node remembers where it was.
+// The border of the scene. Beyond it, propagation would take longer than a node remembers its past
+// positions.
 inline constexpr double largest_coordinate_m = 1e7;
 
 struct Position {

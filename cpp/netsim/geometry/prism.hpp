@@ -1,11 +1,13 @@
-// A body with vertical walls, a level floor and a level roof: a building, as far as radio waves are concerned.
+// A body with vertical walls, a level floor and a level roof: a building, as far as radio waves are
+// concerned.
 //
-// Its footprint is made of closed rings, those that lie within others being courtyards (even-odd rule); rings may be
-// given either way round. Used by the obstacles of the medium, which ask which stretches of a segment lie inside.
+// Its footprint consists of closed rings, in either direction. A ring within another is a courtyard
+// (even-odd rule). Used by the obstacles to find the parts of a segment that are inside.
 //
-// The body is open: what touches a wall, the roof or the floor, or runs along it, is not inside. "Touching" is within
-// `touch_m`, a few times the rounding of the scene's largest coordinates, so that a segment along a wall at any angle
-// touches it. All is worked out per corner, so that a segment through a corner cannot slip in without slipping out.
+// The body is open: what touches a wall, the roof or the floor, or runs along it, is not inside.
+// "Touching" is within `touch_m`, a few times the rounding of the scene's largest coordinates, so
+// that a segment along a wall at any angle touches it. Sides are computed per corner, so that a
+// segment through a corner enters and leaves consistently.
 #pragma once
 
 #include <array>
@@ -24,13 +26,13 @@ struct Stretch {
     static constexpr double no_face = -1;
 
     double length_m = 0;
-    // Of the angle between the segment and the normal of the face that it goes through there; no_face where the
-    // segment itself begins or ends.
+    // Cosine of the angle between the segment and the normal of the face that it passes. no_face
+    // where the segment itself begins or ends.
     double entry_cosine = no_face;
     double exit_cosine = no_face;
 };
 
-// Working memory of Prism::cross, reused from one call to the next, and its result.
+// The result of Prism::cross, with its working memory, which is reused.
 class Crossing {
 public:
     const std::vector<Stretch>& stretches() const { return stretches_; }
@@ -40,7 +42,7 @@ private:
 
     struct Vertex {
         double along;   // as a share of the segment
-        double side_m;  // distance from its line in the plane; the sign tells the sides apart
+        double side_m;  // signed distance from its line in the plane
     };
     struct Wall {
         double along;
@@ -48,7 +50,7 @@ private:
     };
 
     std::vector<Vertex> vertices_;
-    // Where a line that is shifted by next to nothing to the one side, or to the other, goes through walls.
+    // Where the line passes walls if it is shifted infinitesimally to the left, or to the right.
     std::vector<Wall> left_;
     std::vector<Wall> right_;
     std::vector<Stretch> stretches_;

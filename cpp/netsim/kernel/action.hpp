@@ -1,15 +1,19 @@
-// What an event does when its time has come: a callable without arguments, stored in place.
+// What an event does when it is due: a callable without arguments, stored in place.
 //
-// Events are made and dropped by the million, so an Action never allocates: it takes trivially copyable callables of
-// at most 32 bytes (a lambda that captures a few pointers and numbers), which is checked when it is compiled.
+// Millions of events are created and dropped, so an Action never allocates. It takes trivially
+// copyable callables of at most 32 bytes: a lambda that captures a few pointers and numbers. The
+// compiler checks that.
 //
-// One that is due again and again in a large network may have a `fetch(int step) const` beside its call operator: it is
-// called shortly before the event is due for step 0, 1, … of `fetch_steps`, and again perhaps, or not at all (kernel/fetch.hpp).
+// A callable may also have a member `prefetch(int step) const` (kernel/prefetch.hpp). It is called
+// shortly before the event is due, for the steps 0 to prefetch_steps - 1; sometimes twice,
+// sometimes never.
 #pragma once
 
 #include <cstddef>
 #include <new>
 #include <type_traits>
+
+#include "netsim/kernel/prefetch.hpp"
 
 namespace netsim {
 
@@ -23,8 +27,8 @@ public:
     Action(const Callable& callable) {
         *this = callable;
     }
-    // Stores what the callable captured and nothing else: an Action that is made first and copied then has its unused
-    // bytes copied, too, and those of a fresh one are still on their way to memory, for which the copy would wait.
+    // Stores the captures and nothing else. Copying a new Action would copy its unused bytes, too,
+    // and stall until its recent writes have reached memory.
     template <typename Callable>
         requires(!std::is_same_v<std::decay_t<Callable>, Action>)
     Action& operator=(const Callable& callable) {
@@ -32,21 +36,21 @@ public:
         static_assert(std::is_trivially_copyable_v<Callable>,
                       "an event's lambda captures only pointers and numbers");
         invoke_ = [](void* storage) { (*static_cast<Callable*>(storage))(); };
-        if constexpr (requires { callable.fetch(0); }) {
-            fetch_ = [](const void* storage, int step) {
-                static_cast<const Callable*>(storage)->fetch(step);
+        if constexpr (Prefetchable<Callable>) {
+            prefetch_ = [](const void* storage, int step) {
+                static_cast<const Callable*>(storage)->prefetch(step);
             };
         } else {
-            fetch_ = nullptr;
+            prefetch_ = nullptr;
         }
         ::new (static_cast<void*>(storage_)) Callable(callable);
         return *this;
     }
 
     void operator()() { invoke_(storage_); }
-    void fetch(int step) const {
-        if (fetch_ != nullptr) {
-            fetch_(storage_, step);
+    void prefetch(int step) const {
+        if (prefetch_ != nullptr) {
+            prefetch_(storage_, step);
         }
     }
 
@@ -54,7 +58,7 @@ private:
     static constexpr std::size_t capacity_bytes = 32;
 
     void (*invoke_)(void*) = nullptr;
-    void (*fetch_)(const void*, int) = nullptr;
+    void (*prefetch_)(const void*, int) = nullptr;
     alignas(std::max_align_t) std::byte storage_[capacity_bytes];
 };
 

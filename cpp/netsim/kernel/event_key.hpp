@@ -1,4 +1,5 @@
-// What the queue orders: when an event is due, its turn among those of one time, and where its action is kept.
+// What the event queue sorts: the time of an event, its order among those of that time, and the
+// slot of its action.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +8,7 @@ namespace netsim {
 
 struct EventKey {
     std::int64_t time_ps = 0;
-    std::uint64_t order = 0;  // priority in the top bit, turn below
+    std::uint64_t order = 0;  // priority in the top bit, sequence number below
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;
 

@@ -3,19 +3,19 @@
 #include <algorithm>
 
 #include "netsim/error.hpp"
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 
 namespace netsim {
 
 namespace {
 
-// From so many events on, those that are due later are better kept apart.
+// With this many events, later ones go to the overflow buckets.
 constexpr std::size_t large_heap = 512;
 
 }  // namespace
 
-// Inlined, so that a key that is new stays in registers: read back from where it was just written in parts, it would
-// wait until all earlier writes are done, and among those are some to memory that is far away.
+// Inlined, so that a new key stays in registers. Reading it back right after it was written in
+// parts would stall until all earlier writes are done, some of them cache misses.
 [[gnu::always_inline]] inline void EventQueue::sift_up(std::size_t position, EventKey key) {
     while (position > 0) {
         const std::size_t parent = (position - 1) / 2;
@@ -57,16 +57,16 @@ std::uint32_t EventQueue::take_slot() {
     return slot;
 }
 
-EventHandle EventQueue::insert(SimTime time, Priority priority, Turn turn, std::uint32_t slot) {
+EventHandle EventQueue::insert(SimTime time, Priority priority, SequenceNumber number, std::uint32_t slot) {
     const std::uint32_t generation = slots_[slot].generation;
-    const std::uint64_t order = (priority == Priority::last ? last_of_instant : 0) | turn;
+    const std::uint64_t order = (priority == Priority::last ? last_of_instant : 0) | number;
     const EventKey key{time.ps(), order, slot, generation};
-    if (heap_.size() >= large_heap && !far_.is_in_use()) {
+    if (heap_.size() >= large_heap && !overflow_.is_in_use()) {
         close_gap();
-        far_.take_all(heap_);
+        overflow_.take_all(heap_);
     }
-    if (far_.is_far(key.time_ps)) {
-        far_.add(key);
+    if (overflow_.belongs_here(key.time_ps)) {
+        overflow_.add(key);
     } else if (gap_at_top_) {
         gap_at_top_ = false;
         sift_down(0, key);
@@ -87,7 +87,7 @@ bool EventQueue::cancel(EventHandle handle) {
         return false;
     }
     release(handle.slot);
-    const std::size_t keys = heap_.size() + far_.size();
+    const std::size_t keys = heap_.size() + overflow_.size();
     if (keys > 64 && keys > 2 * live_) {
         drop_all_dead();
     }
@@ -122,9 +122,9 @@ void EventQueue::find_top() {
     close_gap();
     for (;;) {
         if (heap_.empty()) {
-            far_.open_next(heap_);
+            overflow_.open_next(heap_);
             make_heap();
-            fetch_ahead();
+            prefetch_due();
         }
         if (!is_dead(heap_.front())) {
             return;
@@ -133,14 +133,14 @@ void EventQueue::find_top() {
     }
 }
 
-void EventQueue::fetch_ahead() const {
+void EventQueue::prefetch_due() const {
     for (const EventKey& key : heap_) {
-        netsim::fetch(slots_[key.slot]);
+        netsim::prefetch(slots_[key.slot]);
     }
-    for (int step = 0; step < fetch_steps; ++step) {
+    for (int step = 0; step < prefetch_steps; ++step) {
         for (const EventKey& key : heap_) {
             if (!is_dead(key)) {
-                slots_[key.slot].action.fetch(step);
+                slots_[key.slot].action.prefetch(step);
             }
         }
     }
@@ -151,7 +151,7 @@ void EventQueue::drop_all_dead() {
     const auto is_dead_key = [this](const EventKey& key) { return is_dead(key); };
     std::erase_if(heap_, is_dead_key);
     make_heap();
-    far_.erase_if(is_dead_key);
+    overflow_.erase_if(is_dead_key);
 }
 
 void EventQueue::make_heap() {

@@ -1,11 +1,12 @@
 // The pending events of one simulation, in the order in which they will run.
 //
-// The order is a contract: by time, then by priority, then by the order of scheduling. An event that is scheduled late
-// can keep a turn in that order that was reserved before. Small keys live in a binary heap, what an event does lives
-// in a pool beside it. An event that has been taken out leaves a gap at the top, into which goes what it schedules, as
-// most events schedule their successor. Once there are many events, only those due soon are in the heap (far_events.hpp
-// has the others). Cancelling marks the pool's slot; the key is dropped when it reaches the top, or all dead keys
-// together when they outnumber the living.
+// The order is a contract: by time, then by priority, then by sequence number, the order of
+// scheduling. Sequence numbers can be reserved for events that are scheduled later. Small keys are
+// in a binary heap, actions in a pool beside it. An event that was taken out leaves a gap at the
+// top of the heap, which the next scheduled event fills, since most events schedule a successor.
+// With many events, only those due soon are in the heap (overflow_buckets.hpp has the others).
+// Canceling marks the slot in the pool. A dead key is dropped at the top of the heap, or all dead
+// keys together once they outnumber the others.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 #include "netsim/kernel/action.hpp"
 #include "netsim/kernel/event_key.hpp"
-#include "netsim/kernel/far_events.hpp"
+#include "netsim/kernel/overflow_buckets.hpp"
 #include "netsim/kernel/sim_time.hpp"
 
 namespace netsim {
@@ -23,43 +24,49 @@ namespace netsim {
 // Among events of one instant, `last` runs after all `normal` ones, whenever they were scheduled.
 enum class Priority : std::uint8_t { normal = 0, last = 1 };
 
-// Names one scheduled event. A handle of an event that has run or was cancelled is harmless.
+// Identifies one scheduled event. Using the handle of an event that has run or was canceled is
+// harmless.
 struct EventHandle {
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;  // 0: no event
 };
 
-// Of events of one time and priority, those with the lower turn run first.
-using Turn = std::uint64_t;
+// Events of equal time and priority run in the order of their sequence numbers.
+using SequenceNumber = std::uint64_t;
 
 class EventQueue {
 public:
-    // What is pushed is an Action, or what becomes one.
+    // `action`: an Action, or a callable that converts to one.
     template <typename Callable>
     EventHandle push(SimTime time, Priority priority, const Callable& action) {
-        return push_at_turn(time, priority, next_turn_++, action);
+        return push_reserved(time, priority, next_sequence_number_++, action);
     }
-    // Keeps `count` turns in the order of equal times, as if so many events were scheduled now; returns the first.
-    Turn reserve_turns(std::uint64_t count) { return std::exchange(next_turn_, next_turn_ + count); }
-    // For a reserved turn; each serves once.
+    // Reserves `count` sequence numbers, as if that many events were scheduled now. Returns the
+    // first.
+    SequenceNumber reserve_sequence_numbers(std::uint64_t count) {
+        return std::exchange(next_sequence_number_, next_sequence_number_ + count);
+    }
+    // Schedules an event with a reserved sequence number. Use each number once.
     template <typename Callable>
-    EventHandle push_at_turn(SimTime time, Priority priority, Turn turn, const Callable& action) {
+    EventHandle push_reserved(SimTime time, Priority priority, SequenceNumber number,
+                              const Callable& action) {
         const std::uint32_t slot = take_slot();
         slots_[slot].action = action;
-        return insert(time, priority, turn, slot);
+        return insert(time, priority, number, slot);
     }
 
-    // True if the event was pending. O(1) amortised.
+    // True if the event was pending. Amortized O(1).
     bool cancel(EventHandle handle);
     bool is_pending(EventHandle handle) const;
 
-    // Whether a normal event of that time and turn would be the next one; sometimes false though it would.
-    bool would_be_next(SimTime time, Turn turn) const {
-        const EventKey key{time.ps(), turn, 0, 0};
+    // Whether a normal event of that time and number would be the next one. May be false although
+    // it would.
+    bool would_be_next(SimTime time, SequenceNumber number) const {
+        const EventKey key{time.ps(), number, 0, 0};
         const std::size_t first =
-            gap_at_top_ ? 1 : 0;  // no other is before the top, or before the two below it
+            gap_at_top_ ? 1 : 0;  // only the top, or the two below it, can come before the key
         const std::size_t end = std::min(2 * first + 1, heap_.size());
-        return !far_.is_far(key.time_ps) &&
+        return !overflow_.belongs_here(key.time_ps) &&
                std::none_of(heap_.data() + first, heap_.data() + end,
                             [&key](const EventKey& other) { return other < key; });
     }
@@ -69,13 +76,14 @@ public:
 
     // Time of the next event. Only when not empty.
     SimTime next_time();
-    // All normal events of its time with lower turns have run when it does. After next_time.
-    Turn next_turn() const {
+    // When the next event runs, all normal events of its time with lower numbers have run. Call it
+    // after next_time.
+    SequenceNumber next_sequence_number() const {
         const std::uint64_t order = heap_.front().order;
-        return order < last_of_instant ? order : next_turn_;
+        return order < last_of_instant ? order : next_sequence_number_;
     }
-    // What is scheduled or reserved from now on has that turn, or a higher one.
-    Turn unused_turn() const { return next_turn_; }
+    // Events scheduled or reserved from now on have that number or a higher one.
+    SequenceNumber unused_sequence_number() const { return next_sequence_number_; }
     // Takes the next event out of the queue. Only when not empty.
     Action pop();
 
@@ -89,7 +97,7 @@ private:
 
     bool is_dead(const EventKey& key) const { return slots_[key.slot].generation != key.generation; }
     std::uint32_t take_slot();
-    EventHandle insert(SimTime time, Priority priority, Turn turn, std::uint32_t slot);
+    EventHandle insert(SimTime time, Priority priority, SequenceNumber number, std::uint32_t slot);
     void release(std::uint32_t slot);
     void close_gap() {
         if (gap_at_top_) {
@@ -97,24 +105,24 @@ private:
             remove_top();
         }
     }
-    // Sees to it that the next event is at the top.
+    // Moves the next event to the top.
     void find_top();
-    // The events that are due soon are all in the heap: has what they will touch brought into the cache.
-    void fetch_ahead() const;
+    // Prefetches what the events in the heap, which are due soon, will read (kernel/prefetch.hpp).
+    void prefetch_due() const;
     void drop_all_dead();
     void make_heap();
-    // From a position on that holds nothing, find the one for `key`, which is not in the heap.
+    // Starting at an empty position, find the one for `key`, which is not in the heap.
     void sift_up(std::size_t position, EventKey key);
     void sift_down(std::size_t position, EventKey key);
     void remove_top();
 
     std::vector<EventKey> heap_;
-    FarEvents far_;
+    OverflowBuckets overflow_;
     std::vector<Slot> slots_;
     std::vector<std::uint32_t> free_slots_;
-    Turn next_turn_ = 0;
+    SequenceNumber next_sequence_number_ = 0;
     std::size_t live_ = 0;
-    bool gap_at_top_ = false;  // heap_[0] is of an event that was taken out
+    bool gap_at_top_ = false;  // heap_[0] belongs to an event that was taken out
 };
 
 }  // namespace netsim

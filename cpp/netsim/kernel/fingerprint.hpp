@@ -1,7 +1,8 @@
-// A running 64-bit hash of what happened in a run: two runs with equal fingerprints took the same course.
+// A running 64-bit hash of a run: two runs with equal fingerprints took the same course.
 //
-// Fed with what a user could observe (frames on the air, what became of their copies, what reached a protocol), not
-// with the engine's internal events, so a faster engine keeps the fingerprint of a slower one.
+// Its input is what a user can observe: frames on the air, their receptions, and what reached a
+// protocol. Internal events of the engine are not part of it, so a faster engine keeps the
+// fingerprint.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +17,9 @@ public:
         hash_ = (hash_ ^ word) * 0x9E3779B97F4A7C15U;
         hash_ ^= hash_ >> 32;
     }
-    // The length in the lowest octet of the first word, then the characters from low to high: seven, then eight to a
-    // word. The last word is never full, but may be empty.
+    // Adds the length, in the lowest octet of the first word, then the characters from low to high:
+    // seven in the first word, eight in each following one. The last word is never full, but may be
+    // empty.
     void add_text(std::string_view text) {
         constexpr std::size_t first = 7;
         if (text.size() < first) {
@@ -34,7 +36,7 @@ public:
     std::uint64_t value() const { return hash_; }
 
 private:
-    // Compilers make one load of it where `count` is a constant.
+    // Compilers turn it into one load if `count` is a constant.
     static std::uint64_t word_of(std::string_view text, std::size_t from, std::size_t count) {
         std::uint64_t word = 0;
         for (std::size_t i = 0; i < count; ++i) {

@@ -1,7 +1,8 @@
-// Notices somebody who goes on and on within one instant, so that simulated time stands still.
+// Detects endless loops within one instant, in which simulated time stands still.
 //
-// Timers that are set for now again and again, or messages without delay that answer each other, never end: the run
-// would hang without a word. Who schedules for now on a protocol's behalf counts, and refuses what is too much.
+// Timers set for now again and again, or messages without delay that answer each other, would hang
+// the run without a message. Code that schedules for now on behalf of a protocol counts, and
+// rejects too many.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +11,18 @@
 
 namespace netsim {
 
-// Actions of one kind that one node may take within one instant; more cannot be meant. Prototype mode has the same bound.
-inline constexpr std::int32_t most_at_one_instant = 1'000'000;
+// Actions of one kind that one node may take within one instant. Prototype mode has the same limit.
+inline constexpr std::int32_t max_per_instant = 1'000'000;
 
 class InstantCount {
 public:
-    // Counts one more; whether they are too many.
+    // Counts one more. True if they are too many.
     bool exceeds(SimTime now) {
         if (now != instant_) {
             instant_ = now;
             count_ = 0;
         }
-        return ++count_ > most_at_one_instant;
+        return ++count_ > max_per_instant;
     }
 
 private:

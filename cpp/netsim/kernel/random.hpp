@@ -1,10 +1,11 @@
 // Named random streams from a counter-based generator.
 //
-// A stream is named by (seed of the run, node, purpose). The name is part of the generator's key and counter, so
-// streams never overlap and need no hand-out order: a tenth node leaves the draws of the first nine unchanged.
-// Distributions are our own, so that results agree on every platform.
+// A stream is named by (seed of the run, node, purpose). The name is part of the generator's key
+// and counter, so streams never overlap, and a tenth node leaves the draws of the first nine
+// unchanged. Distributions are our own, so that results agree on every platform.
 //
-// Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011.
+// Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as
+// 1, 2, 3", SC 2011.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 
 namespace netsim {
 
-// What a stream is drawn for. The numbers are part of every result: never change one, only add. Those that Python
-// draws for, too, are in gradysim.encapsulator.random_stream with the same numbers.
+// What a stream is drawn for. The numbers are part of every result: never change one, only add. The
+// numbers that Python uses are also in gradysim.encapsulator.random_stream.
 enum class Purpose : std::uint32_t {
     backoff = 1,
     reception = 2,
@@ -21,14 +22,14 @@ enum class Purpose : std::uint32_t {
     fading = 4,
     csma_backoff = 5,
     rate_control = 6,
-    parameter = 7,  // of a scenario: by Python alone
+    parameter = 7,  // of a scenario; used by Python only
 };
 
-// Philox4x32 with 10 rounds: 128 bits of counter and 64 bits of key to 128 random bits.
+// Philox4x32 with 10 rounds: maps a 128-bit counter and a 64-bit key to 128 random bits.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
 
-// Uniform in [0, 1): 27 bits of the one, 26 of the other.
+// Uniform in [0, 1), from 27 bits of the high word and 26 of the low word.
 inline double uniform_of(std::uint32_t high_word, std::uint32_t low_word) {
     return static_cast<double>((std::uint64_t{high_word >> 5} << 26) | (low_word >> 6)) * 0x1p-53;
 }
@@ -36,7 +37,7 @@ inline double uniform_of(std::uint32_t high_word, std::uint32_t low_word) {
 class RandomStream {
 public:
     RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpose);
-    // After so many draws of `uniform`.
+    // The stream after `uniforms_drawn` draws of `uniform`.
     RandomStream(std::uint64_t seed, std::uint32_t node, Purpose purpose, std::uint64_t uniforms_drawn)
         : RandomStream(seed, node, purpose) {
         next_word_ = words_of_uniform * uniforms_drawn;
@@ -56,8 +57,8 @@ private:
 
     std::array<std::uint32_t, words_of_block> block(std::uint64_t number) const;
 
-    // The block that a draw is from is worked out anew for each: every node has several streams, and in a large network it
-    // would cost more to keep it.
+    // Each draw computes its block again. Every node has several streams, so keeping the blocks
+    // would cost more in a large network.
     std::array<std::uint32_t, 2> key_;
     std::uint32_t node_;
     Purpose purpose_;

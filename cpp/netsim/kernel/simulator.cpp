@@ -6,7 +6,7 @@ namespace netsim {
 
 inline void Simulator::run_next(SimTime time) {
     now_ = time;
-    turn_ = queue_.next_turn();
+    sequence_number_ = queue_.next_sequence_number();
     ++event_count_;
     Action action = queue_.pop();
     action();
@@ -27,7 +27,7 @@ bool Simulator::run_until(SimTime limit, std::uint64_t max_events) {
         run_next(time);
     }
     now_ = std::max(now_, limit);
-    turn_ = queue_.unused_turn();
+    sequence_number_ = queue_.unused_sequence_number();
     return true;
 }
 

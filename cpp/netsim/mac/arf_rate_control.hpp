@@ -1,16 +1,19 @@
-// ARF and AARF: one step faster after successes in a row, one step slower after failures in a row.
+// ARF and AARF: one step faster after consecutive successes, one step slower after consecutive
+// failures.
 //
-// The first attempt at a faster rate is a probe: if it fails, the rate falls at once. AARF then also asks for more
-// successes before the next probe, which spares a station whose best rate is found already most of the probes in
-// vain; a fall after failures in a row, of a channel that got worse, sets that number back. A faster rate is also
-// tried if `interval` passed since the last change, so that a station with little to send recovers, too.
+// The first attempt at a faster rate is a probe: if it fails, the rate falls at once. AARF then
+// also requires more successes before the next probe. So a station at its best rate makes few
+// futile probes. A fall after consecutive failures, when the channel got worse, resets that number.
+// A faster rate is also tried if `interval` passed since the last change, so that a station with
+// little to send recovers, too.
 //
-// The rates are those of the operation mode by bitrate: in g(mixed) ones of OFDM and of CCK alternate, and a faster
-// one may be more robust than a slower one.
+// The rates are those of the operation mode by bitrate. In g(mixed), OFDM and CCK rates alternate,
+// and a faster one may be more robust than a slower one.
 //
-// Sources: A. Kamerman, L. Monteban, "WaveLAN-II: a high-performance wireless LAN for the unlicensed band", 1997 (ARF);
-// M. Lacage, M. H. Manshaei, T. Turletti, "IEEE 802.11 rate adaptation: a practical approach", 2004 (AARF).
-// Parameters are INET's; the rules are those of the papers, not all of which INET 4.5 keeps: docs/decisions/0017.
+// Sources: A. Kamerman, L. Monteban, "WaveLAN-II: a high-performance wireless LAN for the
+// unlicensed band", 1997 (ARF); M. Lacage, M. H. Manshaei, T. Turletti, "IEEE 802.11 rate
+// adaptation: a practical approach", 2004 (AARF). Parameters are INET's. The rules are those of the
+// papers, which INET 4.5 does not follow completely: docs/decisions/0017.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +29,7 @@ public:
         SimTime interval;
         int increase_threshold;  // successes
         int decrease_threshold;  // failures
-        // AARF; those of ARF have no effect.
+        // AARF only. The defaults have no effect.
         double increase_threshold_factor = 1;
         int max_increase_threshold = 1;
     };
@@ -41,7 +44,7 @@ public:
 private:
     struct Link {
         std::size_t mode = 0;
-        SimTime changed;  // also at a fall from the slowest mode, which has no effect but this
+        SimTime changed;  // also by a fall from the slowest mode, which changes only this
         int increase_threshold = 1;
         int successes = 0;  // in a row
         int failures = 0;   // in a row

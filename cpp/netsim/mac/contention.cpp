@@ -8,9 +8,10 @@ namespace netsim {
 
 namespace {
 
-// What begins so shortly before the end of a slot cannot have been sensed by then, and does not hold back a grant.
-// Sensing takes microseconds really; this only makes up for the rounding to picoseconds. It matters on a line: the
-// frame of a station then reaches the next one just when that one's slot ends, if both have drawn the same number.
+// A frame that begins this shortly before the end of a slot cannot be sensed by then, and does not
+// prevent a grant. Real sensing takes microseconds; this only compensates for the rounding to
+// picoseconds. It matters for stations on a line that drew the same number: the frame of one
+// reaches the next just when the slot of the latter ends.
 constexpr SimTime unnoticed = SimTime::from_ns(1);
 
 }  // namespace
@@ -51,14 +52,14 @@ void Contention::channel_busy_changed(bool busy) {
     if (state_ == State::waiting && grant_time_ - simulator().now() > unnoticed) {
         simulator().cancel(grant_);
         state_ = State::deferring;
-        // Slots begun count as not waited; the interframe space does not count as slots.
+        // A partial slot counts as not waited; the interframe space does not count as slots.
         const std::int64_t remaining_ps = (grant_time_ - simulator().now()).ps();
         const std::int64_t slot_ps = parameters_.timing.slot.ps();
         slots_left_ = std::min(slots_left_, static_cast<int>((remaining_ps + slot_ps - 1) / slot_ps));
     }
 }
 
-// When the interframe space of a channel that is free since `idle_since` is over.
+// The end of the interframe space of a channel that is free since `idle_since`.
 SimTime Contention::space_over(SimTime idle_since) const {
     const SimTime difs_over = idle_since + parameters_.timing.difs;
     if (!parameters_.config.inet_eifs) {

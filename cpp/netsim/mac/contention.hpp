@@ -1,4 +1,5 @@
-// The wait for the channel of one station: interframe space and backoff, also called channel access function.
+// Contention of one station for the channel: interframe space and backoff, also called channel
+// access function.
 //
 //   IDLE --start, channel free--> WAITING --time is up--> IDLE, and the channel is granted
 //     |                            |   ^
@@ -6,17 +7,20 @@
 //                             v    v   |
 //                             DEFERRING
 //
-// Every wait is DIFS (EIFS after a broken frame) + backoff · slot. Immediate access (`backoff_optimization`): time for
-// which the channel was free and this station idle before `start` counts towards it, so a frame that meets a channel
-// idle for long enough leaves at once; before the run the channel counts as busy, unless `initial_channel_busy` is off.
+// Every wait is DIFS (EIFS after a corrupted frame) + backoff · slot. Immediate access
+// (`backoff_optimization`): time before `start` in which the channel was free and this station idle
+// counts towards the wait. So a frame leaves at once if the channel was idle for long enough.
+// Before the run, the channel counts as busy, unless `initial_channel_busy` is off.
 //
-// EIFS is that of IEEE 802.11-2020, 10.3.2.3.7: from the moment the radio finds the channel free after a frame that was
-// received broken, at every station, until a frame is received well. With `inet_eifs` it follows INET's rules: only at a station
-// that is waiting for the channel, from the end of the broken frame on; a good one does not end it, and what makes the
-// channel busy and ends within it is followed by a whole one.
+// EIFS follows IEEE 802.11-2020, 10.3.2.3.7: at every station, from the moment the radio finds the
+// channel free after a corrupted frame, until a frame is received correctly. With `inet_eifs`, it
+// follows INET's rules: only at a station that waits for the channel, from the end of the corrupted
+// frame on. There, a correct frame does not end it, and a busy period that ends within it is
+// followed by a whole EIFS.
 //
-// Two stations whose slots end in the same instant both transmit and collide:
-// neither can have sensed the other by then. A grant is the last event of its instant, so that it knows all of it.
+// Two stations whose slots end at the same instant both transmit and collide: neither can have
+// sensed the other by then. A grant is the last event of its instant, so that it sees all other
+// events of that instant.
 #pragma once
 
 #include <algorithm>
@@ -47,17 +51,18 @@ public:
                                                              : SimTime::long_ago()),
           draws_(draws) {}
 
-    // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in progress.
+    // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in
+    // progress.
     void start(int contention_window);
-    // The same without a backoff if the channel is free now: DIFS from now on, however long it has been free. Should it
-    // become busy meanwhile, DIFS after that.
+    // The same without a backoff if the channel is free now: waits DIFS from now on, however long
+    // it has been free. If it becomes busy meanwhile, DIFS after that.
     void start_without_backoff_if_free(int contention_window);
     bool in_progress() const { return state_ != State::idle; }
 
-    // The channel became busy (by the radio's word or the NAV's) or free. Told at changes only, in every state but idle, in
-    // which it need not be told.
+    // The channel became busy (by the radio or the NAV) or free. Call it for changes only; optional
+    // in state idle.
     void channel_busy_changed(bool busy);
-    // The same after a time in which nothing was told of the channel: it is busy, or free since then.
+    // The state of the channel after a time without reports: busy, or free since `free_since`.
     void channel_found(bool busy, SimTime free_since) {
         NETSIM_ASSERT(!in_progress());
         busy_ = busy;
@@ -68,7 +73,7 @@ public:
     bool finds_channel_busy() const { return busy_; }
     // From frame_corrupted until radio_finds_it_free.
     bool awaits_end_of_broken_frame() const { return broken_frame_; }
-    // A frame was received broken; the radio still finds the channel busy with it.
+    // A frame was corrupted; the radio still finds the channel busy with it.
     void frame_corrupted() {
         if (!parameters_.config.inet_eifs) {
             broken_frame_ = true;
@@ -76,15 +81,15 @@ public:
             eifs_until_ = simulator().now() + parameters_.timing.eifs;
         }
     }
-    // The radio finds the channel free again. After a broken frame EIFS begins here, whatever the NAV says, and takes the
-    // place of DIFS. Called before channel_busy_changed.
+    // The radio finds the channel free again. After a corrupted frame, EIFS begins here, regardless
+    // of the NAV, and replaces DIFS. Call it before channel_busy_changed.
     void radio_finds_it_free() {
         if (broken_frame_) {
             broken_frame_ = false;
             eifs_until_ = simulator().now() + parameters_.timing.eifs;
         }
     }
-    // A frame was received well: that ends EIFS.
+    // A frame was received correctly, which ends EIFS.
     void frame_received() {
         if (!parameters_.config.inet_eifs) {
             broken_frame_ = false;

@@ -1,8 +1,9 @@
-// The frames that announce, permit and confirm a data frame, and what they say in their duration fields.
+// RTS, CTS and ACK frames, and the duration fields of an exchange.
 //
 //   RTS --SIFS-- CTS --SIFS-- data --SIFS-- ACK
 //
-// Each announces the time from its own end to the end of the ACK, so that whoever hears any of them stays silent.
+// Each announces the time from its own end to the end of the ACK, so that stations that hear any of
+// them stay silent.
 //
 // Source: IEEE 802.11-2020, 9.2.5 (duration fields), 9.3.1 (formats of control frames).
 #pragma once
@@ -17,7 +18,7 @@ inline SimTime data_duration_field(const MacTiming& timing, const ModeSet& modes
     return timing.sifs + modes.response_mode(mode).duration(ack_bytes);
 }
 
-// In mode `rts_mode`, for a data frame in mode `data_mode`.
+// An RTS in mode `rts_mode` for a data frame in mode `data_mode`.
 inline Frame make_rts(const Frame& data, const MacTiming& timing, const ModeSet& modes, const Mode& rts_mode,
                       const Mode& data_mode) {
     Frame rts;
@@ -30,7 +31,7 @@ inline Frame make_rts(const Frame& data, const MacTiming& timing, const ModeSet&
     return rts;
 }
 
-// The answer to `rts`, in mode `cts_mode`.
+// The CTS that responds to `rts`, in mode `cts_mode`.
 inline Frame make_cts(const Frame& rts, const MacTiming& timing, const Mode& cts_mode) {
     Frame cts;
     cts.kind = FrameKind::cts;
@@ -41,7 +42,7 @@ inline Frame make_cts(const Frame& rts, const MacTiming& timing, const Mode& cts
     return cts;
 }
 
-// The answer to `data`.
+// The ACK for `data`.
 inline Frame make_ack(const Frame& data) {
     Frame ack;
     ack.kind = FrameKind::ack;

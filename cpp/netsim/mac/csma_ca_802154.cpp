@@ -20,7 +20,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       lifs_(SimTime::from_seconds(config.lifs_s)),
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
       draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
-      outbox_(radio.node(), config.queue_capacity) {
+      queue_(radio.node(), config.queue_capacity) {
     radio_.set_listener(*this);
     radio_.stop_watching_channel();
 }
@@ -33,18 +33,18 @@ void CsmaCa802154::send(NodeId destination, Payload payload) {
             std::to_string(narrowband_longest_psdu_bytes) + " bytes less MAC, IPv4 and UDP headers)");
     }
     const int psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
-    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes, simulator_.now());
+    Frame frame = queue_.frame_of(destination, std::move(payload), psdu_bytes, simulator_.now());
     if (destination != broadcast_id && config_.use_acks) {
         frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
     }
-    if (outbox_.add(std::move(frame)) && state_ == State::idle) {
+    if (queue_.add(std::move(frame)) && state_ == State::idle) {
         go_on();
     }
 }
 
 void CsmaCa802154::go_on() {
     const bool resumes = std::exchange(interrupted_by_ack_, false);
-    if (outbox_.empty()) {
+    if (queue_.empty()) {
         state_ = State::idle;
         return;
     }
@@ -54,7 +54,8 @@ void CsmaCa802154::go_on() {
     back_off();
 }
 
-// The ends of the wait and of the assessment are the last events of their instants, so that they know all of these.
+// The ends of backoff and assessment are the last events of their instants, so that they see all
+// other events of these.
 void CsmaCa802154::back_off() {
     state_ = State::backing_off;
     const SimTime begin = std::max(simulator_.now(), earliest_wait_);
@@ -90,12 +91,12 @@ void CsmaCa802154::assessed() {
         channel_is_busy();
         return;
     }
-    outbox_.begin_next();
+    queue_.begin_next();
     state_ = State::turning;
     radio_.turn_to_transmit();
     timer_ = simulator_.schedule_after(turnaround_, [this] {
         state_ = State::sending;
-        transmit(outbox_.in_progress());
+        transmit(queue_.in_progress());
     });
 }
 
@@ -104,7 +105,7 @@ void CsmaCa802154::channel_is_busy() {
         back_off();
         return;
     }
-    outbox_.begin_next();
+    queue_.begin_next();
     finish(MessageFate::channel_access_failure);
 }
 
@@ -120,7 +121,7 @@ void CsmaCa802154::transmission_ended() {
         return;
     }
     NETSIM_ASSERT(state_ == State::sending);
-    if (outbox_.in_progress()->receiver == broadcast_id || !config_.use_acks) {
+    if (queue_.in_progress()->receiver == broadcast_id || !config_.use_acks) {
         earliest_wait_ = simulator_.now() + lifs_;
         finish(MessageFate::sent);
         return;
@@ -135,12 +136,12 @@ void CsmaCa802154::ack_timed_out() {
         return;
     }
     ++retries_;
-    outbox_.set_retry();
+    queue_.set_retry();
     go_on();
 }
 
 void CsmaCa802154::finish(MessageFate fate) {
-    outbox_.finish(fate);
+    queue_.finish(fate);
     retries_ = 0;
     go_on();
 }
@@ -154,8 +155,8 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
     } else if (frame.kind == FrameKind::unicast) {
         unicast_received(frame);
     } else if (frame.kind == FrameKind::ack && state_ == State::awaiting_ack &&
-               frame.transmitter == outbox_.in_progress()->receiver &&
-               frame.sequence == outbox_.in_progress()->sequence) {
+               frame.transmitter == queue_.in_progress()->receiver &&
+               frame.sequence == queue_.in_progress()->sequence) {
         simulator_.cancel(timer_);
         earliest_wait_ = simulator_.now() + lifs_;
         finish(MessageFate::acknowledged);

@@ -1,8 +1,8 @@
 // An 802.15.4 device in a network without beacons: unslotted CSMA/CA.
 //
-// Sends the frames of its queue one by one: waits at random, listens for a moment, turns its radio around and
-// transmits; if an ACK is asked for, waits for it and repeats the frame if none comes. Answers with an ACK of its own,
-// and drops duplicates.
+// It sends the frames of its queue one by one: random backoff, clear channel assessment,
+// turnaround, transmission. If an ACK is requested, it repeats the frame until one comes. It
+// acknowledges received frames and drops duplicates.
 //
 //   IDLE --frame in the queue--> BACKING_OFF --time is up--> ASSESSING --free--> TURNING --turnaround--> SENDING
 //    ^                            ^   ^                        |  |                                     |     |
@@ -16,15 +16,17 @@
 //    |                                                                                           |
 //    +--------------------- queue empty (otherwise: BACKING_OFF for the next frame) <------------+
 //
-// A unicast frame that comes in IDLE, BACKING_OFF or ASSESSING is answered: WAITING_SIFS --> SENDING_ACK, and then the
-// own frame waits anew, without losing count of its failed assessments. One that comes in AWAITING_ACK is taken
-// without an answer. From ASSESSING on, until a frame or an ACK has been sent, the radio is deaf. Only in ASSESSING does
-// it have to know whether frames make the channel busy together.
+// A unicast frame received in IDLE, BACKING_OFF or ASSESSING is acknowledged: WAITING_SIFS --> SENDING_ACK. Then the own frame
+// backs off again, and keeps its count of failed assessments. A unicast frame received in AWAITING_ACK is accepted without an
+// ACK. From ASSESSING on, until a frame or an ACK has been sent, the radio cannot receive. Only in ASSESSING does the device need
+// to know whether frames make the channel busy together.
 //
-// Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments); the choices where the standard
-// leaves room are those of INET 4.5. Four things differ from INET: a frame is given up after its last assessment also if
-// it was never on the air before, where INET starts afresh; what arrives in the instant in which an assessment ends makes
-// the channel busy; cca_whole_window and lifs_s are ours (the latter is 7.5.1.3, and as in ns-3 the wait begins at its end).
+// Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments). Where the
+// standard leaves room, the choices are those of INET 4.5, with four differences. A frame is
+// dropped after its last assessment also if it was never on the air, where INET starts over. A
+// frame that arrives at the instant at which an assessment ends makes the channel busy.
+// cca_whole_window and lifs_s are not in INET. (The latter is 7.5.1.3; as in ns-3, the backoff
+// begins at its end.)
 #pragma once
 
 #include <cstddef>
@@ -32,12 +34,12 @@
 #include <memory>
 
 #include "netsim/config/csma_config.hpp"
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/frame_802154.hpp"
 #include "netsim/mac/network_interface.hpp"
-#include "netsim/mac/outbox.hpp"
+#include "netsim/mac/transmit_queue.hpp"
 #include "netsim/phy/radio.hpp"
 
 namespace netsim {
@@ -49,15 +51,15 @@ public:
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
     void send(NodeId destination, Payload payload) override;
-    void fetch(int step) const override {
+    void prefetch(int step) const override {
         if (step == 0) {
-            netsim::fetch(*this);
+            netsim::prefetch(*this);
         }
-        radio_.fetch(step);
+        radio_.prefetch(step);
     }
     std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
-    const MessageFates& message_fates() const override { return outbox_.message_fates(); }
-    std::size_t queued_messages() const override { return outbox_.size(); }
+    const MessageFates& message_fates() const override { return queue_.message_fates(); }
+    std::size_t queued_messages() const override { return queue_.size(); }
 
 private:
     enum class State {
@@ -99,15 +101,15 @@ private:
     SimTime ack_wait_;
     RandomStream draws_;
 
-    Outbox outbox_;  // its frame in progress was on the air, or is about to be
+    TransmitQueue queue_;  // its frame in progress was sent, or is about to be
     DuplicateFilter duplicates_;
     State state_ = State::idle;
-    EventHandle timer_;                 // of the state
-    std::shared_ptr<const Frame> ack_;  // that is about to be sent
-    SimTime earliest_wait_;             // no wait begins before
-    int failed_assessments_ = 0;        // of the present attempt
+    EventHandle timer_;                 // of the current state
+    std::shared_ptr<const Frame> ack_;  // about to be sent
+    SimTime earliest_wait_;             // no backoff begins before this
+    int failed_assessments_ = 0;        // of the current attempt
     int retries_ = 0;                   // of the frame in progress
-    bool interrupted_by_ack_ = false;   // the present attempt
+    bool interrupted_by_ack_ = false;   // the current attempt
     bool was_busy_ = false;             // the channel, during the assessment
 };
 

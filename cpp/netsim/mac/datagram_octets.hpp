@@ -1,7 +1,8 @@
-// The octets of the IP datagram in a data frame: only capture files need them, the engine works with sizes.
+// The octets of the IP datagram in a data frame, for capture files. The engine works with sizes
+// only.
 //
-// Node n is 10.x.x.x, the x being the three octets of n, and a broadcast goes to 255.255.255.255; both ends of a message
-// use UDP port 50000.
+// Node n has the address 10.x.x.x, with the three octets of n. A broadcast goes to 255.255.255.255.
+// Both ends use UDP port 50000.
 //
 // Source: RFC 791 (IPv4); RFC 768 (UDP).
 #pragma once

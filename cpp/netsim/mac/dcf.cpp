@@ -14,7 +14,7 @@ Dcf::Dcf(Radio& radio, std::shared_ptr<const DcfParameters> parameters, std::uin
       radio_(radio),
       retry_(parameters->retry),
       contention_(*parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
-      outbox_(radio.node(), parameters->config.queue_capacity),
+      queue_(radio.node(), parameters->config.queue_capacity),
       owned_parameters_(std::move(parameters)),
       rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
       frames_by_mode_(parameters_.has_adaptive_rate ? parameters_.modes.modes().size() : 0),
@@ -32,11 +32,11 @@ void Dcf::send(NodeId destination, Payload payload) {
             std::to_string(parameters_.config.mtu_bytes) + " bytes less IPv4 and UDP headers)");
     }
     const int psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
-    Frame frame = outbox_.frame_of(destination, std::move(payload), psdu_bytes, simulator().now());
+    Frame frame = queue_.frame_of(destination, std::move(payload), psdu_bytes, simulator().now());
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }
-    if (!outbox_.add(std::move(frame))) {
+    if (!queue_.add(std::move(frame))) {
         return;
     }
     watch_channel(simulator().now() - parameters_.longest_wait);
@@ -50,18 +50,18 @@ void Dcf::send(NodeId destination, Payload payload) {
 }
 
 void Dcf::contend_for_next() {
-    if (!outbox_.empty() && !contention_.in_progress()) {
+    if (!queue_.empty() && !contention_.in_progress()) {
         contention_.start(retry_.contention_window());
     }
 }
 
 void Dcf::channel_granted() {
-    if (outbox_.empty()) {  // only the backoff after a frame is over
+    if (queue_.empty()) {  // the end of the backoff after a frame
         stop_watching_channel();
         return;
     }
     NETSIM_ASSERT(exchange_ == Exchange::none && response_ == Response::none);
-    outbox_.begin_next();
+    queue_.begin_next();
     if (in_progress().receiver != broadcast_id) {
         choose_data_mode();
     }
@@ -79,7 +79,7 @@ RateAttempt Dcf::attempt() const {
 void Dcf::choose_data_mode() {
     data_mode_ = &rate_control_->mode_for(attempt(), simulator().now());
     const SimTime duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
-    outbox_.set_duration_field(duration_field);
+    queue_.set_duration_field(duration_field);
 }
 
 void Dcf::send_rts() {
@@ -92,12 +92,12 @@ void Dcf::send_rts() {
 void Dcf::send_in_progress() {
     exchange_ = Exchange::sending;
     if (in_progress().receiver == broadcast_id) {
-        transmit(outbox_.in_progress(), parameters_.broadcast_mode);
+        transmit(queue_.in_progress(), parameters_.broadcast_mode);
     } else {
         if (parameters_.has_adaptive_rate) {
             ++frames_by_mode_[parameters_.modes.index_of(*data_mode_)];
         }
-        transmit(outbox_.in_progress(), *data_mode_);
+        transmit(queue_.in_progress(), *data_mode_);
     }
 }
 
@@ -137,7 +137,7 @@ bool Dcf::is_awaiting_answer() const {
 }
 
 void Dcf::answer_timed_out() {
-    // A frame that is being received may be the answer: its end decides.
+    // A frame that is being received may be the response: its end decides.
     if (!radio_.is_receiving()) {
         attempt_failed();
     }
@@ -196,7 +196,7 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
 void Dcf::frame_corrupted() {
     last_frame_was_broken_ = true;
     contention_.frame_corrupted();
-    radio_.tell_of_channel();  // so that EIFS begins when it is free
+    radio_.report_channel();  // EIFS begins when the channel is free
     if (is_awaiting_answer() && !simulator().is_pending(answer_timeout_)) {
         attempt_failed();
     }
@@ -227,17 +227,17 @@ void Dcf::attempt_failed() {
         return;
     }
     if (was_sent) {
-        outbox_.set_retry();
+        queue_.set_retry();
     }
     exchange_ = Exchange::none;
     contend_for_next();
 }
 
 void Dcf::finish(MessageFate fate) {
-    outbox_.finish(fate);
+    queue_.finish(fate);
     attempts_ = 0;
     exchange_ = Exchange::none;
-    if (!outbox_.empty() || parameters_.config.skip_backoff_if_idle) {
+    if (!queue_.empty() || parameters_.config.skip_backoff_if_idle) {
         contention_.start(retry_.contention_window());
     }
     stop_watching_channel();
@@ -265,7 +265,7 @@ void Dcf::set_nav(SimTime duration) {
         return;
     }
     nav_end_ = end;
-    nav_turn_ = simulator().reserve_turns(1);
+    nav_sequence_number_ = simulator().reserve_sequence_numbers(1);
     simulator().cancel(nav_event_);
     if (watches_channel_) {
         await_end_of_nav();
@@ -274,7 +274,8 @@ void Dcf::set_nav(SimTime duration) {
 }
 
 void Dcf::await_end_of_nav() {
-    nav_event_ = simulator().schedule_at_turn(nav_end_, nav_turn_, [this] { update_contention(); });
+    nav_event_ =
+        simulator().schedule_reserved(nav_end_, nav_sequence_number_, [this] { update_contention(); });
 }
 
 void Dcf::channel_busy_changed(bool busy) {
@@ -293,7 +294,7 @@ void Dcf::channel_busy_changed(bool busy) {
     }
 }
 
-// What it was not told of meanwhile may have made the channel busy.
+// Frames that were not reported meanwhile may have made the channel busy.
 void Dcf::watch_channel(SimTime since) {
     if (!watches_channel_) {
         watches_channel_ = true;
@@ -306,8 +307,8 @@ void Dcf::watch_channel(SimTime since) {
 }
 
 void Dcf::stop_watching_channel() {
-    if (watches_channel_) {  // or there is nothing to send, which need not be looked up
-        if (!outbox_.empty() || contention_.in_progress()) {
+    if (watches_channel_) {  // otherwise the queue is empty
+        if (!queue_.empty() || contention_.in_progress()) {
             return;
         }
         watches_channel_ = false;
@@ -315,7 +316,7 @@ void Dcf::stop_watching_channel() {
     }
     radio_.stop_watching_channel();
     if (contention_.awaits_end_of_broken_frame()) {
-        radio_.tell_of_channel();
+        radio_.report_channel();
     }
 }
 

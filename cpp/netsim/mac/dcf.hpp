@@ -1,8 +1,9 @@
 // An 802.11 station without QoS: the distributed coordination function.
 //
-// Sends the frames of its queue one by one (contention, RTS and CTS from the RTS threshold on, frame, ACK, retries),
-// answers data frames with an ACK and RTS frames with a CTS after SIFS, keeps the NAV and drops duplicates. The mode of
-// a unicast frame is chosen when the channel is granted, anew for each attempt, by the rate control.
+// It sends the frames of its queue one by one: contention, RTS and CTS from the RTS threshold on,
+// frame, ACK, retries. It responds to data frames with an ACK and to RTS frames with a CTS after
+// SIFS, keeps the NAV and drops duplicates. The rate control chooses the mode of a unicast frame
+// when the channel is granted, for each attempt.
 //
 // States of the exchange that this station originates:
 //
@@ -16,12 +17,13 @@
 //                                                         WAITING_SIFS ----+   |
 //                                                                              +--time-out or another frame: retry--> NONE
 //
-// Beside it, the response to a received unicast frame or RTS: NONE --received--> WAITING_SIFS --> SENDING --> NONE.
-// An RTS is answered only if the NAV is not set.
+// In parallel, the response to a received unicast frame or RTS: NONE --received--> WAITING_SIFS --> SENDING --> NONE. The station
+// responds to an RTS only if the NAV is not set.
 //
-// Source: IEEE 802.11-2020, 10.3 (DCF); the choices where the standard leaves room are those of INET 4.5. One of
-// INET's goes against the standard and has a switch, own_frames_set_nav: that a station's own frames set its NAV, so
-// that one whose RTS failed stays silent for as long as the exchange would have taken.
+// Source: IEEE 802.11-2020, 10.3 (DCF). Where the standard leaves room, the choices are those of
+// INET 4.5. One choice of INET violates the standard and has an option, own_frames_set_nav: a
+// station's own frames set its NAV. So a station whose RTS failed stays silent for as long as the
+// exchange would have taken.
 #pragma once
 
 #include <cstddef>
@@ -30,14 +32,14 @@
 #include <memory>
 #include <vector>
 
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/mac/contention.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/network_interface.hpp"
-#include "netsim/mac/outbox.hpp"
 #include "netsim/mac/rate_control.hpp"
 #include "netsim/mac/retry.hpp"
+#include "netsim/mac/transmit_queue.hpp"
 #include "netsim/phy/radio.hpp"
 
 namespace netsim {
@@ -49,17 +51,17 @@ public:
     Dcf& operator=(const Dcf&) = delete;
 
     void send(NodeId destination, Payload payload) override;
-    void fetch(int step) const override {
+    void prefetch(int step) const override {
         if (step == 0) {
-            fetch_before(*this, nav_turn_);
+            prefetch_before(*this, nav_sequence_number_);
         }
-        radio_.fetch(step);
+        radio_.prefetch(step);
     }
     std::size_t longest_message_bytes() const override {
         return parameters_.config.mtu_bytes - datagram_bytes(0);
     }
-    const MessageFates& message_fates() const override { return outbox_.message_fates(); }
-    std::size_t queued_messages() const override { return outbox_.size(); }
+    const MessageFates& message_fates() const override { return queue_.message_fates(); }
+    std::size_t queued_messages() const override { return queue_.size(); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
 private:
@@ -77,14 +79,14 @@ private:
     void frame_received(const Transmission& transmission) override;
     void frame_corrupted() override;
     void transmission_ended() override;
-    void fetch_for_corrupted_frame() const override { netsim::fetch(contention_); }
+    void prefetch_for_corrupted_frame() const override { netsim::prefetch(contention_); }
     void channel_granted() override;
 
     Simulator& simulator() const { return parameters_.simulator; }
     bool is_long(const Frame& frame) const {
         return frame.psdu_bytes >= parameters_.config.rts_threshold_bytes;
     }
-    const Frame& in_progress() const { return *outbox_.in_progress(); }
+    const Frame& in_progress() const { return *queue_.in_progress(); }
     bool needs_rts(const Frame& frame) const { return frame.receiver != broadcast_id && is_long(frame); }
     RateAttempt attempt() const;
     void choose_data_mode();
@@ -105,38 +107,40 @@ private:
     bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
     void await_end_of_nav();
     void update_contention();
-    // Counts what made it busy from `since` on.
+    // Frames that made it busy together count from `since` on.
     void watch_channel(SimTime since);
-    // Unless there is something to send or a backoff to count down.
+    // No effect while there is a frame to send or a backoff to count down.
     void stop_watching_channel();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 
-    // First what every frame that is heard touches: one cache line, which the medium fetches ahead.
+    // The members that every received frame reads come first: one cache line, which the medium
+    // prefetches.
     const DcfParameters& parameters_;
     Radio& radio_;
     SimTime nav_end_ = SimTime::long_ago();
-    bool watches_channel_ = false;  // and contention is told of it
-    // Only then is contention told of a frame that is received well: it lies in another cache line.
+    bool watches_channel_ = false;  // and notifies contention
+    // Only if set, contention is notified of a correct frame: it is in another cache line.
     bool last_frame_was_broken_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
-    int attempts_ = 0;  // of those of the frame in progress on the air, the ones that failed
+    int attempts_ = 0;  // failed attempts of the frame in progress that were on the air
 
-    // Then what a broadcast frame touches, when it is sent: three lines.
+    // Then the members that sending a broadcast reads: three lines.
     EventHandle nav_event_;  // pending while the channel is watched
     Retry retry_;            // of the frame in progress
     Contention contention_;
-    Outbox outbox_;  // its frame in progress was granted once, and is not finished yet
+    TransmitQueue queue_;  // its frame in progress got the channel once, and is not finished yet
 
-    Turn nav_turn_ = 0;  // of the event at the end of the NAV, since that was set
+    SequenceNumber nav_sequence_number_ =
+        0;  // of the event at the end of the NAV; reserved when the NAV was set
     std::shared_ptr<const DcfParameters> owned_parameters_;  // parameters_ again: keeps them alive
     std::unique_ptr<RateControl> rate_control_;
     std::vector<std::uint64_t>
-        frames_by_mode_;  // unicast frames on the air, by their mode's place in the mode set, if the rate adapts
+        frames_by_mode_;  // [mode index]: unicast frames on the air; with adaptive rate only
     DuplicateFilter duplicates_;
 
     std::shared_ptr<const Frame> rts_;  // on the air
-    const Mode* data_mode_;             // of the frame in progress, a unicast; before the first: of none
+    const Mode* data_mode_;             // of the unicast frame in progress or the last one
     EventHandle answer_timeout_;
 
     std::shared_ptr<const Frame> response_frame_;

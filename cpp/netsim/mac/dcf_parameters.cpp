@@ -58,7 +58,8 @@ DcfParameters::DcfParameters(Simulator& simulator_, MacConfig mac_config)
       retry{{config.short_retry_limit, config.long_retry_limit},
             contention_window_of(config, modes),
             config.inet_station_retry_counters ? Retry::Rule::station_counters : Retry::Rule::frame_counters},
-      // A new message finds the window at its least, unless INET's counters have left it larger.
+      // For a new message, the window is at its minimum, unless INET's counters have left it
+      // larger.
       longest_wait(timing.difs +
                    timing.slot *
                        (retry.rule == Retry::Rule::station_counters ? retry.window.max : retry.window.min)),

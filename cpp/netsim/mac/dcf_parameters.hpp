@@ -1,4 +1,4 @@
-// What the stations of one configuration in one network have in common: worked out once, never changed, shared by all of them.
+// What all stations of one configuration in one network share. Computed once and never changed.
 #pragma once
 
 #include "netsim/config/mac_config.hpp"
@@ -10,11 +10,13 @@
 
 namespace netsim {
 
-// In which broadcast frames are sent. Throws ConfigError for a bitrate that the operation mode has not.
+// The mode of broadcast frames. Throws ConfigError for a bitrate that the operation mode does not
+// have.
 const Mode& broadcast_mode(const MacConfig& config);
 
 struct DcfParameters {
-    // Throws ConfigError for what MacConfig::validate cannot know: bitrates and windows that the operation mode has not.
+    // Throws ConfigError for what MacConfig::validate cannot check: bitrates and windows that the
+    // operation mode excludes.
     DcfParameters(Simulator& simulator, MacConfig mac_config);
 
     Simulator& simulator;
@@ -25,7 +27,7 @@ struct DcfParameters {
     const Mode& broadcast_mode;
     const Mode& rts_mode;
     Retry::Rules retry;
-    SimTime longest_wait;  // for a channel that is free: what counts of the time before
+    SimTime longest_wait;  // for a free channel: how far back its state matters
     bool has_adaptive_rate;
 };
 

@@ -1,8 +1,9 @@
-// Recognises a data frame that was received before: its ACK got lost and its sender repeated it.
+// Detects a data frame that was received before: its ACK was lost, and its sender repeated it.
 //
-// Source: IEEE 802.11-2020, 10.3.2.14 (duplicate detection): a retry with the sequence number of the last frame from
-// the same transmitter is a duplicate. Frames of 802.15.4 have no retry bit (frame_802154.hpp), but no other one has the number of
-// the last one, either, unless 255 between them got lost.
+// Source: IEEE 802.11-2020, 10.3.2.14 (duplicate detection): a retry with the sequence number of
+// the last frame from the same transmitter is a duplicate. 802.15.4 frames have no retry bit
+// (frame_802154.hpp), but another frame has the number of the last one only if 255 between them
+// were lost.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
-// The frames of the 802.11 MAC and their sizes; those of 802.15.4 are Frames, too, with the sizes of
+// The frames of the 802.11 MAC and their sizes. 802.15.4 frames are Frames, too, with the sizes of
 // mac/frame_802154.hpp.
 //
-// A frame is a value: made once, never changed, shared by all that hear it. A retry is another frame, with its bit set.
-// Source of sizes: IEEE 802.11 frame formats; LLC/SNAP, IPv4 and UDP headers as a datagram over WLAN has them.
+// A frame is created once, never changed, and shared by all receivers. A retry is another frame,
+// with its retry bit set. Source of sizes: IEEE 802.11 frame formats; LLC/SNAP, IPv4 and UDP
+// headers as a datagram over WLAN has them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace netsim {
 
-// The text of a message, in UTF-8, shared by all that receive it.
+// The string of a message, in UTF-8, shared by all receivers.
 using Payload = std::shared_ptr<const std::string>;
 
 // Octets.
@@ -45,11 +46,11 @@ struct Frame {
     NodeId receiver = broadcast_id;
     std::uint32_t sequence = 0;  // of the transmitter's data frames; a retry keeps it
     bool retry = false;
-    // How long the exchange goes on after this frame: sets the NAV of others.
+    // How long the exchange continues after this frame. Sets the NAV of other stations.
     SimTime duration_field{};  // NOLINT(readability-redundant-member-init): g++ asks for it
     int psdu_bytes = 0;
     Payload payload;   // of data frames only
-    SimTime accepted;  // of those, too: when their message was handed to the interface
+    SimTime accepted;  // of data frames only: when the interface accepted the message
 };
 
 // Of the message in a data frame.

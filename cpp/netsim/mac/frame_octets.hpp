@@ -1,7 +1,7 @@
-// The octets of a frame as they would be on the air: only capture files need them, the engine works with sizes.
+// The octets of a frame on the air, for capture files. The engine works with sizes only.
 //
-// Node n is 02:00:00:xx:xx:xx, the x being the three octets of n. All stations are of one independent BSS,
-// 02:ff:ff:ff:ff:ff. What is above LLC/SNAP is in mac/datagram_octets.hpp.
+// Node n has the address 02:00:00:xx:xx:xx, with the three octets of n. All stations are in one
+// independent BSS, 02:ff:ff:ff:ff:ff. The layers above LLC/SNAP are in mac/datagram_octets.hpp.
 //
 // Source: IEEE 802.11-2020, 9.3 (frames); RFC 1042 (LLC/SNAP).
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace netsim {
 
-// Appends the frame from its frame control field to its FCS: frame.psdu_bytes octets. The FCS of a frame that is
-// not intact has all its bits inverted; the rest of the frame is what was sent.
+// Appends the frame from its frame control field to its FCS: frame.psdu_bytes octets. If the frame
+// is not intact, all bits of its FCS are inverted; the rest is as sent.
 void append_frame(Octets& octets, const Frame& frame, bool intact);
 
 }  // namespace netsim

@@ -1,6 +1,7 @@
-// The octets of an 802.15.4 frame as they would be on the air, for capture files.
+// The octets of an 802.15.4 frame on the air, for capture files.
 //
-// Node n has the short address n (its lower 16 bits) in PAN 1; mac/frame_802154.hpp says why there is no source address.
+// Node n has the short address n (its lower 16 bits) in PAN 1. mac/frame_802154.hpp explains why
+// there is no source address.
 //
 // Source: IEEE Std 802.15.4-2006, 7.2.
 #pragma once
@@ -10,8 +11,8 @@
 
 namespace netsim {
 
-// Appends the frame from its frame control field to its FCS: frame.psdu_bytes octets. The FCS of a frame that is
-// not intact has all its bits inverted; the rest of the frame is what was sent.
+// Appends the frame from its frame control field to its FCS: frame.psdu_bytes octets. If the frame
+// is not intact, all bits of its FCS are inverted; the rest is as sent.
 void append_narrowband_frame(Octets& octets, const Frame& frame, bool intact);
 
 }  // namespace netsim

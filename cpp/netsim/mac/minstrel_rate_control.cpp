@@ -7,23 +7,25 @@ namespace netsim {
 
 namespace {
 
-// Rates that succeed at least as often are all as good as can be, and the one with the most throughput is taken.
+// Rates that succeed at least this often count as equally likely, and the one with the largest
+// throughput is used.
 constexpr double likely_enough = 0.95;
 
-// Of rates that do so or hardly ever, two attempts in a row tell enough.
+// For rates that succeed more often, or less often than this, two consecutive attempts suffice.
 constexpr double unlikely_enough = 0.1;
 constexpr int fewest_in_a_row = 2;
 
-// All attempts of a stage together take no longer.
+// The longest duration of all attempts of a stage together.
 constexpr double longest_stage_s = 6e-3;
 
-// Seconds from one attempt to the next on a free channel: DIFS, the mean backoff from that contention window, frame, SIFS, ACK.
+// Seconds per attempt on a free channel: DIFS, mean backoff of that contention window, frame, SIFS,
+// ACK.
 double attempt_s(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes, int cw) {
     const SimTime fixed = timing.difs + timing.sifs + modes.response_mode(mode).duration(ack_bytes);
     return (fixed + mode.duration(psdu_bytes)).seconds() + cw * timing.slot.seconds() / 2;
 }
 
-// With windows that double from one to the next.
+// The contention window doubles with each attempt.
 int attempts_in_a_stage(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes) {
     int attempts = 0;
     int cw = modes.cw_min();
@@ -122,7 +124,8 @@ void MinstrelRateControl::update(Link& link, int psdu_bytes, SimTime now) const 
     const auto throughput = [&](std::size_t mode) {
         return link.modes[mode].mean / attempt_s(modes_, timing_, modes[mode], psdu_bytes, modes_.cw_min());
     };
-    // Of equals the slower one: where nothing succeeded, the slowest, which is also in for a second best.
+    // Of equals, the slower one: if nothing succeeded, the slowest, which is then also the second
+    // best.
     std::size_t best = 0;
     std::size_t second = 0;
     std::size_t likeliest = 0;

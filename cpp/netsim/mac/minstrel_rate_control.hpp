@@ -1,21 +1,24 @@
-// Minstrel: measures the share of successes at each rate, and uses the rates with the most throughput.
+// Minstrel: measures the share of successes at each rate, and uses the rates with the most
+// throughput.
 //
-// Every `update_interval` the shares of the attempts since the last one are averaged in (a rate without attempts keeps
-// its mean), and the rates are ranked anew by
+// Every `update_interval`, the shares of the attempts since the last update enter the means (a rate
+// without attempts keeps its mean), and the rates are ranked again by
 //
-//   throughput = mean share of successes / time that an attempt takes, waiting and ACK included
+//   throughput = mean share of successes / duration of an attempt, including waiting and ACK
 //
-// The attempts of a frame go down a chain of stages, each of as many attempts as fit into 6 ms, or two if the rate succeeds nearly
-// always or hardly ever, until the MAC gives the frame up:
+// The attempts of a frame follow a chain of stages until the MAC drops the frame. A stage has as
+// many attempts as fit into 6 ms, or two if the rate nearly always or hardly ever succeeds:
 //
 //   best throughput --> second best --> most likely to succeed --> slowest
 //
-// and some frames, `look_around`, drawn at random, try another rate, drawn at random too: a faster one at their first
-// attempt, a slower one in place of the second stage, where it costs nothing unless the best one fails.
+// A share `look_around` of the frames, drawn at random, tries another random rate: a faster one at
+// the first attempt, a slower one instead of the second stage, where it costs nothing unless the
+// best rate fails.
 //
-// Sources: the description of Minstrel in the documentation of Linux' mac80211; D. Xia, J. Hart, Q. Fu, "Evaluation of the
-// Minstrel rate adaptation algorithm in IEEE 802.11g WLANs", ICC 2013. Ours: the MAC's
-// retry limit, which mostly cuts the chain, and times are those of the frame sent last (Minstrel: of 1200 B).
+// Sources: the description of Minstrel in the documentation of Linux' mac80211; D. Xia, J. Hart, Q.
+// Fu, "Evaluation of the Minstrel rate adaptation algorithm in IEEE 802.11g WLANs", ICC 2013. Two
+// differences: the MAC's retry limit usually cuts the chain, and durations are those of the last
+// frame sent (Minstrel: of 1200 B).
 #pragma once
 
 #include <cstddef>
@@ -48,7 +51,7 @@ private:
     struct Statistics {
         int attempts = 0;  // since the last update
         int successes = 0;
-        bool known = false;  // any attempt before that
+        bool known = false;  // whether there was an attempt before that
         double mean = 0;     // share of successes
     };
     // Indices of modes.
@@ -60,7 +63,7 @@ private:
     struct Link {
         std::vector<Statistics> modes;
         Chain chain;
-        std::size_t tried = 0;  // by the frame in progress; the best one: none
+        std::size_t tried = 0;  // other rate of the frame in progress; the best one if none
         SimTime updated;
     };
 

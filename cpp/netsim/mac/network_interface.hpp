@@ -1,7 +1,7 @@
-// What a node asks of its network interface, and what it hears from it.
+// The contract between a node and its network interfaces.
 //
-// Three interfaces exist: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskInterface (a perfect
-// channel).
+// There are three: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskInterface
+// (a perfect channel).
 #pragma once
 
 #include <cstddef>
@@ -27,20 +27,22 @@ class NetworkInterface {
 public:
     virtual ~NetworkInterface() = default;
 
-    // Who gets the messages; nobody, if null.
+    // The receiver of messages; none if null.
     void set_listener(NetworkInterfaceListener* listener) { listener_ = listener; }
-    // Takes a message for `destination` (broadcast_id: for all in reach). Throws SimulationError if it is longer than
-    // longest_message_bytes().
+    // Accepts a message for `destination` (broadcast_id: for all nodes in reach). Throws
+    // SimulationError if it is longer than longest_message_bytes().
     virtual void send(NodeId destination, Payload payload) = 0;
     virtual std::size_t longest_message_bytes() const = 0;
-    // A message will probably be sent soon: has what that touches brought into the cache (kernel/fetch.hpp). Its first line is
-    // there; in step 0 what it leads to is asked for, in step 1 what that leads to.
-    virtual void fetch(int step) const = 0;
-    // What became of the messages that this interface took.
+    // A message will probably be sent soon: prefetches what that reads (kernel/prefetch.hpp). The
+    // first line of the interface is already in the cache. Step 0 prefetches what it points to,
+    // step 1 what that points to.
+    virtual void prefetch(int step) const = 0;
+    // The fates of the messages that this interface accepted.
     virtual const MessageFates& message_fates() const = 0;
-    // Messages that wait or are in progress: a census to check the ledger with.
+    // Messages that wait or are in progress, to check the ledger.
     virtual std::size_t queued_messages() const = 0;
-    // {bitrate in bps: unicast frames sent with it, retries included} of a station that has a rate control.
+    // {bitrate in bps: unicast frames sent with it, retries included}; empty without adaptive rate
+    // control.
     virtual std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const { return {}; }
 
 protected:

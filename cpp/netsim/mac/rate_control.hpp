@@ -1,8 +1,9 @@
-// Chooses the mode of each attempt to send a unicast frame, from what became of earlier ones. Used by the Dcf.
+// Rate control: chooses the mode of each attempt to send a unicast frame, by the outcomes of
+// earlier ones. Used by the Dcf.
 //
-// A station knows of a frame only whether its ACK came back, so that a collision looks to it like a weak signal. What
-// it learns it keeps for each destination apart (INET: for the station, so that a far neighbour slows the near ones
-// down). RTS, CTS, ACK and broadcast frames are none of its business.
+// A station knows only whether an ACK came back, so a collision looks like a weak signal. State is
+// kept per destination. (INET keeps it per station, so that a far neighbor slows down the near
+// ones.) RTS, CTS, ACK and broadcast frames are not affected.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +21,17 @@ namespace netsim {
 struct RateAttempt {
     NodeId destination = 0;
     int psdu_bytes = 0;
-    int number = 0;  // of times that the frame was on the air before
+    int number = 0;  // earlier attempts of the frame on the air
 };
 
 class RateControl {
 public:
     virtual ~RateControl() = default;
 
-    // Of the attempt that comes next: asked when the channel is granted, before an RTS. An attempt whose RTS fails is
-    // asked for again, and neither of the two below is called for it.
+    // The mode of the next attempt. Called when the channel is granted, before an RTS. If the RTS
+    // fails, it is called again for the same attempt, without a call of the two functions below.
     virtual const Mode& mode_for(const RateAttempt& attempt, SimTime now) = 0;
-    // What became of it. After `failed` comes the next attempt, or the frame is given up if that was the last.
+    // The outcome of the attempt. After `failed` comes the next attempt, or the frame is dropped.
     virtual void succeeded(const RateAttempt& attempt, const Mode& mode, SimTime now) = 0;
     virtual void failed(const RateAttempt& attempt, const Mode& mode, SimTime now) = 0;
 };
@@ -48,10 +49,11 @@ private:
     const Mode& mode_;
 };
 
-// The mode of the first frame to a destination. Throws ConfigError for a bitrate that the operation mode has not.
+// The mode of the first frame to a destination. Throws ConfigError for a bitrate that the operation
+// mode does not have.
 const Mode& initial_mode(const MacConfig& config);
 
-// The one of MacConfig::rate_control, for the station of `interface`.
+// The rate control named by MacConfig::rate_control, for the station of `interface`.
 std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed,
                                                InterfaceId interface);
 

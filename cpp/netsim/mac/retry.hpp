@@ -1,16 +1,18 @@
-// How often the frame in progress may fail, and the contention window that grows with failures.
+// Retry counters of the frame in progress, and the contention window that grows with failures.
 //
-// A frame has two counters. The short one counts failures of RTS frames and of frames below the RTS threshold, the
-// long one those of frames from the threshold on. A frame whose RTS and own transmissions fail in turn has both
-// running: a CTS resets neither. Every failure doubles the window.
+// A frame has two counters. The short one counts failures of RTS frames and of frames below the RTS
+// threshold, the long one those of frames from the threshold on. Both count if the RTS and the
+// frame itself fail in turn: a CTS resets neither. Every failure doubles the window.
 //
-// A frame that is given up resets the window. INET's rule, chosen by Rule::station_counters, counts the failures of
-// the station, too, in two counters that outlive its frames and that only successes and broadcasts set to 0: the failure
-// that makes one of them equal to the limit resets the window, and each one after it doubles the window as before.
-// So the window is small after the first frame given up in a row, and stays large from the second on.
+// Dropping a frame resets the window. INET's rule, Rule::station_counters, also counts the failures
+// of the station, in two counters that outlive frames. Only successes and broadcasts reset them.
+// The failure that makes one of them equal to the limit resets the window, and each later one
+// doubles it as before. So the window is small after the first of several dropped frames, and stays
+// large from the second on.
 //
-// Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window); that a frame of exactly the
-// threshold's length counts as long is INET's choice. Why the rule is no default: docs/decisions/0025.
+// Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window); that a
+// frame of exactly the threshold's length counts as long is INET's choice. Why the rule is not the
+// default: docs/decisions/0025.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +31,7 @@ public:
         int max;
     };
     enum class Rule : std::uint8_t { frame_counters, station_counters };
-    // Mostly all stations have the same.
+    // Usually the same for all stations.
     struct Rules {
         Limits limits;
         Window window;
@@ -42,18 +44,19 @@ public:
     // The contention window of the next attempt, in slots.
     int contention_window() const { return cw_; }
 
-    // An RTS or a frame below the RTS threshold was not answered. False if that was the last attempt.
+    // An RTS or a frame below the RTS threshold was not answered. False if that was the last
+    // attempt.
     bool short_failed() { return failed(short_, rules_.limits.short_failures); }
     // The same for a frame from the RTS threshold on.
     bool long_failed() { return failed(long_, rules_.limits.long_failures); }
     // An RTS was answered: counts for the station only.
     void rts_answered() { short_.of_station = 0; }
-    // The frame was acknowledged: the next one starts afresh.
+    // The frame was acknowledged; the next one starts with fresh counters.
     void acknowledged(bool is_long) {
         (is_long ? long_ : short_).of_station = 0;
         start_afresh();
     }
-    // The frame was given up, after its last attempt.
+    // The frame was dropped, after its last attempt.
     void given_up() {
         if (rules_.rule == Rule::frame_counters) {
             start_afresh();
@@ -61,11 +64,11 @@ public:
             forget_frame();
         }
     }
-    // A broadcast, which can neither succeed nor fail: the window stays as it is.
+    // A broadcast neither succeeds nor fails: the window stays as it is.
     void broadcast_sent() { short_ = long_ = {}; }
 
 private:
-    // In a row.
+    // Consecutive ones.
     struct Failures {
         int of_frame = 0;
         int of_station = 0;

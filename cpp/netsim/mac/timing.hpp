@@ -1,7 +1,7 @@
 // The time intervals of channel access, derived from the operation mode.
 //
-// Source: IEEE 802.11-2020, 10.3.2.3 (interframe spaces) and 10.3.2.11 (ACK procedure), 10.3.2.9 (CTS
-// procedure).
+// Source: IEEE 802.11-2020, 10.3.2.3 (interframe spaces) and 10.3.2.11 (ACK procedure), 10.3.2.9
+// (CTS procedure).
 #pragma once
 
 #include "netsim/kernel/sim_time.hpp"
@@ -22,7 +22,8 @@ struct MacTiming {
           difs(modes.sifs() + modes.slot() * 2),
           eifs(sifs + difs + modes.slowest_mandatory().duration(ack_bytes)) {}
 
-    // From the end of a frame until its sender stops waiting for the ACK or CTS in mode `response` to begin.
+    // From the end of a frame until its sender stops waiting for the start of an ACK or CTS in mode
+    // `response`.
     SimTime response_timeout(const Mode& response) const { return sifs + slot + response.phy_rx_start_delay; }
 };
 

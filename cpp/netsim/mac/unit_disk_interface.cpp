@@ -25,9 +25,8 @@ UnitDiskInterface::UnitDiskInterface(Simulator& simulator, UnitDiskChannel& chan
 
 void UnitDiskInterface::send(NodeId destination, Payload payload) {
     if (sent_.exceeds(simulator_.now())) {
-        throw SimulationError("node " + std::to_string(id_) + " has sent " +
-                              std::to_string(most_at_one_instant) + " messages at " +
-                              std::to_string(simulator_.now().seconds()) +
+        throw SimulationError("node " + std::to_string(id_) + " has sent " + std::to_string(max_per_instant) +
+                              " messages at " + std::to_string(simulator_.now().seconds()) +
                               " s on a medium without delay: time stands still; expected answers that end");
     }
     const bool broadcast = destination == broadcast_id;
@@ -73,7 +72,7 @@ void UnitDiskInterface::send(NodeId destination, Payload payload) {
 
 bool UnitDiskInterface::reaches(const UnitDiskInterface& other) const {
     const SimTime now = simulator_.now();
-    // Squares, because prototype mode compares squares: roots are rounded, so that those on the rim would differ.
+    // Squares, as in prototype mode: roots are rounded, so nodes exactly at the range would differ.
     return squared_distance(other.trajectory_.position_at(now), trajectory_.position_at(now)) <=
            range_m_ * range_m_;
 }

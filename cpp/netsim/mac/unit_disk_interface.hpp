@@ -1,18 +1,19 @@
-// A perfect channel: whoever is within the sender's range gets the message, at the instant it is sent.
+// A perfect channel: all nodes within the sender's range get the message, at the instant it is
+// sent.
 //
-// No airtime, no interference, no loss: the channel of prototype mode (whose rules it follows to the letter), so that
-// a protocol's logic can be told apart from what the radio does to it. The range is inclusive and judged at sending.
-// There is one channel only: of a node's interfaces it makes no difference through which one a message goes, but for
-// their ranges.
+// No airtime, no interference, no loss: the same rules as the channel of prototype mode. It
+// separates the logic of a protocol from the effects of the radio. The range is inclusive, and
+// evaluated when the message is sent. All interfaces share one channel: those of a node differ in
+// their range only.
 #pragma once
 
 #include <cstddef>
 #include <limits>
 #include <vector>
 
-#include "netsim/kernel/fetch.hpp"
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/instant_count.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/network_interface.hpp"
 #include "netsim/mobility/trajectory.hpp"
@@ -35,9 +36,9 @@ public:
     UnitDiskInterface(const UnitDiskInterface&) = delete;
     UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 
-    // Throws SimulationError, too, if messages that answer each other at one instant never end.
+    // Also throws SimulationError if messages answer each other endlessly at one instant.
     void send(NodeId destination, Payload payload) override;
-    void fetch(int /*step*/) const override { netsim::fetch(*this); }
+    void prefetch(int /*step*/) const override { netsim::prefetch(*this); }
     std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
     const MessageFates& message_fates() const override { return message_fates_; }
     std::size_t queued_messages() const override { return 0; }

@@ -7,7 +7,7 @@
 
 namespace netsim {
 
-struct OnAir;  // airwaves.hpp
+struct ActiveTransmission;  // active_transmissions.hpp
 
 struct Arrival {
     const Transmission* transmission = nullptr;
@@ -16,7 +16,7 @@ struct Arrival {
     double power_w = 0;
     Position place{};       // of the receiver, when the transmission started
     bool lockable = false;  // strong enough for the receiver, on its channel and in a format that it knows
-    const OnAir* on_air = nullptr;  // what the medium notes of the transmission: handed through
+    const ActiveTransmission* active = nullptr;  // the medium's state of the transmission; opaque to radios
 };
 
 }  // namespace netsim

@@ -1,5 +1,5 @@
-// The noise in a receiver's band when nobody sends. The radios use it for their SNIR, the medium for the energy that
-// makes their channels busy.
+// The noise in a receiver's band when no radio sends. Radios use it for their SNIR, the medium for
+// energy detection.
 //
 //   IsotropicScalarBackgroundNoise: one power, MediumConfig::background_noise_w, for every receiver whatever its
 //     bandwidth.
@@ -16,7 +16,8 @@ class BackgroundNoise {
 public:
     explicit BackgroundNoise(const MediumConfig& config);
 
-    // At a receiver of that bandwidth. `noise_figure` is a linear ratio ≥ 1, of no effect if noise is not thermal.
+    // In W, at a receiver of that bandwidth. `noise_figure`: a linear ratio ≥ 1, used for thermal
+    // noise only.
     double power_w(double bandwidth_hz, double noise_figure) const {
         return power_w_ + density_w_per_hz_ * bandwidth_hz * noise_figure;
     }

@@ -6,9 +6,9 @@
 namespace netsim {
 namespace {
 
-// A sum that also loses terms again. What rounding takes from it is kept beside it, so that a weak frame that outlasts
-// a strong one is still right when that has gone. A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation
-// endlicher Summen", 1974.
+// A sum from which terms are also subtracted. The rounding error is kept separately, so that a weak
+// frame is still exact after a strong one ended. A. Neumaier, "Rundungsfehleranalyse einiger
+// Verfahren zur Summation endlicher Summen", 1974.
 class CompensatedSum {
 public:
     void add(double term) {
@@ -34,14 +34,14 @@ void InterferenceSum::find_changes() {
             ends_.push_back({other.end, other.power_w});
         }
     }
-    // Mostly they are, as those that began earlier end earlier.
-    const auto put_in_order = [](std::vector<Change>& changes) {
+    // Usually sorted already: frames that began earlier end earlier.
+    const auto sort_by_time = [](std::vector<Change>& changes) {
         if (!std::ranges::is_sorted(changes, {}, &Change::time)) {
             std::ranges::sort(changes, {}, &Change::time);
         }
     };
-    put_in_order(starts_);
-    put_in_order(ends_);
+    sort_by_time(starts_);
+    sort_by_time(ends_);
 }
 
 void InterferenceSum::find_moments() {
@@ -82,11 +82,11 @@ SimTime InterferenceSum::find_worst_moment() {
     if (others_.size() == 1) {
         return std::max(others_.front().start, start_);
     }
-    find_moments();  // it is one of them, as the sum falls where one ends
-    const double most_w = std::ranges::max(moments_, {}, &Moment::sum_w).sum_w;
-    // Those that differ by no more than rounding are told apart by their exact sums.
+    find_moments();  // the worst moment is one of them: the sum falls where a frame ends
+    const double max_w = std::ranges::max(moments_, {}, &Moment::sum_w).sum_w;
+    // Moments that differ by no more than rounding are compared by their exact sums.
     constexpr double nearly = 1 - 1e-9;
-    std::erase_if(moments_, [most_w](const Moment& moment) { return moment.sum_w < most_w * nearly; });
+    std::erase_if(moments_, [max_w](const Moment& moment) { return moment.sum_w < max_w * nearly; });
     if (moments_.size() == 1) {
         return moments_.front().time;
     }
@@ -164,7 +164,7 @@ const std::vector<InterferenceStep>& InterferenceSum::steps() {
             --count;
         }
         if (count == 0) {
-            sum = CompensatedSum();  // exactly nothing
+            sum = CompensatedSum();  // exactly 0
         }
         if (time == start_) {
             steps_.front().power_w = sum.value();

@@ -1,8 +1,9 @@
-// What other frames bring to a receiver while it gets one: their sum, a step function of time.
+// The interference at a receiver during a reception: the sum of the other frames' powers, a step
+// function of time.
 //
-// The medium adds those that the receiver gets beside the wanted one, the radio asks for the worst moment or for the
-// whole function. The sum rises and falls only where a frame starts or ends, so a sweep over the sorted starts and
-// ends finds all of it: O(m log m) for m frames.
+// The medium adds the other frames. The radio asks for the worst moment or for the whole function.
+// The sum changes only where a frame starts or ends, so one sweep over sorted starts and ends
+// computes it: O(m log m) for m frames.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace netsim {
 
-// From `start` on until the next step, or the end of the period, the others bring `power_w` together.
+// Interference of `power_w` from `start` until the next step or the end of the period.
 struct InterferenceStep {
     SimTime start;
     double power_w = 0;
@@ -23,15 +24,16 @@ struct InterferenceStep {
 
 class InterferenceSum {
 public:
-    // Begins a new period, from `start` until just before `end`, in which nothing disturbs.
+    // Begins a new period, from `start` until just before `end`, without interference.
     void begin(SimTime start, SimTime end) {
         start_ = start;
         end_ = end;
         others_.clear();
         worst_moment_.reset();
     }
-    // One that does, in the order of transmissions; no matter whether it lasts into the period. In the header, so that
-    // nothing of an arrival is worked out that is not asked for here.
+    // Adds an interfering frame; one outside the period is ignored. Call it in the order of
+    // transmissions. Inline, so that the compiler drops the parts of an arrival that are not used
+    // here.
     void add(const Arrival& other) {
         if (other.start < end_ && other.end > start_ && other.power_w > 0) {
             others_.push_back({other.transmission, other.start, other.end, other.power_w});
@@ -41,12 +43,14 @@ public:
 
     // The largest sum over the period, in W, without background noise.
     double worst_w();
-    // Who is to blame for that: of those on the air when the sum is largest, the strongest, as many as outweigh all the others
-    // together, and who is just as strong as the last of them. Nodes, each once, from strong to weak; none if nothing disturbs. Of
-    // several moments equally bad, that of the earliest transmission's start. Valid until the next call of begin or interferers.
+    // The nodes that caused the largest sum, from strong to weak, each once. Of the frames on the
+    // air at that moment, these are the strongest, as many as outweigh the rest together, and any
+    // as strong as the last of them. Of several equally bad moments, the start of the earliest
+    // transmission counts. Empty without interference. Valid until the next call of begin or
+    // interferers.
     const std::vector<NodeId>& interferers();
-    // At least one, the first at the start of the period, and each different from the one before. Valid until the
-    // next call of begin or steps.
+    // The whole function: at least one step, the first at the start of the period, each different
+    // from the one before. Valid until the next call of begin or steps.
     const std::vector<InterferenceStep>& steps();
 
 private:
@@ -67,12 +71,13 @@ private:
 
     // Sorts the starts and the ends within the period.
     void find_changes();
-    // When the others begin, with the sums from then on: right but for rounding, in proportion to the largest of them.
+    // Finds the moments when frames begin, and the sums from then on. Rounding errors are relative
+    // to the largest sum.
     void find_moments();
-    // Of at least one other; worked out once.
+    // Of at least one frame; computed once.
     SimTime worst_moment();
     SimTime find_worst_moment();
-    // Exactly what adding up in the order of transmissions gives.
+    // The sum in the order of transmissions, exactly as the radio would round it.
     double sum_w_at(SimTime moment) const;
 
     SimTime start_;

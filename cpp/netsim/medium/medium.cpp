@@ -6,62 +6,63 @@
 #include <utility>
 
 #include "netsim/error.hpp"
-#include "netsim/kernel/fetch.hpp"
-#include "netsim/medium/order_of_arrival.hpp"
+#include "netsim/kernel/prefetch.hpp"
+#include "netsim/medium/sort_arrivals.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
 
 Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
-               Hearing hearing, std::uint64_t seed)
+               Culling culling, std::uint64_t seed)
     : simulator_(simulator),
       fates_(fates),
       fingerprint_(fingerprint),
       links_(config, seed),
-      airwaves_(links_),
-      energy_watch_(simulator, links_, airwaves_, *this),
+      active_transmissions_(links_),
+      energy_detection_(simulator, links_, active_transmissions_, *this),
       background_noise_(config),
-      hearing_(hearing) {}
+      culling_(culling) {}
 
 RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna) {
-    energy_watch_.add_radio();
+    energy_detection_.add_radio();
     return links_.add(interface, receiver, antenna, simulator_.now());
 }
 
 SimTime Medium::watch_energy(RadioId radio, SimTime since) {
     links_.set_watches_energy(radio, true);
-    return hearing_ == Hearing::everything ? SimTime::long_ago() : energy_watch_.watch(radio, since);
+    return culling_ == Culling::disabled ? SimTime::long_ago() : energy_detection_.watch(radio, since);
 }
 
 void Medium::transmit(Transmission transmission) {
     const SimTime now = simulator_.now();
-    airwaves_.forget_the_past(now, remembered_);
-    const Turn first_turn = simulator_.reserve_turns(2 * static_cast<std::uint64_t>(links_.count()));
-    OnAir& entry = airwaves_.put(std::move(transmission), now, first_turn);
+    active_transmissions_.forget_ended(now, remembered_);
+    const SequenceNumber first_sequence_number =
+        simulator_.reserve_sequence_numbers(2 * static_cast<std::uint64_t>(links_.count()));
+    ActiveTransmission& entry =
+        active_transmissions_.put(std::move(transmission), now, first_sequence_number);
     const Transmission& sent = entry.transmission;
     fingerprint_.add(static_cast<std::uint64_t>(sent.start.ps()));
     fingerprint_.add((static_cast<std::uint64_t>(sent.sender.stream()) << 32) ^ sent.psdu_bytes);
-    if (hearing_ == Hearing::everything) {
-        tell_everybody(entry);
+    if (culling_ == Culling::disabled) {
+        notify_all(entry);
     } else {
-        tell_those_it_matters_to(entry);
+        find_all_receivers(entry);
     }
 }
 
-// The plain model.
-void Medium::tell_everybody(OnAir& entry) {
+void Medium::notify_all(ActiveTransmission& entry) {
     const Transmission& sent = entry.transmission;
-    entry.others_w = std::numeric_limits<double>::infinity();
-    entry.far_w = entry.others_w;
-    entry.heard_is_complete = true;  // nobody: each is told apart
+    entry.max_interference_w = std::numeric_limits<double>::infinity();
+    entry.max_far_interference_w = entry.max_interference_w;
+    entry.arrivals_are_scheduled = true;  // there are none: all are late arrivals
     CopyCount addressed;
     CopyCount overheard;
     for (RadioId radio = 0; radio < links_.count(); ++radio) {
-        const ReceiverKind& receiver = links_.kind(radio);
-        if (radio == sent.radio || airwaves_.share_at(entry, radio) == 0) {
+        const ReceiverParameters& receiver = links_.receiver(radio);
+        if (radio == sent.radio || active_transmissions_.share_at(entry, radio) == 0) {
             continue;
         }
-        const Arrival arrival = airwaves_.arrival_at(entry, radio);
+        const Arrival arrival = active_transmissions_.arrival_at(entry, radio);
         if (receiver.can_decode(sent)) {
             CopyCount& count = sent.label.is_for(links_.interface(radio).node) ? addressed : overheard;
             ++count.made;
@@ -70,71 +71,72 @@ void Medium::tell_everybody(OnAir& entry) {
             }
         }
         entry.last_end = std::max(entry.last_end, arrival.end);
-        tell(radio, entry, arrival);
+        notify(radio, entry, arrival);
     }
     fates_.book_transmission(sent.label, addressed, overheard);
 }
 
-void Medium::tell_those_it_matters_to(OnAir& entry) {
+void Medium::find_all_receivers(ActiveTransmission& entry) {
     const Transmission& sent = entry.transmission;
-    airwaves_.find_those_beside(entry, beside_);
+    active_transmissions_.find_concurrent(entry, concurrent_);
     CopyCount copies;
     double farthest_m = 0;
-    for (std::size_t audience = 0; audience < links_.audiences().size(); ++audience) {
-        if (entry.shares[audience] > 0) {
-            const CopyCount there = find_those_it_matters_to(entry, audience);
+    for (std::size_t group = 0; group < links_.groups().size(); ++group) {
+        if (entry.shares[group] > 0) {
+            const CopyCount there = find_receivers(entry, group);
             copies.made += there.made;
             copies.too_weak += there.too_weak;
-            farthest_m = std::max(farthest_m, links_.audiences()[audience].members.farthest_m(sent.origin));
+            farthest_m = std::max(farthest_m, links_.groups()[group].members.farthest_m(sent.origin));
         }
     }
-    entry.last_end = sent.start + sent.duration + most_propagation_delay(farthest_m);
-    if (!beside_.empty()) {
-        for (OnAir* other : beside_) {
-            bound_interference(entry, *other);
-            bound_interference(*other, entry);
+    entry.last_end = sent.start + sent.duration + max_propagation_delay(farthest_m);
+    if (!concurrent_.empty()) {
+        for (ActiveTransmission* other : concurrent_) {
+            add_interference_bounds(entry, *other);
+            add_interference_bounds(*other, entry);
         }
-        energy_watch_.add_up_in_time(entry, beside_);
+        energy_detection_.add(entry, concurrent_);
     }
     book_copies(entry, copies);
     schedule_arrivals(entry);
 }
 
-CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
+CopyCount Medium::find_receivers(ActiveTransmission& entry, std::size_t index) {
     const Transmission& sent = entry.transmission;
-    Audience& audience = links_.audiences()[index];
+    ReceiverGroup& group = links_.groups()[index];
     const double share = entry.shares[index];
-    EnergyRing& ring = entry.rings[index];
-    energy_watch_.begin_ring(entry, index);
-    const bool is_decodable = audience.can_decode(sent);
-    const double within_m = links_.reach_m(audience, sent);
-    audience.members.prepare(sent.start, links_.odometer(), within_m);
+    WatchZones& zones = entry.zones[index];
+    energy_detection_.begin_zones(entry, index);
+    const bool is_decodable = group.can_decode(sent);
+    const double within_m = links_.reach_m(group, sent);
+    group.members.prepare(sent.start, links_.displacement(), within_m);
     entry.reach_m = std::max(entry.reach_m, within_m);
-    // Up to there the delay may be rounded to 0: also of those that matter only together.
-    constexpr double at_once_m = 1e-3;
-    const double search_m = std::max({within_m, ring.radius_m(), at_once_m});
-    const double least_w = std::min(audience.noticed_w(sent), ring.least_power_w());
+    // Up to this distance, the delay may be rounded to 0, also for radios that notice it only
+    // together with others.
+    constexpr double immediate_m = 1e-3;
+    const double search_m = std::max({within_m, zones.radius_m(), immediate_m});
+    const double min_w = std::min(group.min_noticed_w(sent), zones.min_power_w());
     const auto watch = [&](RadioId radio, const Position& place, double received_w) {
-        const ReceiverKind& there = links_.kind(radio);
-        if (received_w >= ring.least_power_w() && !there.is_surely_loud(received_w)) {
-            ring.watched().push_back({radio, place, there.missing_beside_w(received_w)});
+        const ReceiverParameters& there = links_.receiver(radio);
+        if (received_w >= zones.min_power_w() && !there.surely_exceeds_ed(received_w)) {
+            zones.watched().push_back({radio, place, there.headroom_w(received_w)});
         }
     };
-    part(audience.members.near(sent.origin, search_m), sent, std::max(within_m, at_once_m));
+    partition(group.members.near(sent.origin, search_m), sent, std::max(within_m, immediate_m));
     std::uint64_t noticed = 0;
-    for (const Neighbours::Near* near : within_) {
+    for (const NeighborSearch::Neighbor* near : within_) {
         const auto& [place, radio] = *near;
         const double squared_m2 = squared_distance(sent.origin, place);
-        entry.arrives_at_once |= squared_m2 <= at_once_m * at_once_m;
-        const ReceiverKind& there = links_.kind(radio);
+        entry.arrives_immediately |= squared_m2 <= immediate_m * immediate_m;
+        const ReceiverParameters& there = links_.receiver(radio);
         const double distance_m = std::sqrt(squared_m2);
-        const double received_w = links_.power_w(sent, share, radio, place, distance_m, least_w);
+        const double received_w = links_.power_w(sent, share, radio, place, distance_m, min_w);
         const bool can_lock = is_decodable && received_w >= there.sensitivity_w;
         noticed += can_lock ? 1 : 0;
-        if (can_lock || there.is_loud(received_w)) {
-            fetch(radio, sent.label.kind);
+        if (can_lock || there.exceeds_ed(received_w)) {
+            prefetch(radio, sent.label.kind);
             const auto place_index = static_cast<std::uint32_t>(entry.places.size());
-            entry.heard.push_back(
+            entry.scheduled.push_back(
                 {sent.start + propagation_delay(distance_m), received_w, radio, place_index, can_lock});
             entry.places.push_back(place);
         }
@@ -142,29 +144,30 @@ CopyCount Medium::find_those_it_matters_to(OnAir& entry, std::size_t index) {
             watch(radio, place, received_w);
         }
     }
-    for (const Neighbours::Near* near : beyond_) {
+    for (const NeighborSearch::Neighbor* near : beyond_) {
         const auto& [place, radio] = *near;
         if (links_.watches_energy(radio)) {
             watch(radio, place,
-                  links_.power_w(sent, share, radio, place, distance(sent.origin, place), least_w));
+                  links_.power_w(sent, share, radio, place, distance(sent.origin, place), min_w));
         }
     }
     if (!is_decodable) {
         return {};
     }
     const std::uint64_t copies =
-        audience.members.size() - (links_.audience_of(sent.radio) == index ? 1 : 0);  // none for the sender
+        group.members.size() - (links_.group_of(sent.radio) == index ? 1 : 0);  // none for the sender
     return {copies, copies - noticed};
 }
 
-void Medium::part(std::span<const Neighbours::Near> near, const Transmission& sent, double noticed_m) {
+void Medium::partition(std::span<const NeighborSearch::Neighbor> near, const Transmission& sent,
+                       double noticed_m) {
     within_.resize(near.size());
     beyond_.resize(near.size());
     std::size_t within = 0;
     std::size_t beyond = 0;
-    // Without a branch, as a processor cannot guess who is where.
-    for (const Neighbours::Near& there : near) {
-        links_.fetch(there.radio);
+    // Branch-free: which receiver is where is unpredictable for the processor.
+    for (const NeighborSearch::Neighbor& there : near) {
+        links_.prefetch(there.radio);
         const bool is_within = squared_distance(sent.origin, there.place) <= noticed_m * noticed_m;
         within_[within] = &there;
         within += static_cast<std::size_t>(is_within) & static_cast<std::size_t>(there.radio != sent.radio);
@@ -175,7 +178,7 @@ void Medium::part(std::span<const Neighbours::Near> near, const Transmission& se
     beyond_.resize(beyond);
 }
 
-void Medium::book_copies(const OnAir& entry, CopyCount copies) {
+void Medium::book_copies(const ActiveTransmission& entry, CopyCount copies) {
     const FrameLabel label = entry.transmission.label;
     if (label.destination == broadcast_id) {
         fates_.book_transmission(label, copies, {});
@@ -183,63 +186,65 @@ void Medium::book_copies(const OnAir& entry, CopyCount copies) {
     }
     CopyCount addressed;
     if (const RadioId addressee = links_.addressee_of(entry.transmission); addressee >= 0) {
-        const bool is_noticed = std::ranges::any_of(entry.heard, [addressee](const Heard& heard) {
-            return heard.radio == addressee && heard.lockable;
-        });
+        const bool is_noticed =
+            std::ranges::any_of(entry.scheduled, [addressee](const ScheduledArrival& scheduled) {
+                return scheduled.radio == addressee && scheduled.lockable;
+            });
         addressed = {1, is_noticed ? 0U : 1U};
     }
     fates_.book_transmission(label, addressed,
                              {copies.made - addressed.made, copies.too_weak - addressed.too_weak});
 }
 
-// The receiver will be told soon. In a large network most of it is in no cache by then: have it fetched meanwhile.
-void Medium::fetch(RadioId radio, FrameKind kind) const {
-    links_.fetch_touched(radio);
-    fates_.fetch(links_.interface(radio).node, kind, FrameFate::delivered);
+// The receiver will be notified soon. In a large network, most of its state is in no cache by then.
+void Medium::prefetch(RadioId radio, FrameKind kind) const {
+    links_.prefetch_targets(radio);
+    fates_.prefetch(links_.interface(radio).node, kind, FrameFate::delivered);
 }
 
-// The events of an arrival have their turns in the order of equal times since its transmission began: the
-// course of a run does not depend on when, or whether, a radio is told. So of all arrivals of a transmission only the
-// next one to start and the next one to end need to be in the queue.
-void Medium::schedule_arrivals(OnAir& entry) {
-    entry.heard_is_complete = true;
-    if (entry.heard.empty()) {
+// The sequence numbers of all arrival events are reserved when the transmission begins. So the
+// order of events does not depend on when, or whether, a radio is notified, and only the next start
+// and the next end are in the event queue.
+void Medium::schedule_arrivals(ActiveTransmission& entry) {
+    entry.arrivals_are_scheduled = true;
+    if (entry.scheduled.empty()) {
         return;
     }
-    put_in_order(entry.heard, entry.transmission.start, spare_);
-    schedule_next(entry, OnAir::begins);
-    schedule_next(entry, OnAir::ends);
+    sort_arrivals(entry.scheduled, entry.transmission.start, spare_);
+    schedule_next(entry, ActiveTransmission::begins);
+    schedule_next(entry, ActiveTransmission::ends);
 }
 
-Medium::Due Medium::next_due(const OnAir& entry, OnAir::Edge edge) {
-    const Heard& next = entry.heard[entry.told[edge]];
-    return {edge == OnAir::begins ? next.start : next.start + entry.transmission.duration,
-            entry.turn_at(next.radio, edge)};
+Medium::Due Medium::next_due(const ActiveTransmission& entry, ActiveTransmission::Edge edge) {
+    const ScheduledArrival& next = entry.scheduled[entry.notified[edge]];
+    return {edge == ActiveTransmission::begins ? next.start : next.start + entry.transmission.duration,
+            entry.sequence_number(next.radio, edge)};
 }
 
-void Medium::schedule_next(OnAir& entry, OnAir::Edge edge) {
+void Medium::schedule_next(ActiveTransmission& entry, ActiveTransmission::Edge edge) {
     const Due due = next_due(entry, edge);
-    simulator_.schedule_at_turn(due.time, due.turn, [this, &entry, edge] { tell_next(entry, edge); });
+    simulator_.schedule_reserved(due.time, due.number, [this, &entry, edge] { notify_next(entry, edge); });
 }
 
-// And of those after it, as long as nothing else is due in between: mostly they come in one go, and need not pass through
-// the queue.
-void Medium::tell_next(OnAir& entry, OnAir::Edge edge) {
+// Notifies the next radio, and those after it while no other event comes between: most need not
+// pass through the queue.
+void Medium::notify_next(ActiveTransmission& entry, ActiveTransmission::Edge edge) {
     Due due;
     do {
-        const Heard& heard = entry.heard[entry.told[edge]++];
+        const ScheduledArrival& scheduled = entry.scheduled[entry.notified[edge]++];
         const Arrival arrival{&entry.transmission,
-                              heard.start,
-                              heard.start + entry.transmission.duration,
-                              heard.power_w,
-                              entry.places[heard.place_index],
-                              heard.lockable,
+                              scheduled.start,
+                              scheduled.start + entry.transmission.duration,
+                              scheduled.power_w,
+                              entry.places[scheduled.place_index],
+                              scheduled.lockable,
                               &entry};
-        const bool is_last = entry.told[edge] == entry.heard.size();
+        const bool is_last = entry.notified[edge] == entry.scheduled.size();
         try {
-            MediumListener& listener = links_.listener(heard.radio);
-            edge == OnAir::begins ? listener.arrival_started(arrival) : listener.arrival_ended(arrival);
-        } catch (...) {  // a protocol's: the others hear the frame all the same
+            MediumListener& listener = links_.listener(scheduled.radio);
+            edge == ActiveTransmission::begins ? listener.arrival_started(arrival)
+                                               : listener.arrival_ended(arrival);
+        } catch (...) {  // thrown by a protocol: the other radios still get the frame
             if (!is_last) {
                 schedule_next(entry, edge);
             }
@@ -249,88 +254,90 @@ void Medium::tell_next(OnAir& entry, OnAir::Edge edge) {
             return;
         }
         due = next_due(entry, edge);
-    } while (simulator_.goes_on_at(due.time, due.turn));
+    } while (simulator_.try_run_inline(due.time, due.number));
     schedule_next(entry, edge);
 }
 
-void Medium::energy_matters(RadioId radio, OnAir& on_air, const Arrival& arrival) {
-    tell(radio, on_air, arrival);
+void Medium::arrival_needed(RadioId radio, ActiveTransmission& active, const Arrival& arrival) {
+    notify(radio, active, arrival);
 }
 
-void Medium::tell(RadioId radio, OnAir& on_air, const Arrival& arrival) {
-    if (!on_air.heard_is_complete) {
-        const auto place_index = static_cast<std::uint32_t>(on_air.places.size());
-        on_air.heard.push_back({arrival.start, arrival.power_w, radio, place_index, arrival.lockable});
-        on_air.places.push_back(arrival.place);
+void Medium::notify(RadioId radio, ActiveTransmission& active, const Arrival& arrival) {
+    if (!active.arrivals_are_scheduled) {
+        const auto place_index = static_cast<std::uint32_t>(active.places.size());
+        active.scheduled.push_back({arrival.start, arrival.power_w, radio, place_index, arrival.lockable});
+        active.places.push_back(arrival.place);
         return;
     }
-    if (simulator_.has_passed(arrival.end, on_air.turn_at(radio, OnAir::ends))) {
+    if (simulator_.has_passed(arrival.end, active.sequence_number(radio, ActiveTransmission::ends))) {
         return;
     }
-    const std::size_t apart = on_air.told_apart.size();
-    on_air.told_apart.push_back(arrival);
-    const Turn turn = on_air.turn_at(radio, OnAir::begins);
-    if (simulator_.has_passed(arrival.start, turn)) {
-        // It came to matter after it had begun: nothing that the radio could have noticed happened in
+    const std::size_t index = active.late_arrivals.size();
+    active.late_arrivals.push_back(arrival);
+    const SequenceNumber number = active.sequence_number(radio, ActiveTransmission::begins);
+    if (simulator_.has_passed(arrival.start, number)) {
+        // It became relevant after its start. Nothing that the radio could have noticed happened in
         // between.
-        begin(radio, on_air, apart);
+        start_late_arrival(radio, active, index);
         return;
     }
-    simulator_.schedule_at_turn(arrival.start, turn,
-                                [this, radio, &on_air, apart] { begin(radio, on_air, apart); });
+    simulator_.schedule_reserved(arrival.start, number,
+                                 [this, radio, &active, index] { start_late_arrival(radio, active, index); });
 }
 
-void Medium::begin(RadioId radio, const OnAir& on_air, std::size_t apart) {
-    const Arrival arrival = on_air.told_apart[apart];  // a copy: others may be told meanwhile
+void Medium::start_late_arrival(RadioId radio, const ActiveTransmission& active, std::size_t index) {
+    const Arrival arrival = active.late_arrivals[index];  // a copy: the vector may grow meanwhile
     links_.listener(radio).arrival_started(arrival);
-    simulator_.schedule_at_turn(arrival.end, on_air.turn_at(radio, OnAir::ends),
-                                [this, radio, &on_air, apart] {
-                                    const Arrival ended = on_air.told_apart[apart];
-                                    links_.listener(radio).arrival_ended(ended);
-                                });
+    simulator_.schedule_reserved(arrival.end, active.sequence_number(radio, ActiveTransmission::ends),
+                                 [this, radio, &active, index] {
+                                     const Arrival ended = active.late_arrivals[index];
+                                     links_.listener(radio).arrival_ended(ended);
+                                 });
 }
 
-void Medium::bound_interference(OnAir& here, const OnAir& there) const {
-    const double most_w = links_.all_isotropic() ? airwaves_.most_brought_w(
-                                                       there, here, there.transmission.power_w)(here.reach_m)
-                                                 : std::numeric_limits<double>::infinity();
-    here.others_w += most_w;
-    // From six times the reach away, in free space, the nearest receiver gets twice what the farthest gets.
-    constexpr double close = 6;
-    if (links_.is_random() || most_w == std::numeric_limits<double>::infinity() ||
+void Medium::add_interference_bounds(ActiveTransmission& here, const ActiveTransmission& there) const {
+    const double max_w = links_.all_isotropic() ? active_transmissions_.max_received_w(
+                                                      there, here, there.transmission.power_w)(here.reach_m)
+                                                : std::numeric_limits<double>::infinity();
+    here.max_interference_w += max_w;
+    // Six reaches away in free space, the nearest receiver gets twice the power of the farthest
+    // one.
+    constexpr double close_interferers = 6;
+    if (links_.is_random() || max_w == std::numeric_limits<double>::infinity() ||
         squared_distance(here.transmission.origin, there.transmission.origin) <
-            close * close * here.reach_m * here.reach_m) {
-        here.close.push_back(&there);
+            close_interferers * close_interferers * here.reach_m * here.reach_m) {
+        here.close_interferers.push_back(&there);
     } else {
-        here.far_w += most_w;
+        here.max_far_interference_w += max_w;
     }
 }
 
-double Medium::most_interference_w(RadioId receiver, const Arrival& arrival) const {
-    const OnAir& here = *arrival.on_air;
-    double most_w = here.far_w;
-    for (const OnAir* other : here.close) {
+double Medium::max_interference_w(RadioId receiver, const Arrival& arrival) const {
+    const ActiveTransmission& here = *arrival.active;
+    double max_w = here.max_far_interference_w;
+    for (const ActiveTransmission* other : here.close_interferers) {
         if (other->transmission.radio != receiver) {
-            most_w += airwaves_.power_at(*other, receiver, arrival.place, simulator_.now());
+            max_w += active_transmissions_.power_at(*other, receiver, arrival.place, simulator_.now());
         }
     }
-    return most_w * (1 + rounding_margin);
+    return max_w * (1 + rounding_margin);
 }
 
 InterferenceSum& Medium::interference_with(RadioId receiver, const Arrival& arrival, SimTime start,
                                            SimTime end) {
     interference_.begin(start, end);
-    if (airwaves_.size() <= 1) {
+    if (active_transmissions_.size() <= 1) {
         return interference_;
     }
-    const std::uint32_t audience = links_.audience_of(receiver);
-    for (const std::unique_ptr<OnAir>& other : airwaves_.entries()) {
+    const std::uint32_t group = links_.group_of(receiver);
+    for (const std::unique_ptr<ActiveTransmission>& other : active_transmissions_.entries()) {
         const Transmission& sent = other->transmission;
         if (&sent == arrival.transmission || sent.radio == receiver || other->last_end <= start ||
-            sent.start >= end || other->shares[audience] == 0) {
+            sent.start >= end || other->shares[group] == 0) {
             continue;
         }
-        interference_.add(airwaves_.arrival_at(*other, receiver, arrival.place, simulator_.now()));
+        interference_.add(
+            active_transmissions_.arrival_at(*other, receiver, arrival.place, simulator_.now()));
     }
     return interference_;
 }

@@ -1,7 +1,8 @@
-// How a node is turned, as a formula of time: no event turns a node, whoever needs its orientation asks for it.
+// The orientation of a node as a function of time. There are no events for it; it is computed on
+// demand.
 //
-// Either it stays as it was at the start, or it faces forward: its heading and elevation follow the direction in which
-// it moves or last moved, without bank, as in INET's mobility.faceForward.
+// It is either constant, or the node faces forward: heading and elevation follow the direction in
+// which it moves or last moved, without bank, as in INET's mobility.faceForward.
 #pragma once
 
 #include "netsim/config/mobility_config.hpp"
@@ -12,12 +13,12 @@ namespace netsim {
 
 class Attitude {
 public:
-    // Not turned.
+    // Without rotation.
     Attitude() = default;
     explicit Attitude(const MobilityConfig& config)
         : initial_(config.initial_orientation), faces_forward_(config.face_forward) {}
 
-    // `trajectory` is that of the node; times as for its position_at.
+    // `trajectory`: of the node. `time`: as for its position_at.
     Orientation at(const Trajectory& trajectory, SimTime time) const {
         if (!faces_forward_) {
             return initial_;

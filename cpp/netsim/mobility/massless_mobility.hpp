@@ -1,4 +1,5 @@
-// A vehicle without inertia: straight to the target at the set speed, there a dead stop.
+// A vehicle without inertia: it moves straight to the target at the set speed, and stops there at
+// once.
 #pragma once
 
 #include <optional>

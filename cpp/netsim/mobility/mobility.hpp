@@ -1,7 +1,8 @@
-// How a node obeys mobility commands. Plans, such as random waypoints, are no models: protocols make them.
+// Mobility models: how a node follows mobility commands. Plans, such as random waypoints, are made
+// by protocols.
 //
-// A model turns commands into legs of a Trajectory. Models are chosen by name in make_mobility;
-// docs/guides/extending.md says what adding one takes.
+// A model turns commands into legs of a Trajectory. make_mobility chooses models by name. To add
+// one, see docs/guides/extending.md.
 #pragma once
 
 #include <memory>
@@ -15,13 +16,13 @@ class Mobility {
 public:
     virtual ~Mobility() = default;
 
-    // Fly to `target` (metres). Throws SimulationError if the model cannot, or for numbers that are not
+    // Fly to `target` (meters). Throws SimulationError if the model cannot, or if a number is not
     // finite.
     virtual void go_to(SimTime now, Position target) = 0;
-    // From now on, also on the present leg, fly at `speed_mps` ≥ 0.
+    // Fly at `speed_mps` ≥ 0 from now on, also on the current leg.
     virtual void set_speed(SimTime now, double speed_mps) = 0;
 
-    // Whether it ever obeys.
+    // Whether the model accepts commands.
     virtual bool can_move() const { return true; }
 
     const Trajectory& trajectory() const { return trajectory_; }
@@ -32,7 +33,7 @@ protected:
     Trajectory trajectory_;
 };
 
-// config.type_name must be in the table: see MobilityConfig::validate.
+// config.type_name must be valid: see MobilityConfig::validate.
 std::unique_ptr<Mobility> make_mobility(const MobilityConfig& config, Position initial);
 
 }  // namespace netsim

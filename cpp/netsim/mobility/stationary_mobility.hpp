@@ -1,4 +1,4 @@
-// A node that stands where it was put; a command to move it is an error of its protocol.
+// A node that never moves. A command to move it is an error of its protocol.
 #pragma once
 
 #include "netsim/error.hpp"

@@ -37,7 +37,7 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
     const SimTime end_of_time = SimTime::from_seconds(SimTime::longest_run_s);
     const double rest_s = (end_of_time - now).seconds();
     if (!(travel_s < rest_s)) {
-        // So slow that the run ends before the arrival: keep the direction, shorten the leg.
+        // Too slow to arrive before the end of the run: keep the direction, shorten the leg.
         add(Leg{.start = now,
                 .arrival = end_of_time,
                 .target = origin + (target - origin) * (rest_s / travel_s),
@@ -58,7 +58,7 @@ void Trajectory::stop(SimTime now) {
 }
 
 void Trajectory::add(Leg leg) {
-    if (current_.start != leg.start) {  // else: commands of one instant, of which the last one counts
+    if (current_.start != leg.start) {  // otherwise the last command of the instant counts
         past_.push_back(current_);
     }
     leg.course = leg.target - leg.origin;

@@ -1,7 +1,7 @@
-// Where a node is, as a formula of time: a sequence of straight legs at constant speed.
+// The position of a node as a function of time: a sequence of straight legs at constant speed.
 //
-// No event moves a node; whoever needs a position asks for it. The legs of the last second are kept, because
-// the medium works out powers of frames that started a moment ago.
+// There are no events for movement; positions are computed on demand. The legs of the last second
+// are kept, because the medium computes powers of frames that started a moment ago.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@
 
 namespace netsim {
 
-// Learns of every new leg of the trajectories that it watches, before anybody asks for a position on it.
+// Notified of every new leg of the trajectories that it watches, before any position on it is used.
 class CourseListener {
 public:
-    // From `now` on at `speed_mps`.
+    // The node moves at `speed_mps` from `now` on.
     virtual void course_changed(SimTime now, double speed_mps) = 0;
 
 protected:
@@ -23,7 +23,8 @@ protected:
 
 class alignas(64) Trajectory {
 public:
-    // How far before the newest leg position_at may ask. Longer than any frame with its propagation.
+    // How far before the newest leg `time` of position_at may be. Longer than any frame with its
+    // propagation.
     static constexpr SimTime memory = SimTime::from_us(1'000'000);
 
     explicit Trajectory(Position initial)
@@ -33,32 +34,34 @@ public:
         return position_on(time >= current_.start ? current_ : past_leg_at(time), time);
     }
 
-    // The direction of the motion just before that time, of any length; of the latest one before, while it stands; 0, as
-    // long as it has not moved. Just before: so that commands of that very instant do not change what was said already.
+    // The direction of the motion just before that time, of any length. While the node stands, that
+    // of its last motion; 0 if it never moved. "Just before", so that a command at the same instant
+    // does not change earlier results.
     Position course_at(SimTime time) const {
         return (time > current_.start ? current_ : leg_begun_before(time)).course;
     }
 
-    // From `now` on straight to `target` at `speed_mps`, there to stand. Speed 0: stand where it is. However short the
-    // way and high the speed, it takes the shortest time that there is: nobody is at two places in one instant.
+    // Moves straight to `target` at `speed_mps` from `now` on, and stops there. Speed 0: stands
+    // still. Takes at least one picosecond: no node is at two places at one instant.
     void go_to(SimTime now, Position target, double speed_mps);
-    // From `now` on stand still.
+    // Stands still from `now` on.
     void stop(SimTime now);
 
-    // The highest speed from `now` on, as things stand.
+    // The highest speed from `now` on, without further commands.
     double speed_mps(SimTime now) const { return now < current_.arrival ? speed_on(current_) : 0; }
 
-    // Watching changes nothing of the course, so a constant trajectory can be watched too; by one at a time.
+    // A constant trajectory can be watched, too, since its course does not change. One listener at
+    // a time.
     void set_listener(CourseListener& listener) const { listener_ = &listener; }
 
 private:
-    // What a position takes comes first: one cache line.
+    // The members that position_on reads come first: one cache line.
     struct Leg {
         SimTime start;
         SimTime arrival;
         Position target;
         Position origin;
-        Position course;  // from the origin to the target, or that of the leg before, if they are the same
+        Position course;  // from the origin to the target; the previous course if they are equal
     };
 
     static Position position_on(const Leg& leg, SimTime time) {
@@ -78,8 +81,8 @@ private:
     const Leg& leg_begun_before(SimTime time) const;
     void add(Leg leg);
 
-    Leg current_;            // from its start on
-    std::vector<Leg> past_;  // those before, by start; takes no memory as long as there are none
+    Leg current_;            // valid from its start on
+    std::vector<Leg> past_;  // earlier legs, by start
     mutable CourseListener* listener_ = nullptr;
 };
 

@@ -68,7 +68,7 @@ int psdu_bytes_of(const InterfaceConfig& interface, int payload_bytes) {
     return narrowband ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
 }
 
-double most_antenna_gain(const RadioConfig& radio) {
+double max_antenna_gain(const RadioConfig& radio) {
     const auto pattern = make_antenna(radio.antenna, radio.carrier_hz);
     return pattern ? pattern->max_gain() : 1;
 }
@@ -83,7 +83,7 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
       band_{sender_.radio.carrier_hz, sender_.radio.bandwidth_hz},
       sender_height_m_(checked(sender).initial_position.z),
       receiver_height_m_(receiver.initial_position.z),
-      antenna_gain_(most_antenna_gain(sender_.radio) * most_antenna_gain(receiver_)),
+      antenna_gain_(max_antenna_gain(sender_.radio) * max_antenna_gain(receiver_)),
       noise_w_(BackgroundNoise(medium).power_w(receiver_.bandwidth_hz, receiver_.noise_figure)),
       error_model_(make_error_model(receiver_)),
       mode_(&broadcast_mode(sender_)),
@@ -103,28 +103,29 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
     }
 }
 
-double LinkBudget::least_power_w() const {
-    double least_w = std::max(receiver_.sensitivity_w, receiver_.snir_threshold * noise_w_);
+double LinkBudget::min_power_w() const {
+    double min_w = std::max(receiver_.sensitivity_w, receiver_.snir_threshold * noise_w_);
     if (!receiver_.preamble_detection.empty()) {
-        least_w =
-            std::max({least_w, receiver_.preamble_minimum_power_w, receiver_.preamble_threshold * noise_w_});
+        min_w =
+            std::max({min_w, receiver_.preamble_minimum_power_w, receiver_.preamble_threshold * noise_w_});
     }
-    return least_w;
+    return min_w;
 }
 
 double LinkBudget::success_probability(double power_w) const {
     return error_model_->success_probability(*mode_, power_w / noise_w_, psdu_bytes_);
 }
 
-// In steps: what a frame needs is known to half of one, and so is each power that is worked out from it, whatever the fading.
+// In steps of the needed power. So powers derived from it are accurate to half a step, for any
+// fading.
 std::vector<LinkBudget::Need> LinkBudget::needs() const {
     constexpr double step_db = 0.02;
-    constexpr double far_db = 100;  // as far above the noise, or below it, no chance changes
+    constexpr double far_db = 100;  // beyond this distance from the noise, no probability changes
     constexpr double too_small = 1e-12;
-    const double least_w = least_power_w();
-    double known = success_probability(least_w);
-    std::vector<Need> all{{least_w, known}};
-    const double first_w = std::max(least_w, noise_w_ * ratio_from_db(-far_db));
+    const double min_w = min_power_w();
+    double known = success_probability(min_w);
+    std::vector<Need> all{{min_w, known}};
+    const double first_w = std::max(min_w, noise_w_ * ratio_from_db(-far_db));
     const double steps = (db_from_ratio(noise_w_ / first_w) + far_db) / step_db;  // none without noise
     for (int step = 1; step <= steps; ++step) {
         const double success = success_probability(first_w * ratio_from_db(step_db * step));
@@ -155,7 +156,7 @@ double LinkBudget::reception_ratio(double distance_m, double tx_power_w) const {
 
 double LinkBudget::ratio_at(double power_w) const {
     if (!propagation_.is_random()) {
-        return power_w >= least_power_w() ? success_probability(power_w) : 0;
+        return power_w >= min_power_w() ? success_probability(power_w) : 0;
     }
     double sum = 0;
     for (const Need& need : needs_) {
@@ -178,14 +179,15 @@ double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
                            {"no power reaches ", Quantity{range_m, "m"}, ": even of ",
                             Quantity{largest_tx_power_w, "W"}, ", too little is left there"}});
     }
-    // The share never falls with the power, so the powers that do are all above one: bisection on a logarithmic scale.
+    // The ratio never falls with the power: bisection on a logarithmic scale.
     double too_weak_w = weakest_w;
     double enough_w = largest_tx_power_w;
     while (enough_w > too_weak_w * (1 + precision)) {
         const double middle_w = std::sqrt(too_weak_w) * std::sqrt(enough_w);
         (ratio_at(middle_w * gain) >= ratio ? enough_w : too_weak_w) = middle_w;
     }
-    // A run rounds in other places; where a limit decides, all or nothing hangs on the last digit.
+    // A run may round differently. At a threshold, the last digit decides between all frames and
+    // none.
     return std::min(enough_w * (1 + precision), largest_tx_power_w);
 }
 

@@ -1,11 +1,12 @@
-// The chances of one broadcast frame from one node to another over a distance, with nobody else on the air: what a run
-// shows on average, worked out with the run's own models of path loss, noise and errors. Used to find the transmitter
-// power for a wanted range.
+// The success probability of one broadcast frame between two nodes over a distance, with no other
+// frame on the air: the average of a run, computed with the run's own models of path loss, noise
+// and errors. Used to find the transmit power for a range.
 //
-// Where the gain is random, the share is the mean over all states of the link. Each frame needs some power to be decoded: a
-// share s(p) of them no more than p, the chance of success without fading. With C(x) the chance that the fading is at least
-// x, and q the power that would arrive without it, the share is ∫ C(p / q) ds(p): integration by parts of the mean of
-// s(x q). Antennas look at each other with their largest gain, and no obstacle is between them.
+// If the gain is random, the ratio is the mean over all states of the link. Let s(p) be the success
+// probability at power p without fading, C(x) the probability that the fading is at least x, and q
+// the power that would arrive without fading. The ratio is ∫ C(p / q) ds(p), from the mean of s(x
+// q) by integration by parts. Antennas face each other with their largest gain, without obstacles
+// between them.
 #pragma once
 
 #include <cstddef>
@@ -22,42 +23,43 @@ namespace netsim {
 
 class LinkBudget {
 public:
-    // For messages of `payload_bytes` ≥ 0 through wlan[interface] of both. The heights of the nodes are the z of their initial positions. Throws
-    // ConfigError for a value out of its range, for a medium without path loss (UnitDiskRadioMedium), for nodes of
-    // different bands and for a message that does not fit into a frame.
+    // For messages of `payload_bytes` ≥ 0 through wlan[interface] of both. The z of the initial
+    // positions are the heights. Throws ConfigError for a value out of range, a medium without path
+    // loss (UnitDiskRadioMedium), nodes in different bands and a message that does not fit into a
+    // frame.
     LinkBudget(const MediumConfig& medium, const NodeConfig& sender, const NodeConfig& receiver,
                int payload_bytes, std::size_t interface = 0);
 
-    // The share of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0, from 0 to 1.
+    // The share, 0 to 1, of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0.
     double reception_ratio(double distance_m, double tx_power_w) const;
 
-    // The least power in W at which at least the share `ratio` (0 < ratio < 1) is decoded at `range_m`, to 0.01 dB where
-    // the gain is random, and elsewhere a few billionths more, lest it be too little by rounding. Throws ConfigError for
-    // numbers out of their range, and if no power would do.
+    // The least power in W at which the share `ratio` (0 < ratio < 1) is decoded at `range_m`.
+    // Accurate to 0.01 dB if the gain is random, otherwise a few billionths too large, for
+    // rounding. Throws ConfigError for numbers out of range, and if no power suffices.
     double tx_power_w_for(double range_m, double ratio) const;
 
     double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
     int psdu_bytes() const { return psdu_bytes_; }
-    // The mean power that arrives over the power that is sent.
+    // The mean received power over the transmitted power.
     double mean_gain(double distance_m) const;
     // At the receiver, in W.
     double noise_w() const { return noise_w_; }
 
 private:
-    // What a share of the frames needs to be decoded.
+    // The power that a share of the frames needs to be decoded.
     struct Need {
         double power_w;
         double share;
     };
 
-    // Less is too little for any frame, whatever it is above the noise.
-    double least_power_w() const;
-    // Of a frame that arrives with at least that.
+    // No frame is decoded with less power, regardless of the noise.
+    double min_power_w() const;
+    // Of a frame that arrives with at least min_power_w().
     double success_probability(double power_w) const;
     std::vector<Need> needs() const;
     // The part of the mean gain that does not fade.
     double steady_gain(double distance_m) const;
-    // Of frames that would arrive with `power_w` if nothing faded.
+    // The ratio for frames that would arrive with `power_w` without fading.
     double ratio_at(double power_w) const;
 
     Propagation propagation_;

@@ -22,18 +22,18 @@ MediumConfig validated(MediumConfig config) {
 
 }  // namespace
 
-Network::Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing)
+Network::Network(const MediumConfig& medium, std::uint64_t seed, Culling culling)
     : seed_(seed),
       perfect_channel_(validated(medium).type_name == unit_disk_medium),
-      medium_(simulator_, medium, frame_fates_, fingerprint_, hearing, seed) {}
+      medium_(simulator_, medium, frame_fates_, fingerprint_, culling, seed) {}
 
 Node& Network::add_node(const NodeConfig& config) {
     if (initialized_) {
         throw SimulationError(config.name + " comes too late: expected all nodes before initialize()");
     }
     config.validate();
-    check_with_medium(config);  // all of it before anything is built, so that a refused node leaves no trace
-    Node& node = nodes_.emplace_back(surroundings_, config, surroundings_.node_count++, seed_);
+    check_with_medium(config);  // before anything is built, so that a rejected node changes nothing
+    Node& node = nodes_.emplace_back(context_, config, context_.node_count++, seed_);
     frame_fates_.add_node();
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
         const InterfaceId id{node.id(), static_cast<std::int32_t>(index)};
@@ -54,7 +54,7 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
                                                    frame_fates_, fingerprint_);
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
-    Radio& radio = radios_.emplace_back(id, radio_kind(config.radio), config.radio.tx_power_w,
+    Radio& radio = radios_.emplace_back(id, radio_model(config.radio), config.radio.tx_power_w,
                                         node.trajectory(), node.attitude(), known_formats(config));
     if (config.type_name == ieee802154_interface) {
         link_types_.push_back(LinkType::ieee802154_with_fcs);
@@ -64,12 +64,12 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
     return std::make_unique<Dcf>(radio, dcf_parameters(config.mac), seed_);
 }
 
-std::shared_ptr<const RadioKind> Network::radio_kind(RadioConfig config) {
-    // Of no account for the kind: nodes with powers of their own share it, too.
+std::shared_ptr<const RadioModel> Network::radio_model(RadioConfig config) {
+    // Not part of the model: nodes with different powers share it.
     config.tx_power_w = 0;
     config.communication_range_m = 0;
-    return radio_kinds_.of(config, [this](const RadioConfig& radio) {
-        return std::make_shared<const RadioKind>(radio, medium_, seed_);
+    return radio_models_.of(config, [this](const RadioConfig& radio) {
+        return std::make_shared<const RadioModel>(radio, medium_, seed_);
     });
 }
 
@@ -80,7 +80,7 @@ std::shared_ptr<const DcfParameters> Network::dcf_parameters(const MacConfig& co
 }
 
 void Network::check_with_medium(const NodeConfig& config) {
-    if (node_count() == InterfaceId::most_nodes) {
+    if (node_count() == InterfaceId::max_nodes) {
         throw ConfigError("there are " + text_of(node_count()) + " nodes: no network can have more");
     }
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
@@ -95,9 +95,9 @@ void Network::check_with_medium(const NodeConfig& config) {
 
 void Network::check_with_others(const NodeConfig& config, std::size_t index) const {
     if (perfect_channel_) {
-        return;  // one channel for all, whatever their centre frequencies
+        return;  // one channel for all center frequencies
     }
-    // Both would get each frame for the node, and acknowledge it at the same time.
+    // Both would receive each frame for the node, and acknowledge it at the same time.
     const double carrier_hz = config.wlan[index].radio.carrier_hz;
     for (std::size_t before = 0; before < index; ++before) {
         if (config.wlan[before].radio.carrier_hz == carrier_hz) {
@@ -127,12 +127,12 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
              .compared_with = {"medium.background_noise_w", "medium.temperature_k", "radio.noise_figure",
                                "radio.bandwidth_hz", "medium.background_noise", "interface.typename"}});
     }
-    radio_kind(radio);
+    radio_model(radio);
     if (config.type_name == ieee80211_interface) {
         dcf_parameters(config.mac);
     }
-    // No channel of the one has the centre of a channel of the other: who sets it so has mistaken something, and
-    // neither could make anything of what it locks on to.
+    // 802.11 and 802.15.4 channels never have equal center frequencies, so the user made a mistake.
+    // Neither could decode the frames of the other.
     const auto there = interface_types_.find(radio.carrier_hz);
     if (there != interface_types_.end() && there->second != config.type_name) {
         throw ConfigError(
@@ -231,7 +231,8 @@ void Network::initialize() {
     initialized_ = true;
     for (const Radio& radio : radios_) {
         Node& node = nodes_[radio.node()];
-        medium_.set_touched(radio.id(), node.interfaces()[radio.interface().index].get(), node.protocol());
+        medium_.set_prefetch_targets(radio.id(), node.interfaces()[radio.interface().index].get(),
+                                     node.protocol());
     }
     for (Node& node : nodes_) {
         node.initialize();

@@ -1,7 +1,8 @@
-// A whole simulation: the clock, the medium, the nodes and the ledgers. Owns everything, shares nothing.
+// A whole simulation: clock, medium, nodes and ledgers. It owns everything and shares nothing with
+// other networks.
 //
-// Two networks may run interleaved, step by step, in one process. Use: add_node and set_protocol for each
-// node, initialize(), run_until() as often as wanted, finish(), then read the ledgers.
+// Two networks may run interleaved, step by step, in one process. Use: add_node and set_protocol
+// for each node, initialize(), run_until() any number of times, finish(), then read the ledgers.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +20,14 @@
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/unit_disk_interface.hpp"
 #include "netsim/medium/medium.hpp"
+#include "netsim/node/network_context.hpp"
 #include "netsim/node/node.hpp"
 #include "netsim/node/radio_capture.hpp"
 #include "netsim/node/scheduled_calls.hpp"
-#include "netsim/node/shared_kinds.hpp"
-#include "netsim/node/surroundings.hpp"
+#include "netsim/node/shared_models.hpp"
 #include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
-#include "netsim/phy/radio_kind.hpp"
+#include "netsim/phy/radio_model.hpp"
 #include "netsim/trace/frame_fates.hpp"
 #include "netsim/trace/message_fates.hpp"
 
@@ -35,46 +36,50 @@ namespace netsim {
 class Network {
 public:
     // Throws ConfigError for values out of range.
-    Network(const MediumConfig& medium, std::uint64_t seed, Hearing hearing = Hearing::what_matters);
+    Network(const MediumConfig& medium, std::uint64_t seed, Culling culling = Culling::enabled);
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;
 
-    // Nodes get the ids 0, 1, … in the order of adding. The reference stays valid as long as the network. Throws
-    // ConfigError for values out of range, and SimulationError after initialize().
+    // Nodes get the ids 0, 1, … in the order of adding. The reference is valid as long as the
+    // network. Throws ConfigError for values out of range, and SimulationError after initialize().
     Node& add_node(const NodeConfig& config);
-    // Throws SimulationError for an id that no node has.
+    // Throws SimulationError for an id without a node.
     Node& node(NodeId id) { return nodes_[place_of(id)]; }
     const Node& node(NodeId id) const { return nodes_[place_of(id)]; }
-    std::int32_t node_count() const { return surroundings_.node_count; }
+    std::int32_t node_count() const { return context_.node_count; }
 
-    // Writes what the radio of the node's wlan[interface] sends and receives from now on to a pcap file, until
-    // close_captures() or the end of the network. Throws ConfigError for a path that cannot be written, for an interface
-    // that is not there or is captured already, and for the unit disk medium, which has no radios.
+    // Writes the frames that the node's wlan[interface] sends and receives from now on to a pcap
+    // file, until close_captures() or the end of the network. Throws ConfigError for a path that
+    // cannot be written, an interface that does not exist or is captured already, and the unit disk
+    // medium, which has no radios.
     void capture(NodeId node, const std::string& path, std::int32_t interface = 0);
-    // Completes the capture files. Throws SimulationError, after all are closed, if one could not be written.
+    // Completes the capture files. Throws SimulationError, after all are closed, if one could not
+    // be written.
     void close_captures();
 
-    // Calls the protocols' initialize, in the order of ids, at time 0. Throws what their check finds wrong before that, and
-    // SimulationError the second time.
+    // Calls the protocols' initialize at time 0, in the order of ids. Throws the errors of their
+    // check before that, and SimulationError at the second call.
     void initialize();
-    // Runs the events up to and including `limit`; false if `max_events` ran before that. Nothing happens if `limit` is over.
+    // Runs the events up to and including `limit`. False if `max_events` ran before that. No effect
+    // if `limit` is in the past.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
         check_runs("run_until");
         return simulator_.run_until(limit, max_events);
     }
-    // Runs one event, if there is one up to and including `limit`; otherwise returns false, and the clock stays.
+    // Runs one event, if there is one up to and including `limit`. Otherwise returns false; the
+    // clock stays.
     bool step(SimTime limit) {
         check_runs("step");
         return simulator_.step(limit);
     }
-    // Has `call` run as an event at `time`, after those scheduled for that time so far. What it throws leaves
-    // run_until. Throws SimulationError for a time in the past.
+    // Schedules `call` as an event at `time`, after those scheduled for that time so far. Its
+    // exceptions leave run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
-    // Calls the protocols' finish, in the order of ids, if they were initialized, and closes the captures. The run ends with
-    // it: what comes after it is a SimulationError, also a second finish.
+    // Calls the protocols' finish in the order of ids, if they were initialized, and closes the
+    // captures. Ends the run: later calls throw SimulationError, including a second finish.
     void finish();
-    // Drops the protocols and what was scheduled, which may own more than their memory (a Python object that
-    // refers back to its node).
+    // Destroys the protocols and scheduled calls, which may own more than memory: a Python object
+    // that refers to its node.
     void release_protocols();
 
     SimTime now() const { return simulator_.now(); }
@@ -82,16 +87,17 @@ public:
     std::size_t pending_count() const { return simulator_.pending_count(); }
     std::uint64_t fingerprint() const { return fingerprint_.value(); }
     const FrameFates& frame_fates() const { return frame_fates_; }
-    // The sum over all interfaces; that of one: node(0).interfaces()[1]->message_fates().
+    // The sum over all interfaces. Of one: node(0).interfaces()[1]->message_fates().
     MessageFateSums message_fates() const;
-    const MessageDelays& message_delays() const { return surroundings_.message_delays; }
+    const MessageDelays& message_delays() const { return context_.message_delays; }
 
 private:
     std::size_t place_of(NodeId node) const;
     void check_runs(const char* call) const;
     void check_not_finished(const char* call) const;
-    // What nodes of one configuration share, made for the first of them. Both throw ConfigError for what cannot be.
-    std::shared_ptr<const RadioKind> radio_kind(RadioConfig config);
+    // What nodes of one configuration share, created for the first of them. Both throw ConfigError
+    // for invalid values.
+    std::shared_ptr<const RadioModel> radio_model(RadioConfig config);
     std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);
     void check_with_medium(const NodeConfig& config);
     void check_with_medium(const std::string& node, const InterfaceConfig& config);
@@ -104,16 +110,16 @@ private:
     Simulator simulator_;
     std::uint64_t seed_;
     Fingerprint fingerprint_;
-    Surroundings surroundings_{simulator_, fingerprint_};
+    NetworkContext context_{simulator_, fingerprint_};
     FrameFates frame_fates_;
     bool perfect_channel_;
     Medium medium_;
     UnitDiskChannel unit_disk_;
-    SharedKinds<RadioConfig, RadioKind> radio_kinds_;
-    SharedKinds<MacConfig, DcfParameters> dcf_parameters_;
+    SharedModels<RadioConfig, RadioModel> radio_models_;
+    SharedModels<MacConfig, DcfParameters> dcf_parameters_;
     std::deque<Radio> radios_;                       // by interface
     std::deque<LinkType> link_types_;                // of the radios
-    std::map<double, std::string> interface_types_;  // {centre frequency in Hz: the one there}
+    std::map<double, std::string> interface_types_;  // {center frequency in Hz: type of the interfaces there}
     std::map<InterfaceId, RadioCapture> captures_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval

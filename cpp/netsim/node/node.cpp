@@ -3,19 +3,19 @@
 #include <utility>
 
 #include "netsim/error.hpp"
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/node/protocol_error.hpp"
 
 namespace netsim {
 
 namespace {
 
-constexpr std::uint64_t timer_word = 0x74696D6572;  // of the fingerprint: tells timers from other events
+constexpr std::uint64_t timer_word = 0x74696D6572;  // in the fingerprint, marks timers
 
 }  // namespace
 
-Node::Node(Surroundings& surroundings, const NodeConfig& config, NodeId id, std::uint64_t seed)
-    : surroundings_(surroundings),
+Node::Node(NetworkContext& context, const NodeConfig& config, NodeId id, std::uint64_t seed)
+    : context_(context),
       mobility_(make_mobility(config.mobility, config.initial_position)),
       id_(id),
       name_(config.name),
@@ -31,7 +31,7 @@ void Node::add_interface(std::unique_ptr<NetworkInterface> interface) {
 void Node::set_protocol(std::unique_ptr<Protocol> protocol) {
     protocol_ = std::move(protocol);
     if (protocol_) {
-        protocol_->surroundings_ = &surroundings_;
+        protocol_->context_ = &context_;
         protocol_->node_ = id_;
     }
     for (const auto& interface : interfaces_) {
@@ -108,43 +108,43 @@ void Node::schedule_timer(std::string timer, SimTime time) {
                               " s now (timers take absolute simulated time)");
     }
     if (time == now() && timers_for_now_.exceeds(time)) {
-        throw SimulationError("node " + std::to_string(id_) + " has set " +
-                              std::to_string(most_at_one_instant) + " timers for now, " +
-                              std::to_string(time.seconds()) + " s, and this one, '" + timer +
+        throw SimulationError("node " + std::to_string(id_) + " has set " + std::to_string(max_per_instant) +
+                              " timers for now, " + std::to_string(time.seconds()) + " s, and this one, '" +
+                              timer +
                               "', is one more: time stands still; expected a later time (timers take "
                               "absolute simulated time: current_time() + 1, not 1)");
     }
     const std::size_t number = timers_.add(std::move(timer));
-    timers_.set_event(number, surroundings_.simulator.schedule_at(time, TimerDue{this, number}));
+    timers_.set_event(number, context_.simulator.schedule_at(time, TimerDue{this, number}));
 }
 
 void Node::cancel_timer(const std::string& timer) {
-    timers_.cancel(timer, [this](EventHandle event) { surroundings_.simulator.cancel(event); });
+    timers_.cancel(timer, [this](EventHandle event) { context_.simulator.cancel(event); });
 }
 
-void Node::fetch_for_timer(int step) const {
+void Node::prefetch_for_timer(int step) const {
     if (step == 0) {
-        fetch_before(*this, observed_);
+        prefetch_before(*this, observed_);
     } else if (step == 1) {
-        timers_.fetch();
-        fetch_bytes(protocol_.get(), 2 * cache_line_bytes);
-        fetch_bytes(&trajectory(), cache_line_bytes);
-        fetch_bytes(first_interface_, cache_line_bytes);
+        timers_.prefetch();
+        prefetch_bytes(protocol_.get(), 2 * cache_line_bytes);
+        prefetch_bytes(&trajectory(), cache_line_bytes);
+        prefetch_bytes(first_interface_, cache_line_bytes);
     } else if (step == 2) {
         if (protocol_) {
-            protocol_->fetch();
+            protocol_->prefetch();
         }
         if (first_interface_ != nullptr) {
-            first_interface_->fetch(0);
+            first_interface_->prefetch(0);
         }
     } else if (first_interface_ != nullptr) {
-        first_interface_->fetch(step - 2);
+        first_interface_->prefetch(step - 2);
     }
 }
 
 void Node::timer_due(std::size_t number) {
     const std::string timer = timers_.take(number);
-    Fingerprint& fingerprint = surroundings_.fingerprint;
+    Fingerprint& fingerprint = context_.fingerprint;
     fingerprint.add(timer_word ^ static_cast<std::uint64_t>(id_));
     fingerprint.add(static_cast<std::uint64_t>(now().ps()));
     fingerprint.add_text(timer);

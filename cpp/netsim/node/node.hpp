@@ -15,8 +15,8 @@
 #include "netsim/mac/network_interface.hpp"
 #include "netsim/mobility/attitude.hpp"
 #include "netsim/mobility/mobility.hpp"
+#include "netsim/node/network_context.hpp"
 #include "netsim/node/protocol.hpp"
-#include "netsim/node/surroundings.hpp"
 #include "netsim/node/timers.hpp"
 #include "netsim/node/tracked_variables.hpp"
 
@@ -24,7 +24,7 @@ namespace netsim {
 
 class alignas(64) Node final {
 public:
-    Node(Surroundings& surroundings, const NodeConfig& config, NodeId id, std::uint64_t seed);
+    Node(NetworkContext& context, const NodeConfig& config, NodeId id, std::uint64_t seed);
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
@@ -34,43 +34,47 @@ public:
     const Trajectory& trajectory() const { return mobility_->trajectory(); }
     const Attitude& attitude() const { return attitude_; }
 
-    // Wiring, before the run: the interfaces, wlan[0] first, and whom they bring messages. Without a protocol, nobody.
+    // Wiring, before the run: the interfaces, wlan[0] first, and the protocol that gets their
+    // messages, if any.
     void add_interface(std::unique_ptr<NetworkInterface> interface);
     void set_protocol(std::unique_ptr<Protocol> protocol);
     Protocol* protocol() { return protocol_.get(); }
     const std::vector<std::unique_ptr<NetworkInterface>>& interfaces() const { return interfaces_; }
 
-    // Has somebody told of each telemetry, before the protocol is, and of what a native protocol tracks.
+    // Sets callbacks for each telemetry, called before the protocol, and for the tracked variables
+    // of a native protocol.
     using OnTelemetry = std::function<void(const Position& position)>;
     void observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable);
 
-    // Life cycle, driven by the Network. A SimulationError of the protocol comes out as a ProtocolError.
+    // Life cycle, driven by the Network. A SimulationError of the protocol comes out as a
+    // ProtocolError.
     void check_protocol() const;
     void initialize();
     void report_position();
     void finish();
 
-    // What a protocol may know of its surroundings, also before the run.
-    std::int32_t node_count() const { return surroundings_.node_count; }
+    // Queries that a protocol may make also before the run.
+    std::int32_t node_count() const { return context_.node_count; }
     bool can_move() const { return mobility_->can_move(); }
 
-    // What a protocol may ask for. All throw SimulationError for what cannot be done.
-    SimTime now() const { return surroundings_.simulator.now(); }
+    // Commands and queries of a protocol. All throw SimulationError for invalid commands.
+    SimTime now() const { return context_.simulator.now(); }
     // Through wlan[interface].
     void broadcast(Payload payload, std::int32_t interface = 0);
     void send(NodeId destination, Payload payload, std::int32_t interface = 0);
     void go_to(Position target) { mobility_->go_to(now(), target); }
     void set_speed(double speed_mps) { mobility_->set_speed(now(), speed_mps); }
-    // At `time`, not before now; equal names may be pending several times. What makes time stand still is refused.
+    // At `time`, not before now. The same name may be pending several times. An endless loop at one
+    // instant is an error.
     void schedule_timer(std::string timer, SimTime time);
-    // All pending timers of that name; none is fine.
+    // Cancels all pending timers of that name, if any.
     void cancel_timer(const std::string& timer);
     // Through wlan[0].
     std::size_t longest_message_bytes() { return interface_at(0).longest_message_bytes(); }
     // The protocol's own random numbers: IProvider.random in Python.
     RandomStream& random() { return random_; }
-    // For messages that say nothing: a text of so many octets, which many nodes may have in common.
-    Payload filler(std::int64_t bytes) { return surroundings_.filler.of(static_cast<std::size_t>(bytes)); }
+    // A string of that many octets for messages without content, shared between nodes.
+    Payload padding(std::int64_t bytes) { return context_.padding.of(static_cast<std::size_t>(bytes)); }
     // Values for the results of the run; they outlive the protocol.
     TrackedVariables& tracked_variables() { return tracked_variables_; }
     const TrackedVariables& tracked_variables() const { return tracked_variables_; }
@@ -80,24 +84,24 @@ private:
     void send_through(std::int32_t interface, NodeId destination, Payload payload);
     template <typename Call>
     void call_protocol(const char* callback, const Call& call);
-    // What is due when a timer is.
+    // The event of a timer.
     struct TimerDue {
         Node* node;
         std::size_t number;
 
         void operator()() const { node->timer_due(number); }
-        void fetch(int step) const { node->fetch_for_timer(step); }
+        void prefetch(int step) const { node->prefetch_for_timer(step); }
     };
     void timer_due(std::size_t number);
-    // Most timers send something.
-    void fetch_for_timer(int step) const;
+    // Prefetches what sending reads, too: most timers send.
+    void prefetch_for_timer(int step) const;
 
-    // First what every timer touches: one cache line.
-    Surroundings& surroundings_;
+    // The members that every timer reads come first: one cache line.
+    NetworkContext& context_;
     std::unique_ptr<Protocol> protocol_;
-    NetworkInterface* first_interface_ = nullptr;  // of those below: mostly the one that is meant
+    NetworkInterface* first_interface_ = nullptr;  // interfaces_[0], the one used most
     std::unique_ptr<Mobility> mobility_;
-    [[no_unique_address]] Timers timers_;  // the id lies in its padding
+    [[no_unique_address]] Timers timers_;  // its padding holds the id
     NodeId id_;
 
     bool observed_ = false;  // most nodes are not

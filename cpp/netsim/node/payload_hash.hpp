@@ -1,7 +1,7 @@
-// A number for the text of a message, which stands for it in the fingerprint of the run.
+// A hash of the string of a message, for the fingerprint of the run.
 //
-// All who hear a broadcast get the same text, mostly one right after the other, and texts are long: so it is worked out
-// for the first of them alone. Used by the nodes of one network together.
+// All receivers of a broadcast get the same string, usually one right after the other. So the hash
+// is computed for the first of them only. Shared by the nodes of one network.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace netsim {
 
 class PayloadHash {
 public:
-    // Of equal texts it is the same.
+    // Equal for equal strings.
     std::uint64_t of(const Payload& payload) {
         if (payload != last_) {
             Fingerprint hash;
@@ -25,7 +25,7 @@ public:
     }
 
 private:
-    Payload last_;  // kept, so that no other text comes to lie in its place
+    Payload last_;  // kept alive, so that no other string gets its address
     std::uint64_t value_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a protocol in C++ got wrong during a run, and where in the run: who shows it to people wants all of it.
+// An error of a protocol in C++ during a run, with node, callback and time for the message.
 #pragma once
 
 #include <exception>
@@ -17,7 +17,7 @@ public:
         : SimulationError(what), node_(node), callback_(callback), time_(time) {}
 
     NodeId node() const { return node_; }
-    // Name of the protocol's method that was running; lives as long as the program.
+    // Name of the protocol's method that was running; static storage.
     const char* callback() const { return callback_; }
     SimTime time() const { return time_; }
 
@@ -27,8 +27,8 @@ private:
     SimTime time_;
 };
 
-// Calls one of a protocol's methods. A std::runtime_error (SimulationError is one) or std::logic_error comes out nested in a
-// ProtocolError, all else as it is.
+// Calls one of a protocol's methods. A std::runtime_error (such as SimulationError) or
+// std::logic_error becomes nested in a ProtocolError; others pass unchanged.
 template <typename Call>
 void call_of_protocol(const char* callback, NodeId node, SimTime now, const Call& call) {
     try {

@@ -1,11 +1,11 @@
-// What one radio sent and received, written to a capture file.
+// Writes the frames that one radio sent and received to a capture file.
 //
-// A frame's time stamp is its start on the air at this radio: when it began to send it, or when its first bit
-// arrived. In the file are the frames that the radio sent, and those that it was locked on to until their end; not
-// those that it missed because it was transmitting or locked on another one, nor those too weak. So the time stamps
-// never fall, although a reception is written when it ends.
+// A frame's time stamp is its start at this radio: of sending, or of the arrival of its first bit.
+// The file has the frames that the radio sent, and those that it was locked on to until their end.
+// It does not have frames that were too weak, or that the radio missed while transmitting or locked
+// on to another one. So time stamps never fall, although a reception is written at its end.
 //
-// The frames of 802.15.4 have no header that tells how strong they were.
+// 802.15.4 frames have no header with their power.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
-// Calls that whoever runs the network has scheduled as events of it, beside what its nodes do.
+// Calls that the user of a network scheduled as events, besides those of its nodes.
 //
-// The kernel's actions hold only pointers and numbers; callables that own something (a Python object) are kept here,
-// from scheduling until they run or are dropped.
+// The kernel's actions hold only pointers and numbers. Callables that own something (a Python
+// object) are kept here until they run or are dropped.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ public:
     ScheduledCalls(const ScheduledCalls&) = delete;
     ScheduledCalls& operator=(const ScheduledCalls&) = delete;
 
-    // The caller sees to it that `time` is not in the past. What `call` throws leaves Simulator::run_until.
+    // `time` must not be in the past. Exceptions of `call` leave Simulator::run_until.
     void add(SimTime time, std::function<void()> call) {
         std::size_t number = calls_.size();
         if (free_.empty()) {
@@ -32,7 +32,7 @@ public:
         calls_[number].event = simulator_.schedule_at(time, [this, number] { run(number); });
     }
 
-    // Cancels the pending ones and lets go of what they own, whose end may schedule new ones.
+    // Cancels and destroys the pending calls. Their destructors may schedule new ones.
     void drop() {
         const std::vector<Call> dropped = std::exchange(calls_, {});
         free_.clear();

@@ -1,8 +1,9 @@
-// The periodic telemetry of all nodes that have it at the same interval, together.
+// The periodic telemetry of all nodes with the same interval.
 //
-// Ticks at every multiple of the interval after its start, and then hands each node its position, in the order of
-// ids. A tick is scheduled one interval ahead but its telemetry only when it ticks, as in prototype mode: it comes
-// after the timers that were set for this instant before.
+// It ticks at every multiple of the interval after its start, and then reports its position to each
+// node, in the order of ids. A tick is scheduled one interval ahead, but its telemetry only at the
+// tick, as in prototype mode. So telemetry comes after the timers that were set for the same
+// instant before.
 #pragma once
 
 #include <utility>

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "netsim/kernel/event_queue.hpp"
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 
 namespace netsim {
 
 class Timers {
 public:
-    // Keeps a timer and returns its number; the caller schedules the event and tells its handle with
+    // Adds a timer and returns its number. The caller schedules the event and passes its handle to
     // set_event.
     std::size_t add(std::string name) {
         std::size_t number = timers_.size();
@@ -30,15 +30,15 @@ public:
     }
     void set_event(std::size_t number, EventHandle event) { timers_[number].event = event; }
 
-    // Takes a timer out because it is due.
+    // Removes a timer because it is due.
     std::string take(std::size_t number) {
         release(number);
         return std::move(timers_[number].name);
     }
 
-    void fetch() const { fetch_bytes(timers_.data(), sizeof(Timer)); }
+    void prefetch() const { prefetch_bytes(timers_.data(), sizeof(Timer)); }
 
-    // Takes out all timers of that name and calls cancel_event(EventHandle) for each.
+    // Removes all timers of that name and calls cancel_event(EventHandle) for each.
     template <typename CancelEvent>
     void cancel(const std::string& name, CancelEvent cancel_event) {
         for (std::size_t number = 0; number < timers_.size(); ++number) {
@@ -51,14 +51,14 @@ public:
     }
 
 private:
-    using Place = std::uint32_t;  // of a timer: there is no memory for so many
+    using Place = std::uint32_t;  // index of a timer; 32 bits suffice for any memory
     static constexpr Place none = ~Place{0};
 
     struct alignas(64) Timer {
         std::string name;
         EventHandle event;
         bool pending = false;
-        Place next_free = none;  // of those that are not pending
+        Place next_free = none;  // next in the list of free places
     };
 
     void release(std::size_t number) {
@@ -67,7 +67,7 @@ private:
     }
 
     std::vector<Timer> timers_;
-    Place first_free_ = none;  // the one that was released last
+    Place first_free_ = none;  // released last
 };
 
 }  // namespace netsim

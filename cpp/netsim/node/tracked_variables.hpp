@@ -1,5 +1,4 @@
-// What a protocol wants to be seen: named values that end up in the results of a run, as the tracked variables of a
-// protocol in Python.
+// Tracked variables: named values that a protocol adds to the results of a run, as in Python.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +15,11 @@ using TrackedValue = std::variant<bool, std::int64_t, double, std::string>;
 
 class TrackedVariables {
 public:
-    // Told of each value that is set, also if the variable has it already.
+    // Called for each assignment, also of an equal value.
     using OnSet = std::function<void(std::string_view name, const TrackedValue& value)>;
 
     void observe(OnSet on_set) { on_set_ = std::move(on_set); }
-    // A new variable comes after those that are there; there are few of them.
+    // A new variable is appended. Linear search: there are few.
     void set(std::string_view name, TrackedValue value) {
         if (on_set_) {
             on_set_(name, value);

@@ -32,7 +32,8 @@ private:
 
 class Dipole final : public AntennaPattern {
 public:
-    // `electrical_length` is k l, in radians; at most 2π, so that there is one lobe, whose middle is across the wire.
+    // `electrical_length`: k l, in radians; at most 2π, so that there is one lobe, perpendicular to
+    // the wire.
     Dipole(const Position& wire, double electrical_length)
         : wire_(wire), half_length_(electrical_length / 2), across_(intensity(0, 1)) {
         // The mean over all directions is half the integral over cos θ: Simpson's rule.
@@ -51,13 +52,13 @@ public:
         const double along = dot_product(direction, wire_);
         const Position across = direction - wire_ * along;
         const double squared_sine = dot_product(across, across) / squared;
-        // Rounding must not make it larger than the largest.
+        // Rounding must not make it larger than the maximum.
         return directivity_ * std::min(intensity(along / std::sqrt(squared), squared_sine) / across_, 1.0);
     }
     double max_gain() const override { return directivity_; }
 
 private:
-    // F(θ) but for a factor. The difference of cosines as a product keeps short wires exact.
+    // F(θ) up to a factor. The difference of cosines as a product keeps short wires exact.
     double intensity(double cosine, double squared_sine) const {
         constexpr double short_rad = 1e-4;
         if (half_length_ < short_rad || squared_sine == 0) {

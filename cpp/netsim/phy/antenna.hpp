@@ -1,4 +1,4 @@
-// The patterns of antennas, by INET's names. Used by the radio, which gives them to the medium.
+// Antenna patterns, by INET's names. Used by the radio, which passes them to the medium.
 //
 //   IsotropicAntenna: no pattern at all.
 //   ConstantGainAntenna: the same gain everywhere, such as the loss of a cable.
@@ -11,7 +11,7 @@
 //     Systems", 2003, (B.1), which says the same of field strengths.
 //   ParabolicAntenna: gain in dB = max - min(12 (ψ / beam width)², max - min). 3GPP TR 36.814 V9.0.0, table
 //     A.2.1.1-2, for all directions around the boresight.
-// The dipole is lossless: its mean gain is 1. Of the others the maximum is given, whatever the mean.
+// The dipole is lossless: its mean gain is 1. The others have a given maximum, and any mean.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@
 
 namespace netsim {
 
-// The table of antennas: config.type_name chooses; null for the isotropic one. The dipole's pattern depends on the
-// carrier. Throws ConfigError for a name that is not in it.
+// The antenna named by config.type_name; null for the isotropic one. The dipole's pattern depends
+// on the carrier. Throws ConfigError for an unknown name.
 std::unique_ptr<const AntennaPattern> make_antenna(const AntennaConfig& config, double carrier_hz);
 
 }  // namespace netsim

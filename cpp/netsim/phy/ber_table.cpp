@@ -67,7 +67,7 @@ std::string bitrates_of_modes_mbps() {
     refuse(path, "line " + std::to_string(line) + ": " + what);
 }
 
-// A file of another kind, or of another encoding, could not even be shown.
+// A file of another type or encoding could not be shown in the message.
 void check_ascii(const std::string& path, int number, std::string_view text) {
     for (const char character : text) {
         const auto byte = static_cast<unsigned char>(character);
@@ -82,7 +82,7 @@ void check_ascii(const std::string& path, int number, std::string_view text) {
     }
 }
 
-// Reads what is at a line of a file, and refuses what should not be there.
+// Reads one line of the file, and rejects invalid values.
 class Line {
 public:
     Line(const std::string& path, int number, std::string_view text)

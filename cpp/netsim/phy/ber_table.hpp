@@ -1,12 +1,13 @@
-// An error model that is given by a file: packet success over SNIR as somebody measured it.
+// An error model from a file with measured values: packet success over SNIR.
 //
-// The file is CSV. Its first line is "bitrate_mbps,psdu_bytes,snir_db,success"; empty lines and those that begin with #
-// say nothing; a byte order mark neither. The lines of one bitrate and length form a curve, in rising order of SNIR. Between two points the
-// success is interpolated linearly over the SNIR in dB, outside of them it stays that of the nearest. A PSDU of another
-// length n takes the curve whose length m is nearest by ratio, to the power of n/m.
+// The file is CSV. Its first line is "bitrate_mbps,psdu_bytes,snir_db,success". A byte order mark,
+// empty lines and lines that begin with # are ignored. The lines of one bitrate and length form a
+// curve, in rising order of SNIR. Between two points, the success is interpolated linearly over the
+// SNIR in dB. Outside, it is that of the nearest point. A PSDU of another length n takes the curve
+// whose length m is nearest by ratio, to the power of n/m.
 //
-// The PHY header counts as a PSDU of its own length at the rate it is sent with: 3 bytes at 6 Mbps (OFDM), 6 bytes at
-// 1 Mbps (DSSS and CCK). Bitrates of which the file has no curve follow the NIST model.
+// The PHY header counts as a PSDU of its own length at its own rate: 3 bytes at 6 Mbps (OFDM), 6
+// bytes at 1 Mbps (DSSS and CCK). Bitrates without a curve in the file use the NIST model.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace netsim {
 
 class BerTableErrorModel final : public ErrorModel {
 public:
-    // Throws ConfigError, with the line, for a file that cannot be read or is malformed.
+    // Throws ConfigError, with the line, if the file cannot be read or is malformed.
     explicit BerTableErrorModel(const std::string& path);
 
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;

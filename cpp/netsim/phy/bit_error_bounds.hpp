@@ -1,7 +1,8 @@
-// A bit error rate from above and from below, without working it out: steps over the SNIR, 32 to each factor of two.
+// Upper and lower bounds of a bit error rate from a table over the SNIR, with 32 steps per factor
+// of two.
 //
-// Most frames are so much stronger than what disturbs them, and most of the others so much weaker, that a look into this
-// table decides about them.
+// Most frames are much stronger than the interference, and most of the others much weaker. For them
+// the table suffices.
 #pragma once
 
 #include <algorithm>
@@ -22,12 +23,12 @@ public:
         }
     }
 
-    // No less than the rate at `snir` ≥ 0 and at every larger one.
+    // An upper bound for the rate at `snir` ≥ 0 and above.
     double ceiling(double snir) const {
         const std::uint64_t step = std::bit_cast<std::uint64_t>(snir) >> step_shift;
         return step < first_step ? 1 : rates_[std::min(step - first_step, step_count - 1)];
     }
-    // No more than the rate at `snir` ≥ 0 and at every smaller one.
+    // A lower bound for the rate at `snir` ≥ 0 and below.
     double floor(double snir) const {
         const std::uint64_t next =
             std::max((std::bit_cast<std::uint64_t>(snir) >> step_shift) + 1, first_step);
@@ -35,7 +36,8 @@ public:
     }
 
 private:
-    // A step is a double without the bits of its fraction but the first five; as a number it rises with the double.
+    // A step is the upper bits of a double, with the first five of its mantissa. It rises with the
+    // double.
     static constexpr int step_shift = 52 - 5;
     static constexpr std::uint64_t first_step = std::bit_cast<std::uint64_t>(0.125) >> step_shift;
     static constexpr std::uint64_t last_step = std::bit_cast<std::uint64_t>(2048.0) >> step_shift;

@@ -31,8 +31,8 @@ double to_the_fifth(double x) {
     return x * x * x * x * x;
 }
 
-// Of OFDM after decoding. Raw bit error p = share · ½ erfc(√x), where x is the SNIR over the constellation's
-// spread.
+// Of OFDM after decoding. Raw bit error p = share · ½ erfc(√x), where x is the SNIR over the
+// constellation's spread.
 double coded_bit_error(Constellation constellation, CodeRate code_rate, double snir) {
     double share = 1;
     double x = snir;
@@ -51,7 +51,8 @@ double coded_bit_error(Constellation constellation, CodeRate code_rate, double s
             x = snir / 42;
             break;
     }
-    // From these x on the union bound is below 1e-24: over a million bits it changes no digit of the success.
+    // From these x on, the union bound is below 1e-24: over a million bits, it changes no digit of
+    // the success.
     constexpr double last_x_one_half = 13;
     constexpr double last_x_two_thirds = 20;
     constexpr double last_x_three_quarters = 24;
@@ -117,7 +118,7 @@ double cck_11_fit(double snir) {
     return dividend / divisor;
 }
 
-// Of what bounds are worked out from, and of what they bound.
+// Rounding of the bounds, and of the values that they bound.
 constexpr double bounds_rounding = 1e-9;
 
 const BitErrorBounds& ofdm_bounds(Constellation constellation, CodeRate code_rate) {
@@ -144,8 +145,8 @@ const BitErrorBounds& dsss_bounds(std::int64_t bitrate_bps) {
     return bitrate_bps == 1'000'000 ? slow : fast;
 }
 
-// How many bits of a frame are lost on average, its header included, by a bound of the rate:
-// `rate(const BitErrorBounds&)`. Not of CCK, whose fits need not fall with the SNIR.
+// The mean number of lost bits of a frame, header included, by a bound of the rate: `rate(const
+// BitErrorBounds&)`. Not for CCK, whose fits need not fall with the SNIR.
 template <typename Rate>
 double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
     const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
@@ -194,19 +195,21 @@ double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
                        mode.header_bits);
 }
 
-// Of n bits that fail independently, each with at most b, all survive with at least 1 − n b.
-double NistErrorModel::least_success(const Mode& mode, double snir, int psdu_bytes) const {
+// n bits that fail independently, each with probability b at most, all survive with at least 1 − n
+// b.
+double NistErrorModel::min_success(const Mode& mode, double snir, int psdu_bytes) const {
     if (mode.family == ModeFamily::cck) {
         return 0;
     }
     const double lost =
         lost_bits(mode, psdu_bytes, [snir](const BitErrorBounds& rate) { return rate.ceiling(snir); });
-    constexpr double nothing = 0x1p-60;  // a chance of 1 − that is 1 as a double
+    constexpr double nothing = 0x1p-60;  // 1 minus less than this rounds to 1
     return lost < nothing ? 1 : 1 - bounds_rounding - lost;
 }
 
-// Each with at least b, with at most (1 − b)^n ≤ e^(−n b) ≤ 1 / (1 + n b + (n b)² / 2).
-double NistErrorModel::most_success(const Mode& mode, double snir, int psdu_bytes) const {
+// If each fails with probability b at least: at most (1 − b)^n ≤ e^(−n b) ≤ 1 / (1 + n b + (n b)² /
+// 2).
+double NistErrorModel::max_success(const Mode& mode, double snir, int psdu_bytes) const {
     if (mode.family == ModeFamily::cck) {
         return 1;
     }
@@ -234,7 +237,7 @@ std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config) {
     if (config.error_model == ber_table_error_model) {
         return std::make_shared<const BerTableErrorModel>(config.ber_table_file);
     }
-    return {std::shared_ptr<const ErrorModel>(), &error_model(config.error_model)};  // owned by nobody
+    return {std::shared_ptr<const ErrorModel>(), &error_model(config.error_model)};  // static: not owned
 }
 
 }  // namespace netsim

@@ -1,10 +1,11 @@
-// The chance that a frame survives noise and interference.
+// The probability that a frame survives noise and interference.
 //
-// Used by the radio at the end of a reception, with the least SNIR that the frame saw, or at the ends of its parts with
-// the SNIR of each stretch of time (phy/reception.hpp). Error rates by a table: phy/ber_table.hpp.
+// Used by the radio at the end of a reception, with the minimum SNIR of the frame, or at the ends
+// of its parts, with the SNIR of each time interval (phy/reception.hpp). Error rates from a table:
+// phy/ber_table.hpp.
 //
-// NIST model, s the linear SNIR: G. Pei and T. R. Henderson, "Validation of OFDM error rate model in ns-3",
-// 2010.
+// NIST model, s the linear SNIR: G. Pei and T. R. Henderson, "Validation of OFDM error rate model
+// in ns-3", 2010.
 //   OFDM: raw bit error p = ½erfc(√s) for BPSK, ½erfc(√(s/2)) for QPSK, ¾·½erfc(√(s/10)) for 16-QAM and
 //     7/12·½erfc(√(s/42)) for 64-QAM. With D = √(4p(1-p)), coded bit error = the union bound over the weight
 //     spectrum of the 802.11 convolutional code, at most 1. Header 24 bits at BPSK 1/2, data the bits of
@@ -14,8 +15,8 @@
 //   Header of DSSS and CCK 48 bits at 1 Mbps, data 8 bits per byte.
 // success = (1 - header bit error)^header bits · (1 - data bit error)^data bits.
 //
-// ns-3's model of the same name has the same bit errors for OFDM, and for DSSS takes s times the ratio of
-// bandwidth to bitrate (22 at 1 Mbps) where this one, like INET, takes s times 2.
+// ns-3's model of the same name has the same bit errors for OFDM. For DSSS, it uses s times the
+// ratio of bandwidth to bitrate (22 at 1 Mbps), where this model uses s times 2, as INET does.
 #pragma once
 
 #include <cmath>
@@ -34,17 +35,16 @@ public:
     // In [0, 1]. `snir` is a linear ratio ≥ 0, may be infinite; `psdu_bytes` ≥ 0.
     virtual double success_probability(const Mode& mode, double snir, int psdu_bytes) const = 0;
 
-    // Known at once: no more than success_probability at that SNIR and at every larger one. 0 or less, if that is all; 1 where
-    // those are 1 exactly.
-    virtual double least_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const {
-        return 0;
-    }
+    // A cheap lower bound for success_probability at that SNIR and above; 0 or less if there is
+    // none. Exactly 1 only where the probabilities are.
+    virtual double min_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const { return 0; }
 
-    // Known nearly at once: no less than success_probability at that SNIR and at every smaller one. 1, if that is all.
-    virtual double most_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const { return 1; }
+    // A cheap upper bound for success_probability at that SNIR and below; 1 if there is none.
+    virtual double max_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const { return 1; }
 
-    // Natural logarithms, ≤ 0, of the chances of the PHY header and of the rest: their sum is that of the above. A share
-    // of a part survives with the share of its logarithm. A model that knows no header has all in the data.
+    // Natural logarithms, ≤ 0, of the success of the PHY header and of the data. Their sum is that
+    // of the whole frame. A share of a part has that share of its logarithm. A model without
+    // headers has all in the data.
     virtual double log_header_success(const Mode& /*mode*/, double /*snir*/) const { return 0; }
     virtual double log_data_success(const Mode& mode, double snir, int psdu_bytes) const {
         return std::log(success_probability(mode, snir, psdu_bytes));
@@ -56,17 +56,18 @@ public:
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
     double log_header_success(const Mode& mode, double snir) const override;
     double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
-    // Both of all but CCK.
-    double least_success(const Mode& mode, double snir, int psdu_bytes) const override;
-    double most_success(const Mode& mode, double snir, int psdu_bytes) const override;
+    // Both have bounds for all modes but CCK.
+    double min_success(const Mode& mode, double snir, int psdu_bytes) const override;
+    double max_success(const Mode& mode, double snir, int psdu_bytes) const override;
 
     // Of one data bit after decoding, in [0, 1].
     static double bit_error_rate(const Mode& mode, double snir);
 };
 
-// The models that are constants, by RadioConfig::error_model. Throws ConfigError for another name.
+// The models without parameters, by RadioConfig::error_model. Throws ConfigError for other names.
 const ErrorModel& error_model(std::string_view name);
-// Any model, with the file that it may need. Throws ConfigError for an unknown name and for what is wrong in the file.
+// Any model, read from its file if it has one. Throws ConfigError for an unknown name or an invalid
+// file.
 std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config);
 
 }  // namespace netsim

@@ -1,7 +1,8 @@
-// Whether a radio gives up the frame that it is locked on to for a stronger one that begins. Off by default.
+// Frame capture: a radio that is locked on to a frame switches to a stronger one that begins later.
+// Off by default.
 //
-// With it, a newcomer that comes no later than `window` after the start of the frame, and with more than `margin`
-// times its power, takes its place: for a while after a frame's start, a receiver can still train on another one.
+// The new frame must begin at most `window` after the start of the locked frame, with more than
+// `margin` times its power. During that time, a receiver can still train on another preamble.
 #pragma once
 
 #include "netsim/config/radio_config.hpp"

@@ -74,7 +74,8 @@ constexpr std::array<Mode, 8> ofdm_modes{
     ofdm("OFDM 54 Mbps", 216, false, qam64, three_quarters, us(0)),
 };
 
-// The same in the 2.4 GHz band: a silent end gives decoders the time that the longer SIFS of 5 GHz would.
+// The same in the 2.4 GHz band. A silent extension gives decoders the time that the longer SIFS
+// gives at 5 GHz.
 constexpr std::array<Mode, 8> erp_modes{
     ofdm("ERP-OFDM 6 Mbps", 24, true, bpsk, one_half, us(6)),
     ofdm("ERP-OFDM 9 Mbps", 36, false, bpsk, three_quarters, us(6)),

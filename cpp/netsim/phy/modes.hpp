@@ -1,9 +1,9 @@
-// The modes of IEEE 802.11 b, g and a: bitrates, modulations and durations of frames, and the slot, SIFS and
-// contention windows that go with them.
+// The modes of IEEE 802.11 b, g and a: bitrates, modulations and durations of frames, and the slot,
+// SIFS and contention windows of each operation mode.
 //
-// A mode is one way to put a frame on the air; a mode set is what the stations of one operation mode can do.
-// Both are constant tables: references and pointers into them are valid for the whole program. Used by the
-// radio (durations), the error model (modulation) and the MAC (choice of bitrate, intervals).
+// A mode is one way to send a frame; a mode set has those of one operation mode. Both are constant
+// tables: references and pointers into them stay valid. Used by the radio (durations), the error
+// model (modulation) and the MAC (bitrates, intervals).
 //
 // Durations (IEEE Std 802.11-2020), n the bytes of the PSDU = MPDU, headers and FCS included:
 //   OFDM (clauses 17.4.3, 18.5.3): 16 µs preamble + 4 µs SIGNAL + ⌈(16 + 8n + 6) / N_DBPS⌉ symbols of 4 µs,
@@ -21,7 +21,7 @@
 
 namespace netsim {
 
-// 1 and 2; 5.5 and 11; 6 to 54 Mbps; the 250 kbps of 802.15.4, which are in phy/oqpsk_mode.hpp.
+// 1 and 2; 5.5 and 11; 6 to 54 Mbps; the 250 kbps of 802.15.4 (phy/oqpsk_mode.hpp).
 enum class ModeFamily { dsss, cck, ofdm, oqpsk };
 enum class Constellation { bpsk, qpsk, qam16, qam64 };
 enum class CodeRate { none, one_half, two_thirds, three_quarters };
@@ -45,7 +45,7 @@ struct Mode {
     std::int64_t header_bitrate_bps = 0;
     SimTime phy_rx_start_delay;  // from the start of a frame on the air until the PHY reports it
 
-    // Bits of the data part as sent: for OFDM with service field, tail and padding.
+    // Bits of the data part on the air: for OFDM with service field, tail and padding.
     std::int64_t data_bits(int psdu_bytes) const;
     // Time on the air of a whole frame. `psdu_bytes` ≥ 0.
     SimTime duration(int psdu_bytes) const;
@@ -60,26 +60,26 @@ public:
 
     std::string_view name() const { return name_; }
     std::span<const Mode> modes() const { return modes_; }
-    // Those of its modes. A station of the set can decode frames of these formats: no other set has a mode of one of them
-    // that this set has not.
+    // The formats of its modes. A station of the set can decode all frames of these formats: no
+    // other set has a mode in one of them that is missing here.
     PpduFormats formats() const;
-    // The place of one of them among them.
+    // The index of a mode of this set.
     std::size_t index_of(const Mode& mode) const { return static_cast<std::size_t>(&mode - modes_.data()); }
 
-    // Those of the slowest mode of the set; what follows from them is in mac/timing.hpp.
+    // Those of the slowest mode of the set. Derived intervals are in mac/timing.hpp.
     SimTime slot() const { return slot_; }
     SimTime sifs() const { return sifs_; }
     // Contention windows in slots: a backoff is drawn from 0 … cw.
     int cw_min() const { return cw_min_; }
     int cw_max() const { return cw_max_; }
 
-    // -1 gives the fastest mandatory mode. Throws ConfigError with the valid rates for one that the set has
-    // not; `field` is the name under which the user set it.
+    // -1 gives the fastest mandatory mode. Throws ConfigError, with the valid rates, for a rate
+    // that is not in the set. `field`: the name under which the user set it.
     const Mode& mode_for_bitrate(double bitrate_bps, std::string_view field = "mac.bitrate_bps") const;
     const Mode& fastest_mandatory() const;
     const Mode& slowest_mandatory() const;
-    // Of the ACK or CTS that answers a frame in mode `received`: that mode if it is mandatory, else the next
-    // slower mandatory one, or the slowest mandatory one if there is none slower.
+    // The mode of the ACK or CTS for a frame in mode `received`: that mode if it is mandatory, else
+    // the next slower mandatory one, or the slowest mandatory one if there is none.
     const Mode& response_mode(const Mode& received) const;
 
 private:
@@ -91,8 +91,8 @@ private:
     int cw_max_;
 };
 
-// The table of operation modes: "b", "g(erp)", "g(mixed)", "a" (MacConfig::op_mode). Throws ConfigError for
-// another.
+// The table of operation modes: "b", "g(erp)", "g(mixed)", "a" (MacConfig::op_mode). Throws
+// ConfigError for another.
 const ModeSet& mode_set(std::string_view op_mode);
 
 }  // namespace netsim

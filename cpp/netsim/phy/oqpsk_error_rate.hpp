@@ -1,9 +1,9 @@
-// The chance that an 802.15.4 frame survives noise and interference.
+// The probability that an 802.15.4 frame survives noise and interference.
 //
 //   bit error = 8/15 · 1/16 · Σ_{k=2}^{16} (−1)^k · (16 choose k) · e^(20 s (1/k − 1)),   s the linear SNIR,
 //
-// that of 16-ary quasi-orthogonal modulation; the 20 is twice the ratio of bandwidth (as the standard takes it) to
-// bitrate. success = (1 − bit error)^(header bits + 8 · PSDU bytes); the preamble cannot fail.
+// for 16-ary quasi-orthogonal modulation; 20 is twice the ratio of bandwidth (as in the standard)
+// to bitrate. success = (1 − bit error)^(header bits + 8 · PSDU bytes); the preamble cannot fail.
 //
 // Source: IEEE Std 802.15.4-2006, E.4.1.8.
 #pragma once

@@ -1,7 +1,7 @@
-// The mode of IEEE 802.15.4 at 2.4 GHz: O-QPSK with 250 kbps. There is no other, so there is no table.
+// The only mode of IEEE 802.15.4 at 2.4 GHz: O-QPSK with 250 kbps.
 //
-// A frame lasts 128 µs of preamble (4 octets) + 64 µs of header (start-of-frame delimiter and length, an octet each)
-// + 32 µs for each byte of the PSDU: 4 bits make a symbol of 16 µs.
+// A frame has 128 µs of preamble (4 octets) + 64 µs of header (start-of-frame delimiter and length,
+// one octet each) + 32 µs per byte of the PSDU: a symbol has 4 bits and 16 µs.
 //
 // Source: IEEE Std 802.15.4-2006, 6.3 (PPDU format) and 6.5 (2450 MHz PHY).
 #pragma once

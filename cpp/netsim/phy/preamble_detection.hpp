@@ -1,9 +1,10 @@
-// Whether a radio notices that a frame begins: the rule by which it locks on to one.
+// Preamble detection: the rule by which a radio locks on to a frame.
 //
-// Without it (the default), a radio locks on at once to whatever reaches its sensitivity. With it, it listens for
-// `duration` first, and then locks on to the strongest of the frames that began meanwhile if that one is strong enough
-// both in itself and beside all other energy in the band at the end of that time. Sensing energy takes as long: what
-// has just begun does not yet make its channel busy.
+// Without it (the default), a radio locks on at once to any frame that reaches its sensitivity.
+// With it, the radio listens for `duration` first. Then it locks on to the strongest of the frames
+// that began meanwhile, if that one is strong enough in absolute power and relative to all other
+// energy in the band at that time. Sensing energy takes as long: a frame that has just begun does
+// not make the channel busy yet.
 #pragma once
 
 #include "netsim/config/radio_config.hpp"
@@ -20,7 +21,7 @@ public:
           duration_(is_on_ ? SimTime::from_seconds(config.preamble_duration_s) : SimTime()) {}
 
     bool is_on() const { return is_on_; }
-    SimTime duration() const { return duration_; }  // none, if off
+    SimTime duration() const { return duration_; }  // 0 if off
     // `snir` is a linear ratio.
     bool detects(double power_w, double snir) const {
         return power_w >= minimum_power_w_ && snir >= threshold_;

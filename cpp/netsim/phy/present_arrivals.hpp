@@ -1,8 +1,9 @@
-// The arrivals that last at one radio at the moment, in the order of their transmissions, whenever the radio is told of them:
-// how their sum is rounded must not depend on that. The radio may be locked on to one of them.
+// The arrivals currently at one radio. They are in the order of their transmissions, not of
+// notification, so that the rounding of their sum does not depend on the latter. The radio may be
+// locked on to one of them.
 //
-// Mostly there is one. That lies in the radio itself, in a cache line that the medium fetches ahead: in a large network any
-// memory beside that is in no cache. Several lie together elsewhere.
+// A single arrival, the usual case, is stored in the radio itself, in a cache line that the medium
+// prefetches. Several are stored together on the heap.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +48,7 @@ public:
             content_.several = new Several{.arrivals = {content_.one}, .locked = content_.one.transmission};
             count_ = Count::several;
         }
-        // Mostly the last place.
+        // Usually at the end.
         const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
             return id < other.transmission->id;
         };
@@ -55,7 +56,7 @@ public:
         all.insert(std::upper_bound(all.begin(), all.end(), arrival.transmission->id, is_later), arrival);
     }
 
-    // That of `transmission`, which is among them, and which the radio is not locked on to any more.
+    // Removes the arrival of `transmission`, which must be present, and not locked on to.
     void remove(const Transmission* transmission) {
         if (count_ == Count::one) {
             NETSIM_ASSERT(content_.one.transmission == transmission && !is_locked_);
@@ -75,7 +76,7 @@ public:
         }
     }
 
-    // Only while the radio is not locked, on to one of them.
+    // Locks on to a present arrival. Only while the radio is not locked.
     void lock_on(const Transmission* transmission) {
         NETSIM_ASSERT(!is_locked_);
         is_locked_ = true;
@@ -85,7 +86,7 @@ public:
             NETSIM_ASSERT(count_ == Count::one && content_.one.transmission == transmission);
         }
     }
-    // Returns what it was locked on to. Only while it is.
+    // Returns the transmission it was locked on to. Only while it is locked.
     const Transmission& unlock() {
         const Transmission* const was_locked = locked();
         NETSIM_ASSERT(was_locked != nullptr);
@@ -93,7 +94,7 @@ public:
         return *was_locked;
     }
     bool is_locked() const { return is_locked_; }
-    // What the radio is locked on to; null if it is not.
+    // The transmission that the radio is locked on to, or null.
     const Transmission* locked() const {
         if (!is_locked_) {
             return nullptr;
@@ -105,7 +106,7 @@ private:
     enum class Count : std::uint8_t { none, one, several };
     struct Several {
         std::vector<PresentArrival> arrivals;
-        const Transmission* locked = nullptr;  // of no account while the radio is not
+        const Transmission* locked = nullptr;  // ignored while the radio is not locked
     };
 
     union Content {

@@ -7,15 +7,15 @@
 
 namespace netsim {
 
-Radio::Radio(InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
+Radio::Radio(InterfaceId interface, std::shared_ptr<const RadioModel> model, double tx_power_w,
              const Trajectory& trajectory, const Attitude& attitude, PpduFormats formats)
-    : stream_(interface.stream()), kind_(*kind), tx_power_w_(tx_power_w), owned_kind_(std::move(kind)) {
+    : stream_(interface.stream()), model_(*model), tx_power_w_(tx_power_w), owned_model_(std::move(model)) {
     id_ = medium().attach(interface,
                           Receiver{this,
                                    &trajectory,
-                                   {kind_.band, kind_.sensitivity_w, kind_.energy_detection_w,
-                                    kind_.reception.noise_w, kind_.preamble_detection.duration(), formats}},
-                          MountedAntenna{kind_.antenna.get(), attitude, kind_.antenna_offset});
+                                   {model_.band, model_.sensitivity_w, model_.energy_detection_w,
+                                    model_.reception.noise_w, model_.preamble_detection.duration(), formats}},
+                          MountedAntenna{model_.antenna.get(), attitude, model_.antenna_offset});
 }
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -32,7 +32,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.radio = id_;
     transmission.duration = duration;
     transmission.power_w = tx_power_w_;
-    transmission.band = kind_.band;
+    transmission.band = model_.band;
     transmission.label = label;
     transmission.psdu_bytes = psdu_bytes;
     transmission.format = mode.format;
@@ -77,7 +77,7 @@ void Radio::arrival_started(const Arrival& arrival) {
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (!present_.is_locked()) {
             begin_reception(arrival);
-        } else if (kind_.frame_capture.captures(locked_arrival_, arrival)) {
+        } else if (model_.frame_capture.captures(locked_arrival_, arrival)) {
             simulator().cancel(header_end_);
             book(present_.unlock(), FrameFate::captured);
             listener_->frame_corrupted();
@@ -94,7 +94,7 @@ void Radio::begin_reception(const Arrival& arrival) {
         lock_on(arrival);
         return;
     }
-    candidates_.push_back({arrival, simulator().schedule_after(kind_.preamble_detection.duration(),
+    candidates_.push_back({arrival, simulator().schedule_after(model_.preamble_detection.duration(),
                                                                [this, transmission = arrival.transmission] {
                                                                    end_detection(transmission);
                                                                })});
@@ -109,9 +109,9 @@ void Radio::end_detection(const Transmission* transmission) {
         candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
     const auto snir = [&] {
         const auto& steps = interference_in(arrival, {arrival.start, simulator().now()}).steps();
-        return arrival.power_w / (kind_.reception.noise_w + steps.back().power_w);
+        return arrival.power_w / (model_.reception.noise_w + steps.back().power_w);
     };
-    if (!is_strongest || !kind_.preamble_detection.detects(arrival.power_w, snir())) {
+    if (!is_strongest || !model_.preamble_detection.detects(arrival.power_w, snir())) {
         book(*transmission, FrameFate::preamble_undetected);
         update_busy();
         return;
@@ -139,10 +139,10 @@ void Radio::drop_candidates(FrameFate fate) {
 
 void Radio::lock_on(const Arrival& arrival) {
     present_.lock_on(arrival.transmission);
-    if (kind_.frame_capture.is_on() || kind_.by_chunks) {
+    if (model_.frame_capture.is_on() || model_.by_chunks) {
         locked_arrival_ = arrival;
     }
-    if (kind_.by_chunks) {
+    if (model_.by_chunks) {
         const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator().now());
         header_end_ = simulator().schedule_at(end, [this] { end_header(); });
     }
@@ -166,7 +166,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
         reports_ = true;
         try {
             end_reception(arrival);
-        } catch (...) {  // a protocol's: the channel is free all the same
+        } catch (...) {  // thrown by a protocol: the channel is free all the same
             end_report();
             throw;
         }
@@ -193,11 +193,11 @@ void Radio::end_reception(const Arrival& arrival) {
     const Transmission& transmission = *arrival.transmission;
     const std::vector<NodeId>* interferers = nullptr;
     const FrameFate fate =
-        kind_.by_chunks ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
+        model_.by_chunks ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
     const bool decoded = fate == FrameFate::delivered;
     add_to_fingerprint(transmission, fate);
     if (is_observed_) {
-        observer_->received(arrival, kind_.reception.noise_w, decoded);
+        observer_->received(arrival, model_.reception.noise_w, decoded);
     }
     if (interferers != nullptr) {
         medium().fates().book_interference(node(), transmission.label, *interferers);
@@ -207,36 +207,35 @@ void Radio::end_reception(const Arrival& arrival) {
     if (decoded) {
         listener_->frame_received(transmission);
     } else {
-        others_are_weak_ = kind_.reception.noise_w + medium().most_interference_w(arrival) <
-                           kind_.energy_detection_w * (1 - 1e-6);
+        others_are_weak_ = model_.reception.noise_w + medium().max_interference_w(arrival) <
+                           model_.energy_detection_w * (1 - 1e-6);
         listener_->frame_corrupted();
     }
 }
 
-// One draw decides for both cases, with interference and without: a frame counts as lost to noise if the same draw
-// would have lost it on a channel without interference.
+// One draw decides both cases, with interference and without. A frame counts as lost to noise if
+// the same draw would have lost it without interference.
 FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
-    // In a large network there is always somebody on the air, mostly far away: then a bound is enough, and the sum need
-    // not be known. Mostly not even the draw.
-    const double least_success =
-        kind_.reception.least_success(arrival, medium().most_interference_w(arrival));
-    if (least_success == 1) {
-        ++drawn_;  // mostly it need not be worked out
+    // In a large network, some transmission is always on the air, usually far away. Then a bound
+    // suffices, without the sum of interference, and usually without the draw.
+    const double min_success = model_.reception.min_success(arrival, medium().max_interference_w(arrival));
+    if (min_success == 1) {
+        ++drawn_;  // the number itself is not needed
         return FrameFate::delivered;
     }
     const double draw = this->draw();
-    if (draw < least_success ||
-        draw < kind_.reception.least_success(arrival, medium().most_interference_w(id_, arrival))) {
+    if (draw < min_success ||
+        draw < model_.reception.min_success(arrival, medium().max_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
-    listener_->fetch_for_corrupted_frame();  // all this is seldom needed, and takes a while
-    medium().fates().fetch(node(), arrival.transmission->label.kind, FrameFate::interference);
+    listener_->prefetch_for_corrupted_frame();  // rarely needed, and slow enough to prefetch meanwhile
+    medium().fates().prefetch(node(), arrival.transmission->label.kind, FrameFate::interference);
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
     const double interference_w = interference.worst_w();
-    if (kind_.reception.survives(draw, arrival, interference_w)) {
+    if (model_.reception.survives(draw, arrival, interference_w)) {
         return FrameFate::delivered;
     }
-    if (interference_w > 0 && kind_.reception.survives(draw, arrival, 0)) {
+    if (interference_w > 0 && model_.reception.survives(draw, arrival, 0)) {
         interferers = &interference.interferers();
         return FrameFate::interference;
     }
@@ -249,10 +248,10 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
     }
     const double draw = this->draw();
     InterferenceSum& interference = interference_in(arrival, period_of(FramePart::data, arrival));
-    if (draw < kind_.reception.success(FramePart::data, arrival, interference)) {
+    if (draw < model_.reception.success(FramePart::data, arrival, interference)) {
         return FrameFate::delivered;
     }
-    if (draw < kind_.reception.success_undisturbed(FramePart::data, arrival)) {
+    if (draw < model_.reception.success_undisturbed(FramePart::data, arrival)) {
         interferers = &interference.interferers();
         return FrameFate::interference;
     }
@@ -262,7 +261,7 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
 bool Radio::header_survives() {
     InterferenceSum& interference =
         interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
-    return draw() < kind_.reception.success(FramePart::header, locked_arrival_, interference);
+    return draw() < model_.reception.success(FramePart::header, locked_arrival_, interference);
 }
 
 void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
@@ -277,15 +276,15 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 void Radio::update_busy() {
     bool busy = transmitting_ || reports_ || present_.is_locked();
     if (!busy && !present_.empty()) {
-        double energy_w = kind_.reception.noise_w;
-        busy = energy_w >= kind_.energy_detection_w;
+        double energy_w = model_.reception.noise_w;
+        busy = energy_w >= model_.energy_detection_w;
         for (const PresentArrival& present : present_.all()) {
-            if (busy) {  // the sum of all is no less
+            if (busy) {  // the rest only adds to it
                 break;
             }
             if (!is_candidate(present.transmission)) {
                 energy_w += present.power_w;
-                busy = energy_w >= kind_.energy_detection_w;
+                busy = energy_w >= model_.energy_detection_w;
             }
         }
     }
@@ -294,7 +293,7 @@ void Radio::update_busy() {
         if (!busy) {
             free_since_ = simulator().now();
         }
-        if (tells_of_channel_) {
+        if (reports_channel_) {
             listener_->channel_busy_changed(busy);
         }
     }

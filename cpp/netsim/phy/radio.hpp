@@ -1,17 +1,19 @@
-// One radio: locks on to frames, decides whether they are decoded, and says whether the channel is busy.
+// One radio: it locks on to frames, decides whether they are decoded, and reports whether the
+// channel is busy.
 //
 //                 transmit()                       arrival ≥ sensitivity
 //   TRANSMITTING <----------- LISTENING or LOCKED  <-------------------- LISTENING
 //        |   end of the frame      ^  ^                                      |
 //        +-------------------------+  +---- end of the arrival locked on <---+--> LOCKED
 //
-// Frames of other channels that overlap with its own, and those in formats that it does not know, never lock it: they are
-// noise, and energy that makes the channel busy.
+// The radio never locks on to frames of overlapping channels, nor to formats that it does not know.
+// They are noise, and energy that makes the channel busy.
 //
-// Half duplex: what starts while it transmits is never received, and starting to transmit gives up a reception.
-// There is no capture: locked on one frame, the radio takes all others for interference.
+// Half duplex: a frame that starts while the radio transmits is not received, and starting to
+// transmit aborts a reception. Without capture, all other frames are interference while the radio
+// is locked on to one.
 //
-// That is the default. Options of the receiver put more between LISTENING and the end of a frame:
+// That is the default. Receiver options add steps between LISTENING and the end of a frame:
 //
 //                   arrival ≥ sensitivity                 preamble detected (phy/preamble_detection.hpp)
 //        LISTENING -----------------------> DETECTING ------------------------------------------------> LOCKED
@@ -20,36 +22,39 @@
 //          |  +--------- PHY header lost, or the end of the arrival (SNIR by chunks: phy/reception.hpp) --+  |
 //          +------------ end of the arrival locked on -------------------------------------------------------+
 //
-// DETECTING does not make the channel busy, and the energy of a frame counts only from the end of its detection: sensing
-// takes as long. Without preamble detection, LOCKED takes its place in both arrows to it.
+// DETECTING does not make the channel busy. The energy of a frame counts only from the end of its
+// detection, since sensing takes as long. Without preamble detection, both arrows to DETECTING lead
+// to LOCKED.
 #pragma once
 
 #include <memory>
 #include <vector>
 
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/kernel/random.hpp"
 #include "netsim/medium/arrival.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/phy/modes.hpp"
 #include "netsim/phy/present_arrivals.hpp"
-#include "netsim/phy/radio_kind.hpp"
+#include "netsim/phy/radio_model.hpp"
 #include "netsim/phy/radio_observer.hpp"
 
 namespace netsim {
 
-// The side of a MAC that its radio speaks to. At the end of a frame, the frame is reported before the channel is free.
+// The side of a MAC that its radio notifies. At the end of a frame, the frame is reported before
+// the channel is free.
 class RadioListener {
 public:
-    // Not while it was told to stop (Radio::stop_watching_channel).
+    // Not called after Radio::stop_watching_channel.
     virtual void channel_busy_changed(bool busy) = 0;
     virtual void frame_received(const Transmission& transmission) = 0;
-    // A frame that the radio had locked on to could not be decoded, or was given up for another one.
+    // A frame that the radio was locked on to could not be decoded, or was dropped for a stronger
+    // one.
     virtual void frame_corrupted() = 0;
-    // The next transmission cannot begin within it.
+    // The next transmission must not begin within this call.
     virtual void transmission_ended() = 0;
-    // frame_corrupted may well be next: has what that touches brought into the cache (kernel/fetch.hpp).
-    virtual void fetch_for_corrupted_frame() const {}
+    // frame_corrupted may be called next: prefetches what it reads (kernel/prefetch.hpp).
+    virtual void prefetch_for_corrupted_frame() const {}
 
 protected:
     ~RadioListener() = default;
@@ -57,14 +62,14 @@ protected:
 
 class alignas(64) Radio final : public MediumListener {
 public:
-    Radio(InterfaceId interface, std::shared_ptr<const RadioKind> kind, double tx_power_w,
+    Radio(InterfaceId interface, std::shared_ptr<const RadioModel> model, double tx_power_w,
           const Trajectory& trajectory, const Attitude& attitude = {},
           PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
 
     void set_listener(RadioListener& listener) { listener_ = &listener; }
-    // Who is told of every frame sent and received from now on; nobody, if null.
+    // The observer of every frame sent and received from now on; none if null.
     void set_observer(RadioObserver* observer) {
         observer_ = observer;
         is_observed_ = observer != nullptr;
@@ -73,50 +78,52 @@ public:
     NodeId node() const { return interface().node; }
     RadioId id() const { return id_; }
 
-    // Turns around to send: what comes before the end of the next transmission is not received. Only while not
-    // transmitting. Radios that need no time for that go without.
+    // Starts the turnaround to transmit mode: frames that arrive before the end of the next
+    // transmission are not received. Only while not transmitting. A radio without turnaround time
+    // skips it.
     void turn_to_transmit();
     // Sends a frame now; only while not transmitting.
     void transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                   SimTime duration);
 
-    // A radio tells of its channel from the start, and what it says includes frames that only together make it busy. A MAC
-    // that need not know that for a while saves much of the cost of a large network by telling it to stop. When it begins again, it
-    // learns when the channel was busy for the last time, if that is over: by frames that only together made it busy, not
-    // before `since`; long ago if it never was.
+    // Starts reporting the channel state, including frames that make it busy only together. It is
+    // on at first. A MAC that does not need the state for a while saves much of the cost of a large
+    // network by stopping it. Returns when the channel was last busy, if that is over; long ago if
+    // it never was. Frames that made it busy only together count from `since` on.
     SimTime watch_channel(SimTime since) {
-        tells_of_channel_ = true;
+        reports_channel_ = true;
         watches_energy_ = true;
         return std::max(free_since_, may_ignore_energy() && !transmitting_ ? medium().watch_energy(id_, since)
                                                                            : SimTime::long_ago());
     }
     void stop_watching_channel() {
-        tells_of_channel_ = false;
+        reports_channel_ = false;
         if (watches_energy_ && may_ignore_energy()) {
             medium().stop_watching_energy(id_);
         }
         watches_energy_ = false;
     }
-    // Tells of its channel again, but only what it hears of anyway: what frames do to it one by one.
-    void tell_of_channel() { tells_of_channel_ = true; }
-    // How far back watch_channel may ask.
+    // Reports the channel state again, but ignores frames that make it busy only together.
+    void report_channel() { reports_channel_ = true; }
+    // How far back `since` of watch_channel may be.
     void remember_channel(SimTime duration) { medium().remember(duration); }
-    // At the end of a frame that was received broken: whether the others on the air are too weak to make the channel busy
-    // together.
+    // At the end of a corrupted frame: whether the other frames on the air are too weak to make the
+    // channel busy together.
     bool are_others_weak() const { return others_are_weak_; }
 
-    // It will probably send soon (NetworkInterface::fetch).
-    void fetch(int step) const {
+    // The radio will probably send soon (NetworkInterface::prefetch).
+    void prefetch(int step) const {
         if (step == 0) {
-            fetch_before(*this, owned_kind_);
+            prefetch_before(*this, owned_model_);
         } else {
-            medium().fetch_sender(id_);
+            medium().prefetch_sender(id_);
         }
     }
 
     bool is_transmitting() const { return transmitting_; }
     bool is_receiving() const { return present_.is_locked(); }
-    // Transmitting, locked on a frame, or noise and all arrivals together reach the energy detection level.
+    // Transmitting, locked on a frame, or noise and all arrivals together reach the energy
+    // detection level.
     bool is_channel_busy() const { return busy_; }
 
     void arrival_started(const Arrival& arrival) override;
@@ -128,10 +135,11 @@ private:
         EventHandle detection;
     };
 
-    Medium& medium() const { return kind_.medium; }
+    Medium& medium() const { return model_.medium; }
     Simulator& simulator() const { return medium().simulator(); }
-    bool detects_preambles() const { return kind_.preamble_detection.is_on(); }
-    // One that detects preambles leaves out of its sums what the medium cannot know: it is told of energy all the time.
+    bool detects_preambles() const { return model_.preamble_detection.is_on(); }
+    // With preamble detection, the radio's sums leave out frames that the medium does not know. So
+    // it always watches its energy.
     bool may_ignore_energy() const { return !detects_preambles(); }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
@@ -145,8 +153,8 @@ private:
     void end_header();
     void end_reception(const Arrival& arrival);
     void end_report();
-    double draw() { return RandomStream(kind_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
-    // Both draw, and find interferers only if interference is to blame.
+    double draw() { return RandomStream(model_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
+    // Both draw a random number, and set `interferers` only if interference is the cause.
     FrameFate decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     FrameFate decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers);
     bool header_survives();
@@ -158,28 +166,28 @@ private:
     void transmission_over();
     void update_busy();
 
-    // First what an arrival touches: one cache line. In a large network it is in no cache, so the medium has it
-    // fetched ahead (Links::fetch_touched).
-    [[no_unique_address]] PresentArrivals present_;  // the bits below lie in its padding
+    // The members that an arrival reads come first: one cache line, which the medium prefetches
+    // (Links::prefetch_targets).
+    [[no_unique_address]] PresentArrivals present_;  // its padding holds the bits below
     bool transmitting_ : 1 = false;
-    bool turned_ : 1 = false;  // to transmit, which it does not yet
+    bool turned_ : 1 = false;  // turnaround to transmit has started
     bool busy_ : 1 = false;
-    bool reports_ : 1 = false;  // the end of a frame, before its channel may be free
+    bool reports_ : 1 = false;  // reporting the end of a frame: the channel stays busy until then
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
-    bool tells_of_channel_ : 1 = true;
-    bool watches_energy_ : 1 = true;  // but while it transmits
+    bool reports_channel_ : 1 = true;
+    bool watches_energy_ : 1 = true;  // except while it transmits
     std::uint32_t stream_;            // of its interface (InterfaceId)
-    const RadioKind& kind_;
+    const RadioModel& model_;
     RadioListener* listener_ = nullptr;
-    SimTime free_since_ = SimTime::long_ago();  // its channel, if it is
-    std::uint64_t drawn_ = 0;                   // numbers that decide about receptions
+    SimTime free_since_ = SimTime::long_ago();  // when the channel became free, if it is
+    std::uint64_t drawn_ = 0;                   // random numbers drawn for receptions
 
     RadioId id_ = 0;
     double tx_power_w_;
     RadioObserver* observer_ = nullptr;
-    std::shared_ptr<const RadioKind> owned_kind_;  // kind_ again: keeps it alive
-    Arrival locked_arrival_;             // if locked on, for the options that ask for it before its end
+    std::shared_ptr<const RadioModel> owned_model_;  // model_ again: keeps it alive
+    Arrival locked_arrival_;             // while locked on; for options that need it before its end
     std::vector<Candidate> candidates_;  // none without preamble detection
     EventHandle header_end_;             // SNIR by chunks: pending until the header is decided
 };

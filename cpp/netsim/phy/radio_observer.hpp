@@ -1,4 +1,5 @@
-// Somebody who looks on at one radio: capture files. Changes nothing, and a radio without one pays one test per frame.
+// Observer of one radio, for capture files. It does not change the run. A radio without one pays
+// one test per frame.
 #pragma once
 
 #include "netsim/medium/arrival.hpp"
@@ -8,10 +9,10 @@ namespace netsim {
 
 class RadioObserver {
 public:
-    // The radio begins to send; of what the medium fills in, only the start is known.
+    // The radio begins to send. Of the fields that the medium fills in, only the start is set.
     virtual void transmitted(const Transmission& transmission) = 0;
-    // A frame that the radio was locked on to until its end has ended, decoded or not. `noise_w` is the background
-    // noise, without the interference of other frames.
+    // A frame ended that the radio was locked on to, decoded or not. `noise_w`: background noise,
+    // without interference.
     virtual void received(const Arrival& arrival, double noise_w, bool decoded) = 0;
 
 protected:

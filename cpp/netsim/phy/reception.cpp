@@ -29,8 +29,8 @@ bool ReceptionModel::survives(double draw, const Arrival& arrival, double interf
         return false;
     }
     const Transmission& sent = *arrival.transmission;
-    return draw < errors->least_success(*sent.mode, snir, sent.psdu_bytes) ||
-           (draw < errors->most_success(*sent.mode, snir, sent.psdu_bytes) &&
+    return draw < errors->min_success(*sent.mode, snir, sent.psdu_bytes) ||
+           (draw < errors->max_success(*sent.mode, snir, sent.psdu_bytes) &&
             draw < errors->success_probability(*sent.mode, snir, sent.psdu_bytes));
 }
 

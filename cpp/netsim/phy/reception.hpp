@@ -1,14 +1,15 @@
-// What becomes of a frame that a radio is locked on to: the chances, without the dice. Used by the radio.
+// The success probability of a frame that a radio is locked on to. Used by the radio, which draws.
 //
-// In mode "min" the least SNIR of the whole frame decides about all of it, in mode "chunks" the PHY header and the data
-// are decided apart, and each stretch of time between two changes of the interference counts with its own SNIR: with
-// L(snir) the logarithm of the chance that a part survives if all of it has that SNIR,
+// In mode "min", the minimum SNIR of the frame decides. In mode "chunks", the PHY header and the
+// data are decided separately, and each interval between two changes of the interference counts
+// with its own SNIR. With L(snir) the logarithm of the probability that a part survives if all of
+// it has that SNIR,
 //
-//   success of a part = exp Σ (length of stretch / length of part) · L(SNIR of stretch).
+//   success of a part = exp Σ (length of interval / length of part) · L(SNIR of interval).
 //
-// Bits fail independently, so this is the product over the stretches; for one stretch it is L, and header and data
-// together have the chance of mode "min". Nothing survives where the SNIR is not above the threshold anywhere in the
-// part (in mode "min": in the frame).
+// Bits fail independently, so this is the product over the intervals. With one interval, it is L,
+// and header and data together have the probability of mode "min". A part (in mode "min": a frame)
+// is lost if its SNIR is at or below the threshold at any time.
 #pragma once
 
 #include "netsim/medium/arrival.hpp"
@@ -20,7 +21,7 @@ namespace netsim {
 
 enum class FramePart { header, data };
 
-// When a part of a frame is on the air at a receiver, never beyond the frame's end.
+// When a part of a frame is on the air at a receiver; cut at the frame's end.
 struct Period {
     SimTime start;
     SimTime end;
@@ -32,18 +33,18 @@ struct ReceptionModel {
     double snir_threshold = 0;
     double noise_w = 0;
 
-    // Of the whole frame, in mode "min", beside interference of at most that power.
+    // Of the whole frame, in mode "min", with that maximum interference.
     double success(const Arrival& arrival, double interference_w) const;
-    // No more than that, for all interference up to `most_interference_w`: known at once.
-    double least_success(const Arrival& arrival, double most_interference_w) const {
-        const double snir = arrival.power_w / (noise_w + most_interference_w);
-        return snir > snir_threshold ? errors->least_success(*arrival.transmission->mode, snir,
-                                                             arrival.transmission->psdu_bytes)
-                                     : 0;
+    // A cheap lower bound for that with any interference up to `max_interference_w`.
+    double min_success(const Arrival& arrival, double max_interference_w) const {
+        const double snir = arrival.power_w / (noise_w + max_interference_w);
+        return snir > snir_threshold
+                   ? errors->min_success(*arrival.transmission->mode, snir, arrival.transmission->psdu_bytes)
+                   : 0;
     }
-    // Whether a number drawn from [0, 1) is below `success`, which mostly need not be worked out for that.
+    // Whether a number drawn from [0, 1) is below `success`. Usually bounds decide that.
     bool survives(double draw, const Arrival& arrival, double interference_w) const;
-    // Of one part, in mode "chunks", beside the interference of its period.
+    // Of one part, in mode "chunks", with the interference of its period.
     double success(FramePart part, const Arrival& arrival, InterferenceSum& interference) const;
     double success_undisturbed(FramePart part, const Arrival& arrival) const;
 

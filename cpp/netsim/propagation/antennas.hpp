@@ -1,4 +1,4 @@
-// The antennas of all radios: what both ends of a link add to it, or take from it. Used by the medium.
+// The antennas of all radios, and the gain of both ends of a link. Used by the medium.
 #pragma once
 
 #include <memory>
@@ -11,19 +11,19 @@ namespace netsim {
 
 class Antennas {
 public:
-    // Those of radios 0, 1, … The trajectory is their node's.
+    // Adds the antenna of the next radio: 0, 1, … `trajectory`: of its node.
     void add(const MountedAntenna& antenna, const Trajectory& trajectory) {
         const bool is_isotropic = antenna.pattern == nullptr;
         all_isotropic_ = all_isotropic_ && is_isotropic;
         mounted_.push_back(is_isotropic ? nullptr : std::make_unique<Mounted>(antenna, &trajectory));
     }
 
-    // Then every gain is 1.
+    // If so, every gain is 1.
     bool all_isotropic() const { return all_isotropic_; }
     double max_gain(RadioId radio) const { return mounted_[radio] ? mounted_[radio]->antenna.max_gain() : 1; }
 
-    // Of the sender towards the receiver, and of the receiver, at `place` when the transmission starts, towards the
-    // sender. Both are turned as they are at that time.
+    // The product of the sender's gain towards the receiver, at `place` when the transmission
+    // starts, and the receiver's gain towards the sender, with their orientations at that time.
     double gain(const Transmission& sent, RadioId receiver, const Position& place) const {
         const Position way = place - sent.origin;
         return gain_towards(way, sent.radio, sent.start) * gain_towards(way * -1, receiver, sent.start);

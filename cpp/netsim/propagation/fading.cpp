@@ -12,24 +12,26 @@ namespace {
 
 // Exceeded once in 10⁹ draws of a standard normal number.
 constexpr double rare_normal = 5.9978070150076869;
-// And by the power of a complex Gaussian of mean power 1, which is exponentially distributed: 9 ln 10.
+// The same for the power of a complex Gaussian of mean power 1, which is exponentially distributed:
+// 9 ln 10.
 constexpr double rare_scattered = 9 * std::numbers::ln10;
 
 double normal_density(double x) {
     return std::exp(-x * x / 2) * (std::numbers::inv_sqrtpi / std::numbers::sqrt2);
 }
 
-// Of a standard normal number, to be at least `x`.
+// The probability that a standard normal number is at least `x`.
 double normal_above(double x) {
     return std::erfc(x / std::numbers::sqrt2) / 2;
 }
 
-// Of a pair of standard normal numbers, to lie less than `radius` from (−line, 0): over the height r sin θ of a chord of
-// that disc, half as long as r cos θ, the density of the height times the chance of lying between the chord's ends. As a function
-// of θ that is smooth and periodic, so that a few equal steps are exact to many digits.
+// The probability that a pair of standard normal numbers is within `radius` of (−line, 0). The
+// integral runs over the chords of that disc, at height r sin θ and half as long as r cos θ: the
+// density of the height times the probability of lying between the chord's ends. As a function of
+// θ, it is smooth and periodic, so a few equal steps give many digits.
 double chance_within(double radius, double line) {
     constexpr int steps = 16;
-    constexpr double far = 8;  // no pair lies that high
+    constexpr double far = 8;  // no pair is that high
     const double width =
         (radius > far ? std::asin(far / radius) : std::numbers::pi / 2) / static_cast<double>(steps);
     double sum = 0;
@@ -39,14 +41,14 @@ double chance_within(double radius, double line) {
         sum += normal_density(radius * std::sin(angle)) * half_chord *
                (normal_above(line - half_chord) - normal_above(line + half_chord));
     }
-    return 2 * width * sum;  // above the middle, and below
+    return 2 * width * sum;  // above and below the center
 }
 
 }  // namespace
 
 Fading::Fading(const MediumConfig& config, std::uint64_t seed)
     : gaussians_(seed, SimTime::from_seconds(config.coherence_time())) {
-    double farthest = 0;  // from 0, of the pairs that are not cut off
+    double farthest = 0;  // largest distance from 0 of pairs that are not cut off
     if (config.path_loss == "LogNormalShadowing") {
         kind_ = Kind::log_normal;
         sigma_ = config.sigma_db * std::numbers::ln10 / 10;
@@ -65,10 +67,11 @@ Fading::Fading(const MediumConfig& config, std::uint64_t seed)
     } else {
         return;
     }
-    // All rise with the first number, and none has more of two numbers than of one at the same distance from 0.
-    const auto most_gain = [this](double from_0) { return untruncated({from_0, 0}); };
-    most_ = most_gain(farthest);
-    rare_ = RareGains(most_gain, farthest);
+    // All models rise with the first number. At equal distance from 0, the largest gain has a
+    // second number of 0.
+    const auto max_gain = [this](double from_0) { return untruncated({from_0, 0}); };
+    max_ = max_gain(farthest);
+    tail_bound_ = GainTailBound(max_gain, farthest);
 }
 
 double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission,
@@ -76,12 +79,12 @@ double Fading::gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_
     if (kind_ == Kind::none) {
         return 1;
     }
-    const auto normal = gaussians_.at_if_beyond(rare_.chance_beyond(least), a, b, time, transmission);
-    return normal ? std::min(untruncated(*normal), most_) : 0;
+    const auto normal = gaussians_.at_if_beyond(tail_bound_.chance_beyond(least), a, b, time, transmission);
+    return normal ? std::min(untruncated(*normal), max_) : 0;
 }
 
 double Fading::chance_of(double gain) const {
-    if (gain > most_) {
+    if (gain > max_) {
         return 0;
     }
     switch (kind_) {
@@ -99,9 +102,9 @@ double Fading::chance_of(double gain) const {
 }
 
 double Fading::mean() const {
-    // All means are 1, but for this one, to which what is cut off matters if sigma is large.
+    // All means are 1 except this one, where the cut-off matters if sigma is large.
     return kind_ == Kind::log_normal ? std::exp(sigma_ * sigma_ / 2) * normal_above(sigma_ - rare_normal) +
-                                           most_ * normal_above(rare_normal)
+                                           max_ * normal_above(rare_normal)
                                      : 1;
 }
 

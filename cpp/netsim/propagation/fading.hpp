@@ -1,8 +1,8 @@
 // Fading and shadowing: the random factor of a link's gain, a ratio of powers.
 //
-// A deterministic function of the run's seed, the pair of radios and the time (link_gaussians.hpp), so the channel is
-// the same in both directions, and who asks twice gets the same answer. With x, y, z standard normal,
-// and a mean of 1 but for shadowing:
+// A deterministic function of the run's seed, the pair of radios and the time (link_gaussians.hpp).
+// So the channel is the same in both directions, and equal calls give equal results. With x, y, z
+// standard normal, and a mean of 1 except for shadowing:
 //   LogNormalShadowing: 10^(σ z / 10), σ in dB: 1 in the median. Source: T. S. Rappaport, "Wireless
 //     Communications: Principles and Practice", 2nd ed. 2002, 4.9.2.
 //   RayleighFading: (x² + y²) / 2, no line of sight. Source: Rappaport, 5.6.1.
@@ -10,35 +10,37 @@
 //     Source: S. O. Rice, "Mathematical analysis of random noise", Bell System Technical Journal 24, 1945, 3.10.
 //   NakagamiFading: gamma distributed of shape m and mean 1, at the quantile of z. m = 1 is Rayleigh's distribution.
 //     Source: M. Nakagami, "The m-distribution, a general formula of intensity distribution of rapid fading", 1960.
-// Each is cut off at most(), so that a search for receivers can end somewhere. What is above that comes once in 10⁹
-// draws (with a line of sight, the scattered part alone has that chance to reach it).
+// Each is cut off at max(), so that the search for receivers has a radius. Larger values occur once
+// in 10⁹ draws. (With a line of sight, that is the probability for the scattered part alone.)
 //
-// INET multiplies with the root of x² + y² for Rayleigh, an amplitude; here it is the power, whose mean is 1.
+// For Rayleigh, INET multiplies the power by the root of x² + y², an amplitude. Here it is the
+// power, with a mean of 1.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
 #include "netsim/config/medium_config.hpp"
+#include "netsim/propagation/gain_tail_bound.hpp"
 #include "netsim/propagation/gamma_quantile.hpp"
 #include "netsim/propagation/link_gaussians.hpp"
-#include "netsim/propagation/rare_gains.hpp"
 
 namespace netsim {
 
 class Fading {
 public:
-    // None, if config.path_loss names a model without.
+    // is_none() if config.path_loss names a model without fading.
     Fading(const MediumConfig& config, std::uint64_t seed);
 
-    // The factor between the interfaces of streams `a` and `b` (interface_id.hpp) for a transmission that starts at `time`: from 0 to most().
-    // Where it is less than `least`, perhaps 0 instead: that costs a fraction.
+    // The factor, from 0 to max(), between the interfaces of streams `a` and `b` (interface_id.hpp)
+    // for a transmission that starts at `time`. May return 0 for a factor below `least`, which is
+    // cheaper.
     double gain(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission,
                 double least = 0) const;
 
-    // Never more than that.
-    double most() const { return most_; }
-    // Over all states of a link: the chance of at least `gain` ≥ 0, and the mean.
+    // An upper bound for the factor.
+    double max() const { return max_; }
+    // Over all states of a link: the probability of at least `gain` ≥ 0, and the mean.
     double chance_of(double gain) const;
     double mean() const;
     bool is_none() const { return kind_ == Kind::none; }
@@ -54,8 +56,8 @@ private:
     double k_ = 0;                        // Rician: a ratio; 0 is Rayleigh
     std::optional<GammaQuantile> gamma_;  // Nakagami, unless it is Rayleigh's distribution
     double shape_ = 1;                    // Nakagami
-    double most_ = 1;
-    RareGains rare_;
+    double max_ = 1;
+    GainTailBound tail_bound_;
 };
 
 }  // namespace netsim

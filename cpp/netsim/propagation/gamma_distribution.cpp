@@ -23,17 +23,17 @@ double series(double shape, double x) {
     return sum;
 }
 
-// The f of Q(a, x) = e^−x x^a / Γ(a) · f, for x > a + 1.
-// Source: Abramowitz and Stegun 6.5.31, in its even part, 1/(x+1−a − 1(1−a)/(x+3−a − 2(2−a)/(x+5−a − …))); evaluated
-// as in W. J. Lentz, "Generating Bessel functions in Mie scattering calculations", Applied Optics 15, 1976.
+// The f of Q(a, x) = e^−x x^a / Γ(a) · f, for x > a + 1. Source: Abramowitz and Stegun 6.5.31, in
+// its even part, 1/(x+1−a − 1(1−a)/(x+3−a − 2(2−a)/(x+5−a − …))); evaluated as in W. J. Lentz,
+// "Generating Bessel functions in Mie scattering calculations", Applied Optics 15, 1976.
 double continued_fraction(double shape, double x) {
-    constexpr int most_terms = 100'000;
+    constexpr int max_terms = 100'000;
     double denominator = x + 1 - shape;
     double upper = std::numeric_limits<double>::max();  // ratio of successive numerators
     double lower = 1 / denominator;                     // and of successive denominators
     double value = lower;
     double factor = 0;
-    for (int n = 1; std::abs(factor - 1) > precision && n < most_terms; ++n) {
+    for (int n = 1; std::abs(factor - 1) > precision && n < max_terms; ++n) {
         const double numerator = n * (shape - n);
         denominator += 2;
         lower = 1 / (numerator * lower + denominator);
@@ -85,22 +85,22 @@ double GammaDistribution::above(double x) const {
     return x > 0 ? std::exp(log_above(x).value) : 1;
 }
 
-// Newton's method on the logarithm of the smaller tail as a function of u = ln x. The density of u, proportional to
-// exp(a u − e^u), is log-concave, so both tails are, too (M. Bagnoli, T. Bergstrom, "Log-concave probability and its
-// applications", Economic Theory 26, 2005): each tangent lies above the curve, and wherever the search begins, from its
-// second step on it comes nearer from one side.
+// Newton's method on the logarithm of the smaller tail as a function of u = ln x. The density of u,
+// proportional to exp(a u − e^u), is log-concave, so both tails are, too (M. Bagnoli, T. Bergstrom,
+// "Log-concave probability and its applications", Economic Theory 26, 2005). Each tangent is above
+// the curve, so from its second step on, the search approaches from one side, wherever it begins.
 double GammaDistribution::quantile_of_normal(double z) const {
     const double target = log_normal_tail(-std::abs(z));
-    // E. B. Wilson, M. M. Hilferty, "The distribution of chi-square", PNAS 17, 1931: nearly right for large shapes.
-    // Where it fails, x is so small that P(a, x) is about x^a / Γ(a + 1).
+    // E. B. Wilson, M. M. Hilferty, "The distribution of chi-square", PNAS 17, 1931: close for
+    // large shapes. Where it fails, x is so small that P(a, x) is about x^a / Γ(a + 1).
     const double root = 1 - 1 / (9 * shape_) + z / (3 * std::sqrt(shape_));
     double u = root > 0.2 ? std::log(shape_) + 3 * std::log(root)
                           : (target + log_gamma_ + std::log(shape_)) / shape_;
-    constexpr int most_steps = 50;
-    for (int step = 0; step < most_steps; ++step) {
+    constexpr int max_steps = 50;
+    for (int step = 0; step < max_steps; ++step) {
         const double x = std::exp(u);
         const LogTail tail = z > 0 ? log_above(x) : log_below(x);
-        // At the very beginning a step may lead too far for the numbers that there are.
+        // The first step may overflow.
         const double change = std::clamp((target - tail.value) / tail.slope, -2.0, 2.0);
         u += change;
         if (std::abs(change) < 1e-9) {  // the error left is about its square

@@ -1,22 +1,23 @@
-// The gamma distribution of a given shape and of scale 1: how Nakagami's fading gets its powers.
+// The gamma distribution of a given shape and scale 1. Nakagami fading draws its powers from it.
 //
-// below(x) and above(x) are the regularised incomplete gamma functions P(a, x) and Q(a, x), a the shape. The quantile
-// is asked for by a standard normal number z, "as far out as z", since so both tails keep their accuracy.
+// below(x) and above(x) are the regularized incomplete gamma functions P(a, x) and Q(a, x), with a
+// the shape. The argument of the quantile is a standard normal number z of the same probability,
+// which keeps both tails accurate.
 #pragma once
 
 namespace netsim {
 
 class GammaDistribution {
 public:
-    // shape > 0; meant for up to some thousands.
+    // shape > 0, up to some thousands.
     explicit GammaDistribution(double shape);
 
     // x ≥ 0.
     double below(double x) const;
     double above(double x) const;
 
-    // The x that is exceeded with the same probability as `z` is by a standard normal number: rises with z. To about
-    // 14 digits, for |z| up to 30.
+    // The x that is exceeded with the same probability as `z` by a standard normal number. Rises
+    // with z. Accurate to about 14 digits for |z| up to 30.
     double quantile_of_normal(double z) const;
 
 private:

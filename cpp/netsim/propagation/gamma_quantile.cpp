@@ -28,7 +28,8 @@ double GammaQuantile::of_normal(double z) const {
     const double t = steps - static_cast<double>(index);
     const Point& from = points_[index];
     const Point& to = points_[index + 1];
-    // Beside the parabola that the first point gives, what is missing at the second one: of value, slope and curvature.
+    // The differences of value, slope and curvature at the second point from the parabola of the
+    // first point.
     const double value = to.value - (from.value + from.slope + from.curvature / 2);
     const double slope = to.slope - (from.slope + from.curvature);
     const double curvature = to.curvature - from.curvature;

@@ -1,9 +1,10 @@
-// The quantile of a gamma distribution, worked out beforehand: one is needed for each faded link and coherence time, and
-// finding it takes as long as twenty of what else a link costs.
+// The quantile of a gamma distribution from a table. Each faded link needs one per coherence time,
+// and the exact computation takes twenty times as long as the rest of a link.
 //
-// Between points of z that lie 1/16 apart, ln x is the polynomial of the fifth degree that has its values, slopes and
-// curvatures at both ends. Slope and curvature follow from the densities: that of ln x at u, f(u) = exp(a u − e^u) / Γ(a),
-// and that of z, φ(z), belong to the same probability, so u' = φ(z) / f(u) and u'' = −u' (z + (a − e^u) u').
+// Between points of z that are 1/16 apart, ln x is the polynomial of degree five with the exact
+// values, slopes and curvatures at both ends. These follow from the densities f(u) = exp(a u − e^u)
+// / Γ(a) of u = ln x, and φ(z) of z, at equal probability: u' = φ(z) / f(u) and u'' = −u' (z + (a −
+// e^u) u').
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@ private:
         double curvature = 0;
     };
     static constexpr int points_in_one = 16;
-    static constexpr int farthest = 8;  // from there on it is worked out when it is asked for
+    static constexpr int farthest = 8;  // beyond this, the quantile is computed on demand
 
     GammaDistribution distribution_;
     std::vector<Point> points_;

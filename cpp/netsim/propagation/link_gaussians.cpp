@@ -40,8 +40,8 @@ GaussianPair LinkGaussians::Mixture::pair() const {
 }
 
 LinkGaussians::Drawn LinkGaussians::draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const {
-    // The name of a stream, kernel/random.hpp, has room for one node; the index of the block makes way for the
-    // other. Its upper part goes above the purpose, of which 16 bits are more than enough.
+    // A stream's key (kernel/random.hpp) has room for one node. The other node takes the place of
+    // the upper half of the block index, which goes into the upper 16 bits of the purpose.
     const std::uint32_t purpose =
         static_cast<std::uint32_t>(Purpose::fading) | (static_cast<std::uint32_t>(index >> 32) << 16);
     const auto words =
@@ -50,8 +50,8 @@ LinkGaussians::Drawn LinkGaussians::draw(std::uint32_t low, std::uint32_t high, 
     return {1 - uniform_of(words[0], words[1]), uniform_of(words[2], words[3])};
 }
 
-// Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals of Mathematical
-// Statistics 29, 1958.
+// Source: G. E. P. Box, M. E. Muller, "A note on the generation of random normal deviates", Annals
+// of Mathematical Statistics 29, 1958.
 GaussianPair LinkGaussians::Drawn::pair() const {
     const double radius = std::sqrt(-2 * std::log(chance_beyond));
     const double angle = 2 * std::numbers::pi * turn;

@@ -25,7 +25,8 @@ struct Fit {
     double d;
 };
 
-// As P.2040-3 states them: most for 1 to 100 GHz, brick and plywood to 40, marble to 60, wood and glass from 0.1 on.
+// As P.2040-3 states them: most for 1 to 100 GHz, brick and plywood to 40, marble to 60, wood and
+// glass from 0.1 on.
 constexpr std::array<Fit, material_names.size()> fits{{
     {"concrete", 5.24, 0, 0.0462, 0.7822},
     {"brick", 3.91, 0, 0.0238, 0.16},
@@ -41,8 +42,9 @@ constexpr std::array<Fit, material_names.size()> fits{{
 
 }  // namespace
 
-// The attenuation constant in Np/m is ω √(με) (½ (√(1 + (σ / ωε)²) - 1))^½: C. A. Balanis, "Advanced Engineering
-// Electromagnetics", 2nd ed., 2012, (4-28c); the power falls twice as fast as the field.
+// The attenuation constant in Np/m is ω √(με) (½ (√(1 + (σ / ωε)²) - 1))^½: C. A. Balanis,
+// "Advanced Engineering Electromagnetics", 2nd ed., 2012, (4-28c); the power falls twice as fast as
+// the field.
 Material::Material(double relative_permittivity, double conductivity_spm, double carrier_hz) {
     const double omega = 2 * pi * carrier_hz;
     const double loss_tangent = conductivity_spm / (omega * vacuum_permittivity * relative_permittivity);
@@ -57,8 +59,8 @@ double Material::gain_through(double length_m) const {
     return std::exp(-power_attenuation_per_m_ * length_m);
 }
 
-// Fresnel's coefficients for a wave from air: ITU-R P.2040-3, (31a) and (31b). The other way round, at the angle that
-// belongs to it inside, the same share is reflected (reciprocity).
+// Fresnel's coefficients for a wave from air: ITU-R P.2040-3, (31a) and (31b). From inside, at the
+// corresponding angle, the same share is reflected (reciprocity).
 double Material::gain_at_face(double cosine) const {
     const double squared_sine = (1 - cosine) * (1 + cosine);
     const std::complex<double> root = std::sqrt(permittivity_ - squared_sine);

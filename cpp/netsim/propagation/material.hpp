@@ -1,7 +1,7 @@
-// What a material does to waves that meet it and pass through it. Used by the obstacles of the medium.
+// The loss of a wave that enters a material and passes through it. Used by Obstacles.
 //
-// All materials are non-magnetic. Of many reflections between the faces of a body only the first at each face counts,
-// and waves go straight on: what a body lets through is less certain than the digits show.
+// All materials are non-magnetic. Only the first reflection at each face counts, and waves go
+// straight on. So the loss is less accurate than its digits suggest.
 #pragma once
 
 #include <complex>
@@ -17,11 +17,12 @@ public:
     // `relative_permittivity` ≥ 1, `conductivity_spm` ≥ 0 in S/m.
     Material(double relative_permittivity, double conductivity_spm, double carrier_hz);
 
-    // Share of the power that is left after `length_m` inside.
+    // The share of the power left after `length_m` inside.
     double gain_through(double length_m) const;
 
-    // Share of the power that gets through a face between air and the material; the same both ways. `cosine`, 0 … 1: of
-    // the angle between the normal and the direction in the air. The mean of both polarisations.
+    // The share of the power that passes a face between air and the material; the same in both
+    // directions. `cosine`, 0 … 1: of the angle between the normal and the direction in air. The
+    // mean of both polarizations.
     double gain_at_face(double cosine) const;
 
 private:
@@ -29,8 +30,9 @@ private:
     std::complex<double> permittivity_;  // relative, complex
 };
 
-// Of the obstacle's material by ITU-R Recommendation P.2040-3, 2023, "Effects of building materials and structures on
-// radiowave propagation above about 100 MHz", (28), (29) and table 3, unless the obstacle says otherwise.
+// The obstacle's material by ITU-R Recommendation P.2040-3, 2023, "Effects of building materials
+// and structures on radiowave propagation above about 100 MHz", (28), (29) and table 3, unless the
+// obstacle overrides it.
 Material make_material(const ObstacleConfig& config, double carrier_hz);
 
 }  // namespace netsim

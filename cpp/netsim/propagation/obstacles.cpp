@@ -8,7 +8,7 @@ namespace netsim {
 
 namespace {
 
-// Boxes are that much larger than what they hold, so that rounding cannot hide it.
+// Boxes are larger than their contents by this margin, for rounding.
 constexpr double margin_m = 1e-6;
 
 double coordinate(const Position& place, int axis) {
@@ -19,8 +19,9 @@ bool is_before(const Position& a, const Position& b) {
     return a.x != b.x ? a.x < b.x : (a.y != b.y ? a.y < b.y : a.z < b.z);
 }
 
-// A segment, by its middle and half of it, against boxes: the two are apart if they are along an axis of the box or along
-// a product of one with the segment's direction. C. Ericson, "Real-Time Collision Detection", 2005, 5.3.3.
+// A test of a segment, given by its middle and half its extent, against boxes by separating axes:
+// the axes of the box, and their cross products with the segment's direction. C. Ericson,
+// "Real-Time Collision Detection", 2005, 5.3.3.
 class Probe {
 public:
     Probe(const Position& a, const Position& b)
@@ -75,7 +76,7 @@ Obstacles::Box Obstacles::box_around(std::size_t first, std::size_t count) const
     return box;
 }
 
-// Halves the bodies along the longer side of the ground until few are left.
+// Halves the bodies along the longer horizontal axis until few are left.
 void Obstacles::build(std::size_t first, std::size_t count) {
     constexpr std::size_t few = 2;
     const std::size_t here = boxes_.size();

@@ -1,11 +1,12 @@
-// What stands between radios, and what it leaves of a signal that goes straight through it.
+// Obstacles between radios, and the loss of a signal that passes straight through them.
 //
-// Two models, by INET's names: IdealObstacleLoss, through which nothing gets, and DielectricObstacleLoss, which weakens
-// by the length inside and by the reflections at the faces it goes through, by each obstacle's material. Where obstacles
-// overlap, both count. Waves neither bend around corners nor come by way of reflections.
+// Two models, by INET's names. IdealObstacleLoss blocks everything. DielectricObstacleLoss
+// attenuates by the length inside and by reflection at the faces, depending on each obstacle's
+// material. Where obstacles overlap, both count. There is no diffraction around corners, and no
+// reflected path.
 //
-// Used by the medium, for each pair of radios of which it wants to know the power. Both ways through are the same to
-// the last digit. A tree of boxes finds those few obstacles that a link can meet.
+// Used by the medium for pairs of radios. Both directions give the same result to the last digit. A
+// bounding volume tree finds the few obstacles that a link can meet.
 #pragma once
 
 #include <vector>
@@ -18,22 +19,22 @@ namespace netsim {
 
 class Obstacles {
 public:
-    // Those of config.obstacles, if config.obstacle_loss names a model; otherwise none.
+    // The obstacles of config.obstacles if config.obstacle_loss names a model; otherwise none.
     explicit Obstacles(const MediumConfig& config);
 
     bool empty() const { return bodies_.empty(); }
 
-    // Share of the power that is left between `a` and `b`, 0 … 1.
+    // The share of the power that is left between `a` and `b`, 0 … 1.
     double gain(const Position& a, const Position& b, double carrier_hz) const;
 
 private:
-    // A box that holds all of its part of the tree; its children follow it, the second one at `next`.
+    // The bounding box of a subtree. Its first child follows it; the subtree ends before `next`.
     struct Box {
         Position lowest;
         Position highest;
-        std::size_t next = 0;   // the first box behind this part of the tree
+        std::size_t next = 0;   // the first box after this subtree
         std::size_t first = 0;  // of the bodies
-        std::size_t count = 0;  // of the bodies, if it has no children; otherwise 0
+        std::size_t count = 0;  // of the bodies of a leaf; 0 otherwise
     };
     struct MaterialsAt {
         double carrier_hz;

@@ -25,7 +25,8 @@ double PathLoss::reach_m(double gain, double carrier_hz) const {
     };
     const double breakpoint_m = std::sqrt(squared_breakpoint_m2_);
     const double far_reach_m = reach_of(far_);
-    // The two laws need not meet at the breakpoint: the far one may still reach where the near one does not.
+    // The two laws need not meet at the breakpoint: the far one may still reach where the near one
+    // does not.
     return far_reach_m >= breakpoint_m ? far_reach_m : std::min(reach_of(near_), breakpoint_m);
 }
 
@@ -36,8 +37,8 @@ PathLoss make_path_loss(const MediumConfig& config) {
     if (name == "BreakpointPathLoss") {
         path_loss.near_ = {.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1};
         path_loss.far_ = {.coefficient = ratio_from_db(-config.l02_db) *
-                                         std::pow(config.breakpoint_distance_m, config.alpha2),
-                          .exponent = config.alpha2};
+                                              std::pow(config.breakpoint_distance_m, config.alpha2),
+                               .exponent = config.alpha2};
         path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
         return path_loss;
     }

@@ -1,16 +1,16 @@
 // Path loss: the share of a transmitted power that is left after a distance, a number from 0 to 1.
 //
-// These models are power laws, gain = coefficient / distance^exponent, capped at 1; the breakpoint model has
-// one law on each side of a distance. So one plain class serves all, without a virtual call per
-// receiver.
+// These models are power laws, gain = coefficient / distance^exponent, capped at 1. The breakpoint
+// model has one law on each side of a distance. So one plain class covers all, without a virtual
+// call per receiver.
 //   FreeSpacePathLoss: gain = λ² / (16 π² L d^α), with d the distance and λ = c / carrier the wavelength, in m, and L the
 //     system loss.
 //     H. T. Friis, "A Note on a Simple Transmission Formula", 1946, has α = 2.
 //   BreakpointPathLoss: loss in dB = l01 + 10 α1 log10(d / 1 m) for d below the breakpoint, and
 //     l02 + 10 α2 log10(d / breakpoint) at and above it; the same for all carriers. The defaults (8 m, 40.2
-//     dB, 2, 58.5 dB, 3.3) are those with which IEEE 802.15.4-2006, annex E, studies coexistence.
-//   The fading models: that of free space.
-//   The two-ray models are no power laws (two_ray.hpp): theirs here is one that is nowhere below them.
+//     dB, 2, 58.5 dB, 3.3) are those of the coexistence study in IEEE 802.15.4-2006, annex E.
+//   The fading models use free space.
+//   The two-ray models are not power laws (two_ray.hpp). For them, this class is an upper bound.
 // Used by Propagation for every pair of radios.
 #pragma once
 
@@ -25,21 +25,21 @@ namespace netsim {
 
 class PathLoss {
 public:
-    // Received over transmitted power at `distance_m` ≥ 0, between isotropic antennas. Distance 0 gives 1.
+    // Received over transmitted power at `distance_m` ≥ 0, between isotropic antennas. Distance 0
+    // gives 1.
     double gain(double distance_m, double carrier_hz) const {
         return gain_at_squared_distance(distance_m * distance_m, carrier_hz);
     }
 
-    // The same for the square of a distance, in m²: saves the root.
+    // The same for a squared distance, in m², without a square root.
     double gain_at_squared_distance(double squared_distance_m2, double carrier_hz) const;
 
-    // The distance in m within which the gain is at least `gain`, up to rounding: a search radius needs a
-    // margin. 0 if `gain` is greater than 1, infinite if it is 0.
+    // The distance in m within which the gain is at least `gain`, up to rounding: a search radius
+    // needs a margin. 0 if `gain` is greater than 1, infinite if it is 0.
     double reach_m(double gain, double carrier_hz) const;
 
-    // The largest gain at `distance_m` and beyond. (It need not fall steadily: the two laws of the breakpoint model
-    // may leave a step up.)
-    double most_gain_beyond(double distance_m, double carrier_hz) const {
+    // The largest gain at `distance_m` and beyond. The gain may rise once, at the breakpoint.
+    double max_gain_beyond(double distance_m, double carrier_hz) const {
         const double here = gain(distance_m, carrier_hz);
         const double squared_m2 = distance_m * distance_m;
         return squared_m2 < squared_breakpoint_m2_ && squared_breakpoint_m2_ < infinite_m2
@@ -83,7 +83,7 @@ inline double PathLoss::gain_at_squared_distance(double squared_distance_m2, dou
     return at_one_metre >= divisor ? 1 : at_one_metre / divisor;
 }
 
-// The one that config.path_loss names. Throws ConfigError for a name that is not in it.
+// The model named by config.path_loss. Throws ConfigError for an unknown name.
 PathLoss make_path_loss(const MediumConfig& config);
 
 }  // namespace netsim

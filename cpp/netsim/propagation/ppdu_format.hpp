@@ -1,7 +1,8 @@
-// In which format a frame is on the air, and which formats a receiver knows: a frame of another one is energy and
-// interference to it, and nothing else.
+// The format of a frame on the air, and the formats that a receiver can decode. A frame in another
+// format is only energy and interference to it.
 //
-// Source: IEEE Std 802.11-2020, clauses 16 (HR/DSSS), 17 (OFDM) and 18 (ERP); IEEE Std 802.15.4-2006, 6.5.
+// Source: IEEE Std 802.11-2020, clauses 16 (HR/DSSS), 17 (OFDM) and 18 (ERP); IEEE Std
+// 802.15.4-2006, 6.5.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
-// One frame on the air: made once, never changed, shared by all that hear it.
+// One frame on the air. It is created once, never changed, and shared by all receivers.
 //
-// The medium knows only the physical side. `mode` and `frame` belong to the layers above and are handed through.
+// The medium uses only the physical properties. `mode` and `frame` belong to the layers above and
+// are passed through.
 #pragma once
 
 #include <algorithm>
@@ -19,22 +20,22 @@ namespace netsim {
 struct Frame;  // mac/frame.hpp
 struct Mode;   // phy/modes.hpp
 
-// The slice of spectrum of a transmission, or the one that a receiver listens to.
+// The spectrum of a transmission, or the one that a receiver listens to.
 struct Band {
     double carrier_hz = 0;
     double bandwidth_hz = 0;
 
     bool operator==(const Band&) const = default;
 
-    // A receiver in band `listener` gets all of a signal, and can decode it, only if the centre frequencies are equal and
-    // the signal fits.
+    // Whether a receiver in band `listener` gets all of the signal, and can decode it: the center
+    // frequencies must be equal, and the signal must fit.
     bool fits_in(const Band& listener) const {
         return carrier_hz == listener.carrier_hz && bandwidth_hz <= listener.bandwidth_hz;
     }
 
-    // The part of a signal's power that a receiver in band `listener` gets, 0 to 1: it is spread evenly over the
-    // signal's bandwidth, and the receiver's filter has sharp edges. What it gets of a signal that does not fit in is
-    // noise to it.
+    // The share of the signal's power that a receiver in band `listener` gets, 0 to 1. The power is
+    // spread evenly over the bandwidth, and the receiver's filter has sharp edges. Part of a signal
+    // that does not fit is noise.
     double share_in(const Band& listener) const {
         if (fits_in(listener)) {
             return 1;
@@ -60,7 +61,7 @@ struct Transmission {
     const Mode* mode = nullptr;
     std::shared_ptr<const Frame> frame;
 
-    // By a receiver that listens to that band and knows those formats.
+    // Whether a receiver can decode it that listens to that band and knows those formats.
     bool can_be_decoded(const Band& listener, PpduFormats known) const {
         return known.contains(format) && band.fits_in(listener);
     }

@@ -44,7 +44,7 @@ double TwoRay::interference_factor(const Position& a, const Position& b, double 
     const double heights_m = a_m + b_m;
     const double squared_ground_m2 = (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
     const double reflected_m = std::sqrt(squared_ground_m2 + heights_m * heights_m);
-    // d' − d = (d'² − d²) / (d' + d): so nothing cancels.
+    // d' − d = (d'² − d²) / (d' + d), to avoid cancellation.
     const double detour_m = (heights_m * heights_m - (a.z - b.z) * (a.z - b.z)) / (reflected_m + distance_m);
     const double phase = 2 * std::numbers::pi * detour_m / wavelength_m;
     const double sine = heights_m / reflected_m;

@@ -8,7 +8,8 @@
 //     angle between ray and ground and q = √(ε − cos² θ), Γ is (sin θ − q) / (sin θ + q) for horizontal polarization
 //     and (q − ε sin θ) / (q + ε sin θ) for vertical. Source: C. Sommer, F. Dressler, "Using the right two-ray model? A
 //     measurement-based evaluation of PHY models in VANETs", MobiCom 2011 poster; Rappaport, 4.5.
-// Of an end on the ground, nothing is received far away: the rays cancel. Heights are needed.
+// If an end is on the ground, nothing is received far away: the rays cancel. Set heights for these
+// models.
 #pragma once
 
 #include "netsim/config/medium_config.hpp"
@@ -23,8 +24,8 @@ public:
 
     bool is_none() const { return kind_ == Kind::none; }
 
-    // Received over transmitted power between isotropic antennas, at most 1; the same in both directions.
-    // `distance_m` is that of the positions. Not for is_none().
+    // Received over transmitted power between isotropic antennas, at most 1; the same in both
+    // directions. `distance_m`: between the positions. Not for is_none().
     double gain(const Position& a, const Position& b, double distance_m, double carrier_hz) const;
 
 private:

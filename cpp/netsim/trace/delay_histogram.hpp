@@ -1,8 +1,8 @@
-// How often which delay was met: exact sums and extremes, and counts in bins.
+// A histogram of delays: exact sums and extremes, and counts in bins.
 //
-// Each octave has 32 bins of one width, so that a quantile is known to 3 % wherever the delays lie, and adding one takes a
-// few instructions.
-// Source of the bins: G. Tene, HdrHistogram, hdrhistogram.org.
+// Each octave has 32 bins of equal width. So quantiles are accurate to 3 % for any delay, and
+// adding a value takes a few instructions. Source of the bins: G. Tene, HdrHistogram,
+// hdrhistogram.org.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ class DelayHistogram {
 public:
     struct Bin {
         SimTime begin;
-        SimTime end;  // just beyond it
+        SimTime end;  // exclusive
         std::uint64_t count = 0;
     };
 
-    // Not negative.
+    // `delay` ≥ 0.
     void add(SimTime delay) {
         const auto delay_ps = static_cast<double>(delay.ps());
         sum_ps_ += delay_ps;
@@ -40,17 +40,17 @@ public:
     std::uint64_t count() const;
     double sum_s() const { return sum_ps_ / 1e12; }
     double sum_of_squares_s2() const { return sum_of_squares_ps2_ / 1e24; }
-    // Only if there is one.
+    // Only if there is a delay.
     SimTime min() const { return min_; }
     SimTime max() const { return max_; }
-    // Those that are not empty, by time.
+    // The bins that are not empty, by time.
     std::vector<Bin> bins() const;
 
 private:
     static constexpr unsigned octave_bits = 5;
     static constexpr std::uint64_t octave_bins = std::uint64_t{1} << octave_bits;
     static constexpr std::size_t bin_count = (63 - octave_bits + 1) * octave_bins;  // up to 2^63 - 1 ps
-    // Up to twice as many picoseconds, each has a bin of its own.
+    // Delays below 2 · octave_bins picoseconds have their own bins.
     static constexpr std::size_t index_of(std::uint64_t delay_ps) {
         const auto width = static_cast<unsigned>(std::bit_width(delay_ps | octave_bins));
         const unsigned shift = width - octave_bits - 1;

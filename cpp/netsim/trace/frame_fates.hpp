@@ -1,8 +1,9 @@
-// The ledger of frames: what became of each copy of each frame.
+// The ledger of frames: the fate of each copy of each frame.
 //
-// A transmission makes one copy for every other radio that knows its format and listens to its band, however far away, and
-// every copy ends in exactly one fate, so that for each kind of frame: copies made = sum over the fates. The medium books
-// copies too weak to be received in bulk, the radios book the rest one by one.
+// A transmission makes one copy (one possible reception) for every other radio that knows its
+// format and listens to its band, at any distance. Every copy has exactly one fate. So for each
+// kind of frame, copies made = sum over the fates. The medium books copies below the sensitivity in
+// bulk; the radios book the others one by one.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/node_id.hpp"
 #include "netsim/trace/frame_label.hpp"
 #include "netsim/trace/interferers.hpp"
@@ -20,16 +21,16 @@
 namespace netsim {
 
 enum class FrameFate : std::uint8_t {
-    delivered,              // decoded by that radio, whoever it was for
-    below_sensitivity,      // too weak for that radio to notice
-    noise,                  // locked on, lost, and would have been lost without interference
-    interference,           // locked on, lost, and would have been decoded without interference
-    receiver_transmitting,  // the receiver was transmitting when it came, or began to while it lasted
-    receiver_locked,        // the receiver was locked on another frame when it came
-    preamble_undetected,  // its beginning was too weak, in itself or beside others: ThresholdPreambleDetection
-    header_error,         // locked on, but its PHY header could not be decoded: SNIR by chunks
-    captured,             // locked on, given up for a stronger one: SimpleFrameCapture
-    in_air,               // still on its way when the run ended
+    delivered,              // decoded by that radio, addressed to it or not
+    below_sensitivity,      // below the sensitivity of that radio
+    noise,                  // locked on and lost; would have been lost without interference
+    interference,           // locked on and lost; would have been decoded without interference
+    receiver_transmitting,  // the receiver was transmitting when it arrived, or began to transmit during it
+    receiver_locked,        // the receiver was locked on to another frame when it arrived
+    preamble_undetected,  // its preamble was too weak, or too weak relative to others: ThresholdPreambleDetection
+    header_error,         // locked on, but its PHY header was lost: SNIR by chunks
+    captured,             // locked on, dropped for a stronger one: SimpleFrameCapture
+    in_air,               // still on the air when the run ended
 };
 constexpr std::size_t frame_fate_count = 10;
 constexpr std::array<const char*, frame_fate_count> frame_fate_names{
@@ -53,14 +54,15 @@ public:
     void book(NodeId receiver, FrameLabel label, FrameFate fate);
     // That copy was lost to interference by frames of `interferers` (nodes; each once).
     void book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers);
-    // A frame went on the air and made these copies, of which some are below sensitivity at their receivers.
+    // A frame went on the air and made these copies, of which some are below sensitivity at their
+    // receivers.
     void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
 
-    // Something is going to be booked there soon: has it brought into the cache.
-    void fetch(NodeId receiver, FrameKind kind, FrameFate fate) const {
+    // Prefetches the count of that fate, which will be booked soon.
+    void prefetch(NodeId receiver, FrameKind kind, FrameFate fate) const {
         const Column& column = at_nodes_[index(kind)][index(fate)];
         if (static_cast<std::size_t>(receiver) < column.size()) {
-            netsim::fetch(column[receiver]);
+            netsim::prefetch(column[receiver]);
         }
     }
 
@@ -68,10 +70,11 @@ public:
     std::uint64_t copies(FrameKind kind, bool overheard) const {
         return (overheard ? overheard_ : addressed_)[index(kind)].copies;
     }
-    // Sums over all receivers. The copies that are in no other fate yet are in_air. `overheard` selects the copies
-    // that were not for their receiver; broadcast frames are for everybody.
+    // Sums over all receivers. Copies without a fate yet are in_air. `overheard` selects the copies
+    // that were not for their receiver; broadcast frames are for all.
     Counts counts(FrameKind kind, bool overheard) const;
-    // Of the copies that could be received at one receiver (below_sensitivity is not kept for each node).
+    // The copies at one receiver that reached its sensitivity (below_sensitivity is not counted per
+    // node).
     Counts counts_at(NodeId receiver, FrameKind kind) const;
     // {interfering node: copies lost at `receiver` with its help}
     std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const {
@@ -87,10 +90,10 @@ private:
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
     static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
 
-    // Of one kind and one fate, by receiver.
+    // Counts of one kind and one fate, by receiver.
     using Column = std::vector<std::uint64_t>;
-    // [kind][fate]: each copy of a frame adds to one number, mostly among those delivered; side by side, eight of them are in
-    // one cache line. What never happens has none.
+    // [kind][fate]. Each copy adds to one number, usually `delivered`, and a cache line has eight
+    // of them. A column without counts is empty.
     std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
     Interferers interferers_;
     std::array<std::uint64_t, frame_kind_count> frames_{};

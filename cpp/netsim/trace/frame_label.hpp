@@ -1,4 +1,4 @@
-// What the ledger wants to know of a frame: its kind, and whom it is for. Travels with its transmission.
+// The kind and the destination of a frame, for the ledger. Part of its transmission.
 #pragma once
 
 #include <array>

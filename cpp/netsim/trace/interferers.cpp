@@ -2,27 +2,27 @@
 
 #include <algorithm>
 
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 
 namespace netsim {
 
 void Interferers::note(NodeId receiver, std::span<const NodeId> nodes) {
-    constexpr std::size_t most_noted = 512;
+    constexpr std::size_t max_noted = 512;
     for (const NodeId node : nodes) {
         noted_.push_back({receiver, node});
     }
-    if (noted_.size() >= most_noted) {
+    if (noted_.size() >= max_noted) {
         count_noted();
     }
 }
 
 void Interferers::count_noted() {
     for (const Pair& pair : noted_) {
-        fetch(counts_[pair.receiver]);
+        prefetch(counts_[pair.receiver]);
     }
     for (const Pair& pair : noted_) {
         const std::vector<Count>& known = counts_[pair.receiver];
-        fetch_bytes(known.data(), known.size() * sizeof(Count));
+        prefetch_bytes(known.data(), known.size() * sizeof(Count));
     }
     for (const auto [receiver, node] : noted_) {
         std::vector<Count>& known = counts_[receiver];

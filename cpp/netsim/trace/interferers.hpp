@@ -1,8 +1,8 @@
-// Whose frames spoiled others, by receiver: for each pair of a receiver and an interfering node, how many copies.
+// The copies lost to interference, by receiver and interfering node.
 //
-// In a large network the numbers of a pair are in no cache when they are needed, and to wait for them takes longer than
-// the loss of a copy did otherwise. So losses are noted one after the other, and counted several hundred at a time: what that
-// touches is asked for in one go (kernel/fetch.hpp).
+// In a large network, the counter of a pair is in no cache, and waiting for it would take longer
+// than the rest of a loss. So losses are logged first and counted several hundred at a time, with
+// their counters prefetched together (kernel/prefetch.hpp).
 #pragma once
 
 #include <cstddef>
@@ -32,15 +32,15 @@ private:
     };
     struct Count {
         NodeId node = 0;
-        // In 32 bits, as there are many pairs of nodes: so many copies of one take years of frames.
+        // 32 bits, since there are many pairs. Overflow would take years of frames.
         std::uint32_t copies = 0;
     };
 
     void count_noted();
 
-    // [receiver], by node: maps would take four times as much.
+    // [receiver], sorted by node. Maps would need four times the memory.
     std::vector<std::vector<Count>> counts_;
-    std::vector<Pair> noted_;  // and not counted yet
+    std::vector<Pair> noted_;  // not counted yet
 };
 
 }  // namespace netsim

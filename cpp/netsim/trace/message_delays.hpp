@@ -1,4 +1,4 @@
-// How long messages were on their way in a network: from their sender's command until a receiver's protocol got them.
+// Delays of messages, from the sender's command to the handler of the receiver's protocol.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace netsim {
 
 class MessageDelays {
 public:
-    // A broadcast has one for each of its receivers.
+    // A broadcast has one delay per receiver.
     void add(MessageKind kind, SimTime delay) { delays_[static_cast<std::size_t>(kind)].add(delay); }
 
     const DelayHistogram& of(MessageKind kind) const { return delays_[static_cast<std::size_t>(kind)]; }

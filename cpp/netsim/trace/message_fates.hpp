@@ -1,8 +1,9 @@
-// The ledger of messages: what became of each message that protocols handed to one network interface, or to several.
+// The ledger of messages: the fate of each message that one network interface, or several,
+// accepted.
 //
-// Each interface keeps its own, beside its queue; a network's is their sum, made when somebody asks. A message is queued until it
-// meets its fate, so that messages accepted = sum over the fates; that each is booked once is checked by tests on random
-// scenarios.
+// Each interface has its own, next to its queue. A network's ledger is their sum, computed on
+// demand. A message is queued until it has another fate, so messages accepted = sum over the fates.
+// Tests on random scenarios check that each is booked once.
 #pragma once
 
 #include <array>
@@ -16,12 +17,12 @@ constexpr std::size_t message_kind_count = 2;
 constexpr std::array<const char*, message_kind_count> message_kind_names{"broadcast", "unicast"};
 
 enum class MessageFate : std::uint8_t {
-    sent,                    // broadcast, or unicast for which no ACK is asked: was on the air once
-    acknowledged,            // unicast: its receiver's ACK came back
-    retry_limit,             // unicast: given up after the last retry
-    queue_overflow,          // dropped, the queue was full
-    out_of_range,            // unicast on a perfect channel: its receiver was too far away
-    channel_access_failure,  // 802.15.4: given up, the channel was found busy too often
+    sent,                    // broadcast, or unicast without ACK: was on the air once
+    acknowledged,            // unicast: the ACK came back
+    retry_limit,             // unicast: dropped after the last retry
+    queue_overflow,          // dropped: the queue was full
+    out_of_range,            // unicast on a perfect channel: the receiver was out of range
+    channel_access_failure,  // 802.15.4: dropped, the channel was busy too often
     queued,                  // still waiting or in progress
 };
 constexpr std::size_t message_fate_count = 7;
@@ -40,17 +41,18 @@ public:
     }
 
     std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
-    // What is in no other fate yet is queued.
+    // Messages without another fate are queued.
     Counts counts(MessageKind kind) const;
 
 private:
     static_assert(static_cast<std::size_t>(MessageFate::queued) == message_fate_count - 1);
 
-    // In 32 bits: an interface of 802.11 that grows by a cache line makes large networks 2 % slower, and a channel that is
-    // never free takes days for so many messages of one. Beyond 4,294,967,295 of them the counts begin again at 0.
+    // 32 bits: one more cache line per 802.11 interface makes large networks 2 % slower. Reaching
+    // the limit takes days of a channel that is never free. After 4,294,967,295 messages, the
+    // counts begin again at 0.
     using Count = std::uint32_t;
     std::array<Count, message_kind_count> accepted_{};
-    // Those in a fate other than queued.
+    // All fates but queued.
     std::array<std::array<Count, message_fate_count - 1>, message_kind_count> ended_{};
 };
 

@@ -1,5 +1,5 @@
-// Numbers as octets, in the two orders that capture files need: radiotap and 802.11 are little-endian, the
-// protocols of the Internet big-endian.
+// Integers as octets in both byte orders: radiotap and 802.11 are little-endian, Internet protocols
+// big-endian.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ PcapWriter::PcapWriter(std::string path, LinkType link_type)
     append_le32(header, longest_packet_bytes);
     append_le32(header, static_cast<std::uint32_t>(link_type));
     write_octets(header);
-    if (error_ == 0 && std::fflush(file_.get()) != 0) {  // a full disk is found out now
+    if (error_ == 0 && std::fflush(file_.get()) != 0) {  // detects a full disk now
         error_ = errno;
     }
     if (error_ != 0) {

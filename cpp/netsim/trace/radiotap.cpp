@@ -9,7 +9,7 @@ namespace netsim {
 
 namespace {
 
-// Bits of the word that says which fields follow, in the order of the fields.
+// Bits of the presence word, in the order of the fields.
 constexpr std::uint32_t has_flags = 1U << 1;
 constexpr std::uint32_t has_rate = 1U << 2;
 constexpr std::uint32_t has_channel = 1U << 3;
@@ -37,7 +37,7 @@ unsigned frequency_field(double carrier_hz) {
     return static_cast<unsigned>(std::clamp(std::round(carrier_hz / 1e6), 0.0, 65535.0));
 }
 
-// A band of neither kind, such as 868 MHz, has no flag.
+// Other bands, such as 868 MHz, have no flag.
 unsigned channel_flags(const Radiotap& radiotap) {
     unsigned flags = radiotap.modulation == ChannelModulation::cck ? channel_cck : channel_ofdm;
     if (radiotap.carrier_hz >= 2e9 && radiotap.carrier_hz < 3e9) {

@@ -1,4 +1,5 @@
-// What a radio knows of a frame beside its octets, as the header that precedes each frame in a capture file.
+// The radiotap header that precedes each 802.11 frame in a capture file: what the radio knows
+// besides the octets.
 //
 // Source: radiotap.org, fields Flags, Rate, Channel, Antenna signal, Antenna noise and TX power.
 #pragma once
@@ -16,7 +17,7 @@ struct Radiotap {
     struct Received {
         double signal_w = 0;
         double noise_w = 0;
-        bool decoded = true;  // else the bad FCS flag is set
+        bool decoded = true;  // if false, the bad FCS flag is set
     };
 
     std::int64_t bitrate_bps = 0;
@@ -26,7 +27,8 @@ struct Radiotap {
     std::optional<Received> received;  // of a frame that was received, which has no TX power
 };
 
-// Appends the header. Powers are rounded to whole dBm within -128 … 127, the frequency to MHz within 0 … 65535.
+// Appends the header. Powers are rounded to dBm within -128 … 127, the frequency to MHz within 0 …
+// 65535.
 void append_radiotap(Octets& octets, const Radiotap& radiotap);
 
 }  // namespace netsim

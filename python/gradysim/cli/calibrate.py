@@ -1,17 +1,24 @@
 """`gradysim calibrate`: the transmitter power for a range."""
 
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.arguments import ConfigOption, FileArgument, SetOption
 from gradysim.cli.exit_code import OK, say_mistake
-from gradysim.cli.scenarios import check
+from gradysim.cli.options import ConfigOption, FileArgument, SetOption
+from gradysim.cli.runs import check
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gradysim.integrated.calibration import Calibration
     from gradysim.scenario.parameter_types import ParameterType, Scalar
+
+
+BAR_WIDTH = 40
 
 
 def calibrate_power(
@@ -40,7 +47,6 @@ def calibrate_power(
     settings: SetOption = (),
 ) -> int:
     """Find the transmitter power for a wanted range under the models of a configuration."""
-    from gradysim.cli import calibration
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors.config_error import ConfigError
@@ -55,7 +61,7 @@ def calibrate_power(
                 f"--ratio {ratio:g}: it is out of range; expected more than 0 and less than 1{hint}"
             )
         if picture is not None:
-            calibration.check_picture(picture)
+            check_picture(picture)
         found = calibrate(
             scenario,
             range_m=float(option_value("--range", range_text, quantity("m", above=0))),
@@ -66,9 +72,9 @@ def calibrate_power(
         )
         if scenario.iterations:
             print(f"of the runs of {config} this is run 0, {text_of_iterations(scenario.iterations)}")
-        print(calibration.text(found, sys.stdout.encoding or "utf-8"))
+        print(text_of_calibration(found, sys.stdout.encoding or "utf-8"))
         if picture is not None:
-            calibration.draw(found, picture)
+            draw(found, picture)
             print(f"drawn in {picture}")
     except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as mistake:
         return say_mistake(mistake)
@@ -86,3 +92,126 @@ def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
         raise ConfigError(
             f"{option} {text}: {error.problem}; expected {kind.expected}{error.suggestion}"
         ) from error
+
+
+def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> str:
+    """Return all of it as text, for an output of that encoding."""
+    from gradysim.scenario.units import db_from_ratio
+
+    c = calibration
+    above = (
+        f"{db_from_ratio(c.snr_at_range):.2f} dB above the" if math.isfinite(c.snr_at_range) else "without"
+    )
+    to = "another one like it" if c.receiver == c.sender else c.receiver
+    wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
+    lines = [
+        f"{_sender(c)} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
+        f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
+        f" {c.bitrate_bps / 1e6:g} Mbps;",
+        f"{above} noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
+        "",
+        f"    *.{c.sender}.{wlan}.radio.transmitter.power = {_in_mw(c.tx_power_w)}mW",
+        "",
+        *_what_decides("sensitivity", c.deciding_sensitivity_w),
+        *_what_decides("preambleDetection.minimumPower", c.deciding_preamble_w),
+        *_what_is_left_out(c.obstacles_left_out),
+        "distance   received",
+    ]
+    block = "█" if "█".encode(encoding, errors="ignore") else "#"
+    for distance_m, ratio in c.curve:
+        bar = block * round(ratio * BAR_WIDTH)
+        lines.append(f"{_in_metres(distance_m):>6} m  {100 * ratio:7.2f} %  {bar}".rstrip())
+    return "\n".join(lines)
+
+
+def _sender(c: "Calibration") -> str:
+    """Its name, with that of its interface unless it is the first one, as receivers have it."""
+    return f"{c.sender}.wlan[{c.sender_interface}]" if c.sender_interface else c.sender
+
+
+def _in_mw(power_w: float) -> str:
+    """Six digits, rounded up: where the sensitivity decides, nothing at all is received with less."""
+    from decimal import ROUND_CEILING, Context
+
+    rounded_w = Context(prec=6, rounding=ROUND_CEILING).create_decimal(repr(power_w))
+    return f"{float(rounded_w.scaleb(3)):.6g}"
+
+
+def _in_dbm(power_w: float) -> str:
+    """Three digits after the point, rounded up."""
+    from gradysim.scenario.units import dbm_from_w
+
+    return f"{math.ceil(1000 * dbm_from_w(power_w)) / 1000:.3f}"
+
+
+def _in_metres(distance_m: float) -> str:
+    """Five digits, or all before the point."""
+    return f"{distance_m:.5g}" if distance_m < 99_999.5 else f"{distance_m:.0f}"
+
+
+def _what_decides(level: str, level_w: float | None) -> list[str]:
+    if level_w is None:
+        return []
+    from textwrap import wrap
+
+    from gradysim.scenario.units import dbm_from_w
+
+    decides = (
+        f"The receiver's {level} of {dbm_from_w(level_w):g} dBm decides, not the noise:"
+        " no slower bitrate would do with less power."
+    )
+    return [*wrap(decides, width=88), ""]
+
+
+def _what_is_left_out(obstacles: int) -> list[str]:
+    if not obstacles:
+        return []
+    these = "The obstacle is" if obstacles == 1 else f"The {obstacles:,} obstacles are"
+    return [f"{these} left out: nothing stands in between.", ""]
+
+
+def check_picture(path: Path) -> None:
+    """Check what can be known of a picture before there is something to draw.
+
+    Raises:
+        ImportError: matplotlib is missing; the text says how to get it.
+        ValueError: The ending names no format, there is no such folder, or it is one itself.
+    """
+    if path.suffix[1:].lower() not in _figure().canvas.get_supported_filetypes():
+        problem = f"`{path.suffix}` is no format" if path.suffix else "its name does not end in a format"
+        raise ValueError(f"--picture {path}: {problem}; expected .png, .svg or .pdf")
+    if not path.parent.is_dir():
+        raise ValueError(f"--picture {path}: there is no folder {path.parent}; expected one that is there")
+    if path.is_dir():
+        raise ValueError(f"--picture {path}: it is a folder; expected a file")
+
+
+def draw(calibration: "Calibration", path: Path) -> None:
+    """Draw reception over distance into a file whose ending says the format.
+
+    Raises:
+        ImportError: matplotlib is missing; the text says how to get it.
+        ValueError: The ending names no format.
+        OSError: The file, which it names, cannot be written.
+    """
+    c = calibration
+    figure = _figure()
+    axes = figure.subplots()
+    axes.plot([0.0, *(d for d, _ in c.curve)], [c.curve[0][1], *(r for _, r in c.curve)])
+    axes.axvline(c.range_m, linestyle=":", color="gray")
+    axes.axhline(c.ratio, linestyle=":", color="gray")
+    axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
+    axes.set_title(f"{_sender(c)} to {c.receiver}, {_in_mw(c.tx_power_w)} mW, {c.bitrate_bps / 1e6:g} Mbps")
+    try:
+        figure.savefig(path)
+    except OSError as error:
+        error.filename = str(path)  # which a full disk does not say
+        raise
+
+
+def _figure() -> "Figure":
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError("a picture needs matplotlib: pip install matplotlib") from error
+    return Figure(figsize=(6, 4), dpi=120, layout="constrained")

@@ -7,23 +7,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TextIO
 
-from gradysim.integrated.capture import CaptureError
-from gradysim.protocol.errors import (
-    CommunicationException,
-    MasslessMobilityException,
-    NativeProtocolError,
-    TimerException,
-)
-from gradysim.sitl.error import SitlError
-
 PACKAGE = Path(__file__).resolve().parent.parent
-
-REFUSED_COMMANDS = (CommunicationException, MasslessMobilityException, TimerException)
-"""Their texts tell all. Where they are raised nobody needs, and integrated mode has no frames to show."""
-
-
-WITHOUT_FRAMES = (NativeProtocolError, CaptureError, SitlError)
-"""No code of the user led to these."""
 
 
 def report_crashes() -> None:
@@ -34,10 +18,26 @@ def report_crashes() -> None:
 
 
 def print_failure(failure: BaseException, file: TextIO) -> None:
-    """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out."""
-    frames = None if isinstance(failure, WITHOUT_FRAMES) else from_users_code(failure.__traceback__)
+    """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out.
+
+    A KeyboardInterrupt without notes came while no callback was running: there is nothing to print.
+    """
+    if isinstance(failure, KeyboardInterrupt) and not hasattr(failure, "__notes__"):
+        return
+    from gradysim.integrated.capture import CaptureError
+    from gradysim.protocol.errors import (
+        CommunicationException,
+        MasslessMobilityException,
+        NativeProtocolError,
+        TimerException,
+    )
+    from gradysim.sitl.error import SitlError
+
+    without_frames = (NativeProtocolError, CaptureError, SitlError)  # no code of the user led to these
+    refused_commands = (CommunicationException, MasslessMobilityException, TimerException)
+    frames = None if isinstance(failure, without_frames) else from_users_code(failure.__traceback__)
     told = traceback.TracebackException(type(failure), failure, frames)
-    if isinstance(failure, REFUSED_COMMANDS):
+    if isinstance(failure, refused_commands):  # integrated mode has no frames to show where they are raised
         cut_behind_users_code(told.stack)
     told.print(file=file)
 

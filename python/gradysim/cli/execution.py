@@ -1,4 +1,4 @@
-"""One run of `gradysim run`: carried out, shown and written. It keeps what it computed, however it ends."""
+"""One run of `gradysim run`: checked, built, executed and shown. It keeps its results, however it ends."""
 
 import json
 import sys
@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Protocol, TextIO
 from gradysim.cli.crash_report import print_failure
 from gradysim.cli.exit_code import FAILED, INTERRUPTED, OK
 from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.options import RunOptions
+from gradysim.cli.output import captures, ids_of_fates, nodes_of_vectors
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.scenario.errors.config_error import ConfigError
 
@@ -18,6 +20,13 @@ if TYPE_CHECKING:
     from gradysim.results.result import RunResult
     from gradysim.scenario.lint import Finding
     from gradysim.scenario.scenario import Scenario
+
+
+class Check(Protocol):
+    """Checks a scenario, and says what is wrong by a ConfigError."""
+
+    def __call__(self, scenario: "Scenario", *, is_built_next: bool) -> None:
+        """Check it, but for what its run checks when `is_built_next`: a network is checked by building it."""
 
 
 class Run(Protocol):
@@ -43,7 +52,8 @@ class Outcome:
 
     Attributes:
         result: None if the run could not even be built.
-        failure: What a protocol raised, in a callback or when it was made.
+        failure: What a protocol raised, in a callback or when it was made; the KeyboardInterrupt if a second
+            Ctrl-C ended it.
         interrupted: Whether Ctrl-C ended it.
         findings: What lint checks found in the protocols.
     """
@@ -87,8 +97,8 @@ def execute(
             title = f"{scenario.config} run {scenario.run_number}"
             with RunProgress(terminal, title, scenario.sim_time_limit_s) as bar:
                 run.execute(bar.update, interrupt.should_stop)
-    except KeyboardInterrupt:
-        return Outcome(run.result(), interrupted=True, findings=run.findings())
+    except KeyboardInterrupt as pressed:
+        return Outcome(run.result(), pressed, interrupted=True, findings=run.findings())
     except BaseException as failure:  # SystemExit and asyncio.CancelledError are no Exception
         return Outcome(run.result(), failure=failure, findings=run.findings())
     result = run.result()
@@ -121,8 +131,9 @@ def report(
                 output_error = error
     if outcome.failure is not None:
         print_failure(outcome.failure, sys.stderr)
-        return FAILED, output_error
-    return INTERRUPTED if outcome.interrupted else OK, output_error
+    if outcome.interrupted:
+        return INTERRUPTED, output_error
+    return OK if outcome.failure is None else FAILED, output_error
 
 
 def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
@@ -135,3 +146,63 @@ def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
 
     print_summary(result, console(output))
     print(file=output)
+
+
+def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
+    """Return what checks a scenario for a mode and what builds its run; the other mode is not imported.
+
+    Raises ConfigError for options that need frames and a mode without.
+    """
+    if options.mode == "prototype":
+        from gradysim.prototype.run import PrototypeRun
+        from gradysim.prototype.simulation import check_scenario
+
+        require_no_names("--pcap", options.pcap, "no frames to capture")
+        require_no_names("--fates-at", options.fates_at, "no fates of frames")
+
+        def check_all(scenario: "Scenario", *, is_built_next: bool) -> None:
+            check_scenario(scenario)
+
+        def build_prototype(scenario: "Scenario") -> "Run":
+            return PrototypeRun(
+                scenario, vectors_of=[node.id for node in nodes_of_vectors(scenario, options)]
+            )
+
+        return check_all, build_prototype
+
+    from gradysim.integrated.network import check_scenario as check_network
+    from gradysim.integrated.run import IntegratedRun
+
+    def check(scenario: "Scenario", *, is_built_next: bool) -> None:
+        if not is_built_next:
+            check_network(scenario)
+
+    def build(scenario: "Scenario") -> "Run":
+        return IntegratedRun(
+            scenario,
+            captures(scenario, options),
+            fates_at=ids_of_fates(scenario, options),
+            vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
+        )
+
+    return check, build
+
+
+def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
+    """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
+    from gradysim.scenario.errors.config_error import ConfigError
+
+    for name in names:
+        raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")
+
+
+def check_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
+    """Raise ConfigError for a name that an option was given, and that no node has in any of these runs."""
+    from gradysim.scenario.node_names import check_node_names
+
+    for option, names in (
+        ("--pcap", options.pcap),
+        ("--fates-at", options.fates_at),
+        ("--vectors", options.vectors),
+    ):
+        check_node_names(scenarios, names, option)

@@ -5,16 +5,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.cli.arguments import Mode
-from gradysim.cli.asked import Asked
-from gradysim.cli.files_of_run import files_beside_result, files_for_omnetpp
-from gradysim.cli.simulators import ids_of_fates, nodes_of_vectors
+from gradysim.cli.options import Mode, RunOptions
+from gradysim.cli.output import files_beside_result, files_for_omnetpp, ids_of_fates, nodes_of_vectors
 
 if TYPE_CHECKING:
     from gradysim.scenario.scenario import Scenario
 
 
-def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "list[Scenario]":
+def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Scenario]":
     """Return the runs that lack a file that is asked for, and say which do not, and which are outdated.
 
     Raises ConfigError without a folder.
@@ -23,7 +21,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.runs import text_of_files, text_of_runs
 
-    result_dir = asked.result_dir
+    result_dir = options.result_dir
     if result_dir is None:
         raise ConfigError(
             "--resume: it goes by the JSON files of --result-dir, which is not given;"
@@ -32,8 +30,8 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
     for scenario in scenarios:
-        complete = _has_left_its_files(scenario, mode, asked)
-        changed = files_changed_since(scenario, mode, result_dir, ids_of_fates(scenario, asked))
+        complete = _has_left_its_files(scenario, options)
+        changed = files_changed_since(scenario, options.mode, result_dir, ids_of_fates(scenario, options))
         if changed == () and complete:
             done.append(scenario.run_number)
             continue
@@ -55,15 +53,15 @@ def left_to_do(scenarios: "Sequence[Scenario]", mode: Mode, asked: Asked) -> "li
     return left
 
 
-def _has_left_its_files(scenario: "Scenario", mode: Mode, asked: Asked) -> bool:
+def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
     """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
     from gradysim.results.files import has_written
 
-    files = files_for_omnetpp(scenario, mode, asked)
+    files = files_for_omnetpp(scenario, options)
     return (
-        has_written(scenario, mode, asked.directory, files_beside_result(scenario, mode, asked))
-        and _have_labels(files, scenario, mode)
-        and _has_vectors(files, scenario, asked)
+        has_written(scenario, options.mode, options.directory, files_beside_result(scenario, options))
+        and _have_labels(files, scenario, options.mode)
+        and _has_vectors(files, scenario, options)
     )
 
 
@@ -80,9 +78,9 @@ def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> boo
     )
 
 
-def _has_vectors(files: Sequence[Path], scenario: "Scenario", asked: Asked) -> bool:
+def _has_vectors(files: Sequence[Path], scenario: "Scenario", options: RunOptions) -> bool:
     """Whether the last of the files has vectors of all nodes that are asked for."""
     from gradysim.results.omnetpp_reader import recorded_modules
 
-    expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, asked)}
+    expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, options)}
     return not expected or expected <= recorded_modules(files[-1])

@@ -180,7 +180,8 @@ def _finish(worker: _Worker, exit_code: int) -> None:
     """Pass on what came out of a worker that has ended."""
     worker.future.printed = tuple(_content(file) for file in worker.printed)
     with worker.returned as pipe:
-        returned = pipe.read() if exit_code == 0 else b""
+        os.set_blocking(pipe.fileno(), False)  # a process that the worker began may still hold the other end
+        returned = pipe.read() if exit_code == 0 else None
     if returned:
         worker.future.set_result(pickle.loads(returned))
     elif exit_code < 0:

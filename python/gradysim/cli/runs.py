@@ -1,23 +1,69 @@
-"""`gradysim runs`: the runs of a configuration."""
+"""The runs of a configuration: read for the commands, and listed by `gradysim runs`."""
 
-from gradysim.cli.arguments import ConfigOption, FileArgument, SetOption
+import contextlib
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 from gradysim.cli.exit_code import OK, say_mistake
-from gradysim.cli.scenarios import check
+from gradysim.cli.options import ConfigOption, FileArgument, SetOption
 from gradysim.cli.warnings import tell
+
+if TYPE_CHECKING:
+    from gradysim.scenario.load import CheckedScenarios
+    from gradysim.scenario.scenario import Scenario
 
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
     from gradysim.scenario.errors.config_error import ConfigError
     from gradysim.scenario.lint import unread_variables
+    from gradysim.scenario.load import runs_of
     from gradysim.scenario.sweep import text_of_iterations
 
     try:
-        scenarios = check(file, config, None, settings).scenarios
-        tell(unread_variables(scenarios[0].unread_variables, scenarios[0].lines))
-        for scenario in scenarios:
-            values = {**scenario.iterations, "repetition": scenario.repetition}
-            print(f"Run {scenario.run_number}: {text_of_iterations(values)}")
+        for number, repetition, iterations in runs_of(file, config, settings):
+            print(f"Run {number}: {text_of_iterations({**iterations, 'repetition': repetition})}")
     except ConfigError as mistake:
         return say_mistake(mistake)
+    with contextlib.suppress(ConfigError):  # `gradysim check` reports it
+        first = check(file, config, None, settings).scenarios[0]
+        tell(unread_variables(first.unread_variables, first.lines))
     return OK
+
+
+def check(
+    file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
+) -> "CheckedScenarios":
+    """Return one scenario per run, checked. Raises ConfigError.
+
+    Says on the error output which of `settings` have no effect, because others before them have their keys.
+    """
+    from gradysim.scenario.errors.argument_names import ArgumentNames
+    from gradysim.scenario.load import CheckedScenarios
+
+    names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
+    _warn_of_repeated(settings, file, names.overrides)
+    with contextlib.chdir("."):  # afterwards; files of protocols are carried out, and may go elsewhere
+        return CheckedScenarios(file, config, runs, settings, seed, names)
+
+
+def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "list[Scenario]":
+    """Return some of them with all their nodes where they are."""
+    with contextlib.chdir("."):
+        return [checked.placed(scenario) for scenario in scenarios]
+
+
+def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
+    from gradysim.scenario.file.reader import Entry, read_overrides
+
+    first: dict[str, Entry] = {}
+    for entry in read_overrides(file, settings, option):
+        above = first.setdefault(entry.key, entry)
+        if above.text != entry.text:
+            print(
+                f"{entry.source}: warning: `{entry.key}` has no effect: `{above.source}` says the same thing"
+                " and comes first; expected one of them",
+                file=sys.stderr,
+            )

@@ -6,7 +6,7 @@ def add_protocol_note(
 ) -> None:
     """Note node, simulated time and callback on the exception of a protocol; its traceback stays as it is.
 
-    Ctrl-C (KeyboardInterrupt) is nobody's failure and gets no note. All others get one, also SystemExit.
+    So is it on a KeyboardInterrupt: it tells which callback does not return.
 
     Args:
         exception: What the protocol raised.
@@ -15,6 +15,5 @@ def add_protocol_note(
         time_s: Simulated time in seconds.
         callback: Name of the protocol's method that was running.
     """
-    if not isinstance(exception, KeyboardInterrupt):
-        label = f"{protocol.__name__} {node_id}"
-        exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")
+    label = f"{protocol.__name__} {node_id}"
+    exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

@@ -211,20 +211,32 @@ def _insert_run(connection: "sqlite3.Connection", identity: RunIdentity) -> None
     )
 
 
+def _insert(
+    connection: "sqlite3.Connection", table: str, row: Mapping[str, object], attributes: Mapping[str, str]
+) -> int | None:
+    """Insert a row and its attributes, and return its id."""
+    columns, marks = ", ".join(row), ", ".join("?" * len(row))
+    inserted = connection.execute(f"INSERT INTO {table} ({columns}) VALUES ({marks})", tuple(row.values()))
+    connection.executemany(
+        f"INSERT INTO {table}Attr VALUES (?, ?, ?)",
+        [(inserted.lastrowid, name, storable(value)) for name, value in attributes.items()],
+    )
+    return inserted.lastrowid
+
+
 def write_scalar_file(
     scalars: Iterable[Scalar], identity: RunIdentity, path: Path, histograms: Iterable[Histogram] = ()
 ) -> None:
     """Write a `.sca` file, complete or not at all. Raises OSError, with its name."""
     with new_database(path, identity) as connection:
         for scalar in scalars:
-            inserted = connection.execute(
-                "INSERT INTO scalar (runId, moduleName, scalarName, scalarValue) VALUES (?, ?, ?, ?)",
-                (RUN_ID, storable(scalar.module), storable(scalar.name), scalar.value),
-            )
-            connection.executemany(
-                "INSERT INTO scalarAttr VALUES (?, ?, ?)",
-                [(inserted.lastrowid, name, storable(value)) for name, value in scalar.attributes.items()],
-            )
+            row = {
+                "runId": RUN_ID,
+                "moduleName": storable(scalar.module),
+                "scalarName": storable(scalar.name),
+                "scalarValue": scalar.value,
+            }
+            _insert(connection, "scalar", row, scalar.attributes)
         for histogram in histograms:
             _insert_histogram(connection, histogram)
 
@@ -245,16 +257,9 @@ def _insert_histogram(connection: "sqlite3.Connection", histogram: Histogram) ->
         "statMin": values.min_s,
         "statMax": values.max_s,
     }
-    inserted = connection.execute(
-        f"INSERT INTO statistic ({', '.join(row)}) VALUES ({', '.join('?' * len(row))})", tuple(row.values())
-    )
+    statistic = _insert(connection, "statistic", row, histogram.attributes)
     connection.executemany(
-        "INSERT INTO statisticAttr VALUES (?, ?, ?)",
-        [(inserted.lastrowid, name, value) for name, value in histogram.attributes.items()],
-    )
-    connection.executemany(
-        "INSERT INTO histogramBin VALUES (?, ?, ?)",
-        [(inserted.lastrowid, *bin_row) for bin_row in bin_rows(values)],
+        "INSERT INTO histogramBin VALUES (?, ?, ?)", [(statistic, *bin_row) for bin_row in bin_rows(values)]
     )
 
 
@@ -290,40 +295,34 @@ def write_vector_file(vectors: Iterable[tuple[str, Vector]], identity: RunIdenti
 def _insert_vector(connection: "sqlite3.Connection", module: str, vector: Vector) -> int | None:
     """Insert a vector without its rows, and return its id."""
     times = vector.times_ps
-    values = (
-        *(RUN_ID, storable(module), f"{storable(vector.name)}:vector", len(times)),
-        *_statistics(vector.values),
-        *(NO_EVENT, NO_EVENT, *((times[0], times[-1]) if times else (0, 0))),
-    )
-    columns = (
-        "runId, moduleName, vectorName, vectorCount, vectorMin, vectorMax, vectorSum, vectorSumSqr,"
-        " startEventNum, endEventNum, startSimtimeRaw, endSimtimeRaw"
-    )
-    marks = ", ".join("?" * len(values))
-    inserted = connection.execute(f"INSERT INTO vector ({columns}) VALUES ({marks})", values)
-    connection.executemany(
-        "INSERT INTO vectorAttr VALUES (?, ?, ?)",
-        [(inserted.lastrowid, name, storable(value)) for name, value in _vector_attributes(vector)],
-    )
-    return inserted.lastrowid
+    row = {
+        "runId": RUN_ID,
+        "moduleName": storable(module),
+        "vectorName": f"{storable(vector.name)}:vector",
+        "vectorCount": len(times),
+        **_statistics(vector.values),
+        "startEventNum": NO_EVENT,
+        "endEventNum": NO_EVENT,
+        "startSimtimeRaw": times[0] if times else 0,
+        "endSimtimeRaw": times[-1] if times else 0,
+    }
+    attributes = {
+        "title": vector.name,
+        "source": vector.name,
+        "recordingmode": "vector",
+        # A variable keeps its value until it is set again; a vehicle moves between two telemetries.
+        "interpolationmode": "linear" if vector.part == "mobility" else "sample-hold",
+        **({"unit": vector.unit} if vector.unit else {}),
+    }
+    return _insert(connection, "vector", row, attributes)
 
 
-def _statistics(values: Values) -> tuple[float, float, float, float]:
+def _statistics(values: Values) -> dict[str, float]:
     """Return minimum, maximum, sum and sum of squares. The sums are NaN if a value is."""
     numbers = values if not any(map(math.isnan, values)) else [v for v in values if not math.isnan(v)]
-    return (
-        min(numbers, default=math.inf),
-        max(numbers, default=-math.inf),
-        sum(values),
-        sum(map(mul, values, values)),
-    )
-
-
-def _vector_attributes(vector: Vector) -> Iterator[tuple[str, str]]:
-    yield "title", vector.name
-    yield "source", vector.name
-    yield "recordingmode", "vector"
-    # A variable keeps its value until it is set again; a vehicle moves between two telemetries.
-    yield "interpolationmode", "linear" if vector.part == "mobility" else "sample-hold"
-    if vector.unit:
-        yield "unit", vector.unit
+    return {
+        "vectorMin": min(numbers, default=math.inf),
+        "vectorMax": max(numbers, default=-math.inf),
+        "vectorSum": sum(values),
+        "vectorSumSqr": sum(map(mul, values, values)),
+    }

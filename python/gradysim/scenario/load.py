@@ -1,6 +1,6 @@
 """Reads a configuration of a file as scenarios, one for each run."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -185,3 +185,19 @@ def _sim_time_limit_s(options: Mapping[str, Entry], config: str, source: Source)
 def _description(options: Mapping[str, Entry]) -> str:
     description = options.get("description")
     return free_text(description) if description else ""
+
+
+def runs_of(
+    file: str | Path, config: str, overrides: Iterable[str] = (), *, names: ArgumentNames = OF_SCRIPT
+) -> Sequence[tuple[int, int, Mapping[str, Any]]]:
+    """Return number, repetition and values of iterations of each run of a configuration.
+
+    It needs neither nodes nor a time limit, and checks neither. Raises ConfigError.
+    """
+    sections = tuple(search_order(read_ini(Path(file)), config))
+    ranked = [Ranked(0, entry) for entry in read_overrides(Path(file), overrides, names.overrides)]
+    for rank, section in enumerate(sections, start=1):
+        ranked += [Ranked(rank, entry) for entry in section.entries]
+    ranked, variables = name_iterations(ranked)
+    as_written = options_in_force(tuple(entry for _, entry in ranked))
+    return numbered_runs(as_written, variables, config, None, sections[0].source, names.runs)[0]

@@ -1,4 +1,5 @@
-// The text of the ConfigError that a check raises, for tests that compare it; "no error" if there is none.
+// The text of the ConfigError that a check raises, for tests that compare it; "no error" if there
+// is none.
 #pragma once
 
 #include <string>

@@ -186,12 +186,12 @@ Body random_body(RandomStream& draws) {
     Body body;
     const double x = between(-20, 20);
     const double y = between(-20, 20);
-    const auto star = [&](double least_m, double most_m) {
+    const auto star = [&](double min_m, double max_m) {
         Ring ring;
         const int corners = 3 + static_cast<int>(draws.uniform_int(7));
         for (int i = 0; i < corners; ++i) {
             const double angle = 2 * std::acos(-1.0) * (i + 0.8 * draws.uniform()) / corners;
-            const double radius_m = between(least_m, most_m);
+            const double radius_m = between(min_m, max_m);
             ring.push_back({x + radius_m * std::cos(angle), y + radius_m * std::sin(angle)});
         }
         if (draws.uniform() < 0.5) {
@@ -227,7 +227,8 @@ TEST(Prism, IsWhereItIsPointByPoint) {
         }
         const double length_m = distance(a, b);
         const auto found = stretches(prism, a, b);
-        // Each end of a stretch is found to within half a step; a stretch shorter than one may be missed.
+        // Each end of a stretch is found to within half a step; a stretch shorter than one may be
+        // missed.
         EXPECT_NEAR(length_inside_m(prism, a, b), length_m * inside / steps,
                     (1.0 + static_cast<double>(found.size())) * length_m / steps)
             << i;

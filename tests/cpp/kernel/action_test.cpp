@@ -47,30 +47,30 @@ TEST(Action, CanBeReplaced) {
     EXPECT_EQ(second, 1);
 }
 
-struct Fetching {
+struct Prefetching {
     int* calls;
     std::vector<int>* steps;
 
     void operator()() const { ++*calls; }
-    void fetch(int step) const { steps->push_back(step); }
+    void prefetch(int step) const { steps->push_back(step); }
 };
 
 TEST(Action, PassesOnThatItWillRunSoon) {
     int calls = 0;
     std::vector<int> steps;
-    const Action action = Fetching{&calls, &steps};
-    action.fetch(0);
-    action.fetch(1);
+    const Action action = Prefetching{&calls, &steps};
+    action.prefetch(0);
+    action.prefetch(1);
     EXPECT_EQ(steps, (std::vector{0, 1}));
     EXPECT_EQ(calls, 0);
 }
 
-TEST(Action, WhatHasNoFetchNeedNotKnow) {
+TEST(Action, WhatHasNoPrefetchNeedNotKnow) {
     int calls = 0;
     std::vector<int> steps;
-    Action action = Fetching{&calls, &steps};
+    Action action = Prefetching{&calls, &steps};
     action = [&calls] { ++calls; };
-    action.fetch(0);
+    action.prefetch(0);
     EXPECT_TRUE(steps.empty());
     EXPECT_EQ(calls, 0);
 }

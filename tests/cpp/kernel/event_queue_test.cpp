@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 
 namespace netsim {
 namespace {
@@ -74,20 +74,20 @@ TEST(EventQueue, EqualTimesGoInTheOrderOfScheduling) {
 TEST(EventQueue, AReservedPlaceIsThatOfItsReservation) {
     LoggingQueue events;
     events.push(at(10), Priority::normal, 1);
-    const Turn first = events.queue.reserve_turns(2);
+    const SequenceNumber first = events.queue.reserve_sequence_numbers(2);
     events.push(at(10), Priority::normal, 4);
     for (const int name : {3, 2}) {
-        events.queue.push_at_turn(at(10), Priority::normal, first + static_cast<Turn>(name) - 2,
-                                  [&events, name] { events.log.push_back(name); });
+        events.queue.push_reserved(at(10), Priority::normal, first + static_cast<SequenceNumber>(name) - 2,
+                                   [&events, name] { events.log.push_back(name); });
     }
     EXPECT_EQ(events.drain(), (std::vector{1, 2, 3, 4}));
 }
 
 TEST(EventQueue, TimeGoesBeforePlace) {
     LoggingQueue events;
-    const Turn first = events.queue.reserve_turns(1);
+    const SequenceNumber first = events.queue.reserve_sequence_numbers(1);
     events.push(at(9), Priority::normal, 1);
-    events.queue.push_at_turn(at(10), Priority::normal, first, [&events] { events.log.push_back(2); });
+    events.queue.push_reserved(at(10), Priority::normal, first, [&events] { events.log.push_back(2); });
     EXPECT_EQ(events.drain(), (std::vector{1, 2}));
 }
 
@@ -187,9 +187,9 @@ TEST(EventQueue, WhatIsEarlierThanAllWouldBeNext) {
 
 TEST(EventQueue, AtOneTimeThePlaceTellsWhatWouldBeNext) {
     LoggingQueue events;
-    const Turn before = events.queue.reserve_turns(1);
+    const SequenceNumber before = events.queue.reserve_sequence_numbers(1);
     events.push(at(5), Priority::normal, 1);
-    const Turn after = events.queue.reserve_turns(1);
+    const SequenceNumber after = events.queue.reserve_sequence_numbers(1);
     EXPECT_TRUE(events.queue.would_be_next(at(5), before));
     EXPECT_FALSE(events.queue.would_be_next(at(5), after));
 }
@@ -199,69 +199,69 @@ TEST(EventQueue, WhatIsBeforeAllThatWaitBehindTheOneTakenOutWouldBeNext) {
     for (int name = 1; name <= 3; ++name) {
         events.push(at(std::int64_t{10} * name), Priority::normal, name);
     }
-    const Turn turn = events.queue.reserve_turns(1);
+    const SequenceNumber number = events.queue.reserve_sequence_numbers(1);
     events.queue.pop();
-    EXPECT_TRUE(events.queue.would_be_next(at(15), turn));
-    EXPECT_FALSE(events.queue.would_be_next(at(25), turn));
-    EXPECT_FALSE(events.queue.would_be_next(at(35), turn));
+    EXPECT_TRUE(events.queue.would_be_next(at(15), number));
+    EXPECT_FALSE(events.queue.would_be_next(at(25), number));
+    EXPECT_FALSE(events.queue.would_be_next(at(35), number));
 }
 
-struct Fetched {
+struct Prefetched {
     int name;
     int step;
 };
 
-struct Fetching {
-    std::vector<Fetched>* fetched;
+struct Prefetching {
+    std::vector<Prefetched>* prefetched;
     int name;
 
     void operator()() const {}
-    void fetch(int step) const { fetched->push_back({name, step}); }
+    void prefetch(int step) const { prefetched->push_back({name, step}); }
 };
 
 TEST(EventQueue, ALargeOneSaysWhatIsDueSoonBeforeItRuns) {
     constexpr int count = 5000;
     EventQueue queue;
-    std::vector<Fetched> fetched;
+    std::vector<Prefetched> prefetched;
     std::vector<int> steps(count);  // [name]
     for (int name = 0; name < count; ++name) {
-        queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
+        queue.push(at(std::int64_t{1000} * name), Priority::normal, Prefetching{&prefetched, name});
     }
     for (int name = 0; name < count; ++name) {
         ASSERT_EQ(queue.next_time(), at(std::int64_t{1000} * name));
-        for (const Fetched& each : std::exchange(fetched, {})) {
+        for (const Prefetched& each : std::exchange(prefetched, {})) {
             EXPECT_GE(each.name, name);
             EXPECT_EQ(each.step, steps[each.name]++) << each.name;
         }
-        EXPECT_EQ(steps[name], fetch_steps) << name;
+        EXPECT_EQ(steps[name], prefetch_steps) << name;
         queue.pop();
     }
 }
 
 TEST(EventQueue, SaysSoStepByStepForAllThatAreDueSoon) {
     EventQueue queue;
-    std::vector<Fetched> fetched;
+    std::vector<Prefetched> prefetched;
     for (int name = 0; name < 5000; ++name) {
-        queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
+        queue.push(at(std::int64_t{1000} * name), Priority::normal, Prefetching{&prefetched, name});
     }
     std::size_t most = 0;
     for (; !queue.empty(); queue.pop()) {
         queue.next_time();
-        EXPECT_TRUE(std::ranges::is_sorted(fetched, {}, &Fetched::step));
-        most = std::max(most, fetched.size());
-        fetched.clear();
+        EXPECT_TRUE(std::ranges::is_sorted(prefetched, {}, &Prefetched::step));
+        most = std::max(most, prefetched.size());
+        prefetched.clear();
     }
-    EXPECT_GT(most, 5U * fetch_steps);
+    EXPECT_GT(most, 5U * prefetch_steps);
 }
 
 TEST(EventQueue, SaysNothingOfWhatWasCancelled) {
     constexpr int count = 5000;
     EventQueue queue;
-    std::vector<Fetched> fetched;
+    std::vector<Prefetched> prefetched;
     std::vector<EventHandle> odd;
     for (int name = 0; name < count; ++name) {
         const EventHandle handle =
-            queue.push(at(std::int64_t{1000} * name), Priority::normal, Fetching{&fetched, name});
+            queue.push(at(std::int64_t{1000} * name), Priority::normal, Prefetching{&prefetched, name});
         if (name % 2 == 1) {
             odd.push_back(handle);
         }
@@ -272,8 +272,8 @@ TEST(EventQueue, SaysNothingOfWhatWasCancelled) {
     while (!queue.empty()) {
         queue.pop();
     }
-    EXPECT_FALSE(fetched.empty());
-    EXPECT_TRUE(std::ranges::none_of(fetched, [](const Fetched& each) { return each.name % 2 == 1; }));
+    EXPECT_FALSE(prefetched.empty());
+    EXPECT_TRUE(std::ranges::none_of(prefetched, [](const Prefetched& each) { return each.name % 2 == 1; }));
 }
 
 // Random pushes, cancellations and pops against a sorted map, which is slow and obvious.
@@ -287,11 +287,12 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
     };
     const int push_weight = 30 + draw(50);
     const int cancel_weight = draw(40);
-    // From so few that all lie in the heap to so many that most do not, and from one instant to hours ahead.
+    // From so few that all lie in the heap to so many that most do not, and from one instant to
+    // hours ahead.
     const int pushed_first = draw(3000);
-    const std::int64_t most_ahead = std::int64_t{1} << (2 + draw(50));
+    const std::int64_t max_ahead = std::int64_t{1} << (2 + draw(50));
     const auto draw_ahead = [&] {
-        const std::int64_t most = draw(2) == 0 ? most_ahead : 50;
+        const std::int64_t most = draw(2) == 0 ? max_ahead : 50;
         return static_cast<std::int64_t>(random()) * 0x10001 % most;
     };
     LoggingQueue events;
@@ -321,7 +322,7 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
         }
         ASSERT_EQ(events.queue.size(), oracle.size());
         const SimTime time = at(now + draw_ahead());
-        if (events.queue.would_be_next(time, events.queue.reserve_turns(1)) && !oracle.empty()) {
+        if (events.queue.would_be_next(time, events.queue.reserve_sequence_numbers(1)) && !oracle.empty()) {
             const Key first = oracle.begin()->first;
             ASSERT_LT(std::tuple(time, Priority::normal, name + 1), first);
         }

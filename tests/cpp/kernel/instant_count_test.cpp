@@ -16,14 +16,14 @@ std::int32_t first_too_many(InstantCount& count, SimTime instant) {
 
 TEST(InstantCount, IsExceededByTheFirstAboveTheBound) {
     InstantCount count;
-    EXPECT_EQ(first_too_many(count, SimTime()), most_at_one_instant + 1);
+    EXPECT_EQ(first_too_many(count, SimTime()), max_per_instant + 1);
     EXPECT_TRUE(count.exceeds(SimTime()));
 }
 
 TEST(InstantCount, BeginsAnewAtEachInstant) {
     InstantCount count;
     first_too_many(count, SimTime());
-    EXPECT_EQ(first_too_many(count, SimTime::from_ps(1)), most_at_one_instant + 1);
+    EXPECT_EQ(first_too_many(count, SimTime::from_ps(1)), max_per_instant + 1);
 }
 
 }  // namespace

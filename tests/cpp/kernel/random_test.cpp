@@ -144,7 +144,8 @@ TEST(RandomStream, UniformIntHasNoFavourites) {
 }
 
 TEST(RandomStream, UniformIntIsUnbiasedWhereFoldingWouldNotBe) {
-    // 2^32 draws folded onto 3 · 2^30 numbers without redrawing would give every third number twice.
+    // 2^32 draws folded onto 3 · 2^30 numbers without redrawing would give every third number
+    // twice.
     constexpr std::uint32_t count = 3U << 30;
     constexpr int draws = 30'000;
     RandomStream stream(3, 0, Purpose::backoff);

@@ -111,12 +111,12 @@ TEST(Simulator, AnEventIsNotPendingWhileItRuns) {
 
 TEST(Simulator, KnowsWhichTurnsOfAnInstantHavePassed) {
     Simulator simulator;
-    const Turn before = simulator.reserve_turns(1);
+    const SequenceNumber before = simulator.reserve_sequence_numbers(1);
     std::vector<bool> passed;
     simulator.schedule_at(us(1), [&] {
-        const Turn after = simulator.reserve_turns(1);
-        for (const Turn turn : {before, after}) {
-            passed.push_back(simulator.has_passed(us(1), turn));
+        const SequenceNumber after = simulator.reserve_sequence_numbers(1);
+        for (const SequenceNumber number : {before, after}) {
+            passed.push_back(simulator.has_passed(us(1), number));
         }
         passed.push_back(simulator.has_passed(us(2), before));
         passed.push_back(simulator.has_passed(us(0), after));
@@ -127,25 +127,27 @@ TEST(Simulator, KnowsWhichTurnsOfAnInstantHavePassed) {
 
 TEST(Simulator, AtTheEndOfAnInstantAllTurnsOfBeforeHavePassed) {
     Simulator simulator;
-    Turn earlier = 0;
+    SequenceNumber earlier = 0;
     bool passed = false;
     bool new_one_passed = true;
     const auto at_its_end = [&] {
         passed = simulator.has_passed(us(1), earlier);
-        new_one_passed = simulator.has_passed(us(1), simulator.reserve_turns(1));
+        new_one_passed = simulator.has_passed(us(1), simulator.reserve_sequence_numbers(1));
     };
     simulator.schedule_at(us(1), at_its_end, Priority::last);
-    earlier = simulator.reserve_turns(1);
+    earlier = simulator.reserve_sequence_numbers(1);
     simulator.run_until(us(1));
     EXPECT_TRUE(passed);
     EXPECT_FALSE(new_one_passed);
     EXPECT_TRUE(simulator.has_passed(us(1), earlier));
 }
 
-// An event at 1 µs and its successors, one a microsecond up to 5 µs, which go on without the queue where they may.
+// An event at 1 µs and its successors, one a microsecond up to 5 µs, which go on without the queue
+// where they may.
 class Chain {
 public:
-    explicit Chain(Simulator& simulator) : simulator_(simulator), first_turn_(simulator.reserve_turns(6)) {
+    explicit Chain(Simulator& simulator)
+        : simulator_(simulator), first_sequence_number_(simulator.reserve_sequence_numbers(6)) {
         schedule(1);
     }
 
@@ -154,7 +156,7 @@ public:
 
 private:
     void schedule(int number) {
-        simulator_.schedule_at_turn(us(number), turn(number), [this, number] { run(number); });
+        simulator_.schedule_reserved(us(number), sequence_number(number), [this, number] { run(number); });
     }
     void run(int number) {
         for (;; ++number) {
@@ -162,17 +164,19 @@ private:
             if (number == 5) {
                 return;
             }
-            if (!simulator_.goes_on_at(us(number + 1), turn(number + 1))) {
+            if (!simulator_.try_run_inline(us(number + 1), sequence_number(number + 1))) {
                 schedule(number + 1);
                 return;
             }
             ++passed_by_the_queue;
         }
     }
-    Turn turn(int number) const { return first_turn_ + static_cast<Turn>(number); }
+    SequenceNumber sequence_number(int number) const {
+        return first_sequence_number_ + static_cast<SequenceNumber>(number);
+    }
 
     Simulator& simulator_;
-    Turn first_turn_;
+    SequenceNumber first_sequence_number_;
 };
 
 TEST(Simulator, GoesOnWithWhatWouldRunNext) {

@@ -158,7 +158,8 @@ TEST(ArfRateControl, TheRatesOfMixedModeAreThoseOfAllGenerationsByBitrate) {
     EXPECT_EQ(rates, (std::vector<double>{1, 2, 5.5, 6, 9, 11, 12, 18, 24, 36, 48, 54, 54}));
 }
 
-// For any outcomes: neighbours in the mode set only, up only after a success or the interval, down only after a failure.
+// For any outcomes: neighbours in the mode set only, up only after a success or the interval, down
+// only after a failure.
 TEST(ArfRateControl, TheRateMovesByOneStepInTheDirectionOfWhatHappened) {
     for (const ArfRateControl::Parameters& parameters : {arf, aarf}) {
         for (const char* op_mode : {"a", "b", "g(erp)", "g(mixed)"}) {

@@ -20,7 +20,8 @@ TEST(Checksums, TheNarrowbandCrcOfTheUsualCheckString) {
     EXPECT_EQ(narrowband_check_sequence(Bytes(check.begin(), check.end())), 0x2189);  // CRC-16/KERMIT
 }
 
-// IEEE Std 802.15.4-2006, 7.2.1.9: an ACK with sequence number 0x6a (in the order of sending 01010110).
+// IEEE Std 802.15.4-2006, 7.2.1.9: an ACK with sequence number 0x6a (in the order of sending
+// 01010110).
 TEST(Checksums, TheExampleOf802154) {
     EXPECT_EQ(narrowband_check_sequence(Bytes{0x02, 0x00, 0x6a}), 0x79e4);
 }

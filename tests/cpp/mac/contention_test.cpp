@@ -164,7 +164,8 @@ TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {
     EXPECT_EQ(*slots.rbegin(), 15);
 }
 
-// A contention of which the number of slots is known, because it is the same in a run without disturbance.
+// A contention of which the number of slots is known, because it is the same in a run without
+// disturbance.
 class RemainingSlots : public ContentionTest {
 protected:
     static constexpr std::uint64_t seed = 4;

@@ -179,8 +179,8 @@ TEST_F(CsmaCa802154Test, RepetitionsAreAcknowledgedButDeliveredOnce) {
     EXPECT_EQ(messages(MessageKind::unicast, MessageFate::retry_limit), 1U);
 }
 
-// 1600 m apart they are below each other's sensitivity, in the middle they are 5 dB above it. A threshold of 1 dB
-// keeps the spreading gain from saving the frame that comes first.
+// 1600 m apart they are below each other's sensitivity, in the middle they are 5 dB above it. A
+// threshold of 1 dB keeps the spreading gain from saving the frame that comes first.
 TEST_F(CsmaCa802154Test, HiddenSendersCollide) {
     RadioConfig radio = narrowband();
     radio.snir_threshold = 1.26;

@@ -35,7 +35,7 @@ protected:
                                                                     std::size_t attempts = 7) {
         std::vector<std::vector<std::int64_t>> slots(messages * attempts);
         for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-            Air air(MediumConfig(), Hearing::what_matters, seed);
+            Air air(MediumConfig(), Culling::enabled, seed);
             Station& sender = air.add_station({0, 0, 0}, mac);
             Station& gone = air.add_station({1e7, 0, 0}, mac);
             Sniffer& sniffer = air.add_sniffer({0, 0, 0});
@@ -88,14 +88,15 @@ TEST_F(ContentionWindow, IsItsMinimumOnlyOnceWithStationCounters) {
     }
 }
 
-// Of three messages that fail: without the broadcast, the failures of the first two would count together.
+// Of three messages that fail: without the broadcast, the failures of the first two would count
+// together.
 TEST_F(ContentionWindow, ABroadcastSetsTheStationCountersBack) {
     MacConfig mac;
     mac.short_retry_limit = 4;
     mac.inet_station_retry_counters = true;
     std::vector<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-        Air air(MediumConfig(), Hearing::what_matters, seed);
+        Air air(MediumConfig(), Culling::enabled, seed);
         Station& sender = air.add_station({0, 0, 0}, mac);
         Station& gone = air.add_station({1e7, 0, 0}, mac);
         Sniffer& sniffer = air.add_sniffer({0, 0, 0});
@@ -111,8 +112,9 @@ TEST_F(ContentionWindow, ABroadcastSetsTheStationCountersBack) {
     expect_draws_up_to(slots, 31);
 }
 
-// Three RTS fail, the fourth one is answered, its data is lost, and the fifth one fails: the last failure of the frame is
-// the first one of the station after the CTS, and doubles the window once more.
+// Three RTS fail, the fourth one is answered, its data is lost, and the fifth one fails: the last
+// failure of the frame is the first one of the station after the CTS, and doubles the window once
+// more.
 TEST_F(ContentionWindow, ACtsSetsTheStationCounterOfRtsBack) {
     MacConfig mac;
     mac.rts_threshold_bytes = 0;
@@ -121,7 +123,7 @@ TEST_F(ContentionWindow, ACtsSetsTheStationCounterOfRtsBack) {
     constexpr SimTime nav_of_rts = us(180);
     std::vector<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-        Air air(MediumConfig(), Hearing::what_matters, seed);
+        Air air(MediumConfig(), Culling::enabled, seed);
         Station& sender = air.add_station({0, 0, 0}, mac);
         test::BareRadio& peer = air.add_radio({10, 0, 0});
         Sniffer& sniffer = air.add_sniffer({0, 0, 0});
@@ -145,7 +147,7 @@ TEST_F(ContentionWindow, ACtsSetsTheStationCounterOfRtsBack) {
 TEST_F(ContentionWindow, IsItsMinimumAgainAfterAnAck) {
     std::vector<std::int64_t> slots;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-        Air air(MediumConfig(), Hearing::what_matters, seed);
+        Air air(MediumConfig(), Culling::enabled, seed);
         Station& sender = air.add_station({0, 0, 0});
         Station& receiver = air.add_station({20'000, 0, 0});
         Sniffer& sniffer = air.add_sniffer({0, 0, 0});

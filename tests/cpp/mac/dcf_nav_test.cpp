@@ -64,7 +64,8 @@ TEST_F(HiddenResponder, TheNavCountsAsBusyForImmediateAccess) {
     EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(0).start, data_end_at_c + sifs + ack_duration + difs);
 }
 
-// Nobody told the station's contention of a NAV that began and ended before there was something to send.
+// Nobody told the station's contention of a NAV that began and ended before there was something to
+// send.
 TEST_F(HiddenResponder, ANavThatIsOverCountsAsBusyForImmediateAccess) {
     a->send(b->id(), 100);
     const SimTime nav_end = data_duration + us(1) + sifs + ack_duration;

@@ -1,4 +1,5 @@
-// The Dcf with a rate control. Durations as in dcf_test.cpp: g(erp), 164 B with all headers, ACK 14 B.
+// The Dcf with a rate control. Durations as in dcf_test.cpp: g(erp), 164 B with all headers, ACK 14
+// B.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -130,8 +131,8 @@ TEST_F(DcfRateControl, DurationFieldsAndAcksFollowTheMode) {
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 21U);
 }
 
-// Both RTS are at 24 Mbps. The one of the eleventh frame announces a frame that is faster: 138 instead of 178 µs, and its
-// ACK 38 instead of 50 µs.
+// Both RTS are at 24 Mbps. The one of the eleventh frame announces a frame that is faster: 138
+// instead of 178 µs, and its ACK 38 instead of 50 µs.
 TEST_F(DcfRateControl, RtsKeepsItsModeAndAnnouncesTheModeOfTheData) {
     MacConfig mac = mac_with("ArfRateControl", 9e6);
     mac.rts_threshold_bytes = 0;
@@ -190,7 +191,8 @@ TEST_F(DcfRateControl, WithoutOneNothingIsCounted) {
     EXPECT_TRUE(a->dcf.frames_by_bitrate().empty());
 }
 
-// Messages of 1000 B that one of two stations gets across in `duration`, nothing but noise of -90 dBm in the way.
+// Messages of 1000 B that one of two stations gets across in `duration`, nothing but noise of -90
+// dBm in the way.
 std::uint64_t delivered(const MacConfig& mac, double distance_m, SimTime duration) {
     MediumConfig medium;
     medium.background_noise_w = 1e-12;

@@ -1,4 +1,4 @@
-// RTS and CTS of the Dcf, in instants worked out by hand as in dcf_test.cpp.
+// RTS and CTS of the Dcf, with instants computed by hand as in dcf_test.cpp.
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -133,7 +133,8 @@ TEST_F(RtsTest, AnRtsThatEndsWithTheNavIsAnswered) {
     EXPECT_EQ(starts(*sniffer, FrameKind::cts), (std::vector{us(0), us(166) + rts_duration + sifs}));
 }
 
-// The CTS announces what is left of the RTS's announcement. The third station hears the responder only.
+// The CTS announces what is left of the RTS's announcement. The third station hears the responder
+// only.
 TEST_F(RtsTest, TheCtsSilencesThoseWhoDoNotHearTheRts) {
     add(MacConfig());
     RadioConfig near_deaf;  // hears what is twice as strong as anything from two hops away
@@ -181,7 +182,8 @@ TEST_F(RtsTest, TheTimeoutIsThatOfACtsInTheModeOfTheRts) {
 }
 
 TEST_F(RtsTest, ACtsThatHasBegunByTheTimeoutIsWaitedFor) {
-    // At 44 light microseconds to and fro, the CTS begins 54 us after the end of the RTS and ends at 88 us.
+    // At 44 light microseconds to and fro, the CTS begins 54 us after the end of the RTS and ends
+    // at 88 us.
     Station& a = air.add_station({0, 0, 0}, with_rts(), test::radio_of_power(100));
     Station& b = air.add_station({22 * light_microsecond_m, 0, 0}, with_rts(), test::radio_of_power(100));
     a.send(b.id(), 100);
@@ -221,7 +223,8 @@ TEST_F(RtsTest, AFailedRtsIsRepeatedAfterItsOwnNav) {
     EXPECT_EQ(starts(*sniffer, FrameKind::rts), expected);
 }
 
-// As INET has it: after its CTS, a station waits for the exchange to be over, also if no data comes.
+// As INET has it: after its CTS, a station waits for the exchange to be over, also if no data
+// comes.
 TEST_F(RtsTest, TheOwnCtsSetsTheNav) {
     add(with_rts_without_backoff());
     peer_sends(us(0), FrameKind::rts, station->id(), us(1000));
@@ -321,7 +324,8 @@ TEST_F(RtsRetries, DataThatIsSentForTheFirstTimeAfterAFailedRtsIsNoRetry) {
     EXPECT_EQ(listener.flags, (std::vector{false, true}));
 }
 
-// Two stations that ask each other at the same time: the later one's RTS meets a station that waits for a CTS.
+// Two stations that ask each other at the same time: the later one's RTS meets a station that waits
+// for a CTS.
 TEST_F(RtsTest, AnRtsThatComesInsteadOfTheCtsIsAnsweredIfOwnFramesSetNoNav) {
     MacConfig mac = with_rts();
     mac.own_frames_set_nav = false;

@@ -1,5 +1,6 @@
-// The instants are worked out by hand: support/dcf_instants.hpp. What happens without an ACK, RTS and CTS, the NAV, rate
-// control, the contention window and the check of a configuration have files of their own.
+// The instants are computed by hand: support/dcf_instants.hpp. What happens without an ACK, RTS
+// and CTS, the NAV, rate control, the contention window and the check of a configuration have files
+// of their own.
 #include "netsim/mac/dcf.hpp"
 
 #include <algorithm>

@@ -26,7 +26,8 @@ const ModeSet& modes() {
     return mode_set("a");
 }
 
-// What one attempt takes on a free channel in 802.11a, written out: DIFS 34 µs, 7.5 slots of 9 µs, SIFS 16 µs.
+// What one attempt takes on a free channel in 802.11a, written out: DIFS 34 µs, 7.5 slots of 9 µs,
+// SIFS 16 µs.
 double attempt_us(std::size_t mode) {
     constexpr std::array<int, 8> data_us{1444, 968, 732, 496, 380, 260, 200, 180};
     constexpr std::array<int, 8> ack_us{44, 44, 32, 32, 28, 28, 28, 28};
@@ -43,7 +44,8 @@ std::size_t best_mode(const Shares& shares) {
     return best;
 }
 
-// A link on which a frame succeeds with the given chance of its rate. Frames follow each other without a pause.
+// A link on which a frame succeeds with the given chance of its rate. Frames follow each other
+// without a pause.
 class LossyLink {
 public:
     LossyLink(std::uint64_t seed, double look_around)
@@ -104,10 +106,10 @@ Shares cliff_after(std::size_t last) {
 
 class MinstrelCliff : public testing::TestWithParam<std::size_t> {};
 
-// Of 3000 attempts at least at a steady state, 10 % of frames try something else at one of their attempts, which fails if
-// it is too fast: with four standard deviations (2 %) to spare, 85 % of all attempts are at the best rate. A wrong
-// choice by chance would need several windows in which a rate with 1 % success does nothing but succeed:
-// below 1e-6 in total.
+// Of 3000 attempts at least at a steady state, 10 % of frames try something else at one of their
+// attempts, which fails if it is too fast: with four standard deviations (2 %) to spare, 85 % of
+// all attempts are at the best rate. A wrong choice by chance would need several windows in which a
+// rate with 1 % success does nothing but succeed: below 1e-6 in total.
 TEST_P(MinstrelCliff, MostAttemptsAreAtTheRateWithTheBestThroughput) {
     const Shares shares = cliff_after(GetParam());
     ASSERT_EQ(best_mode(shares), GetParam());
@@ -210,8 +212,9 @@ TEST(MinstrelRateControl, TheAttemptsOfAFrameGoDownTheChain) {
 
 class MinstrelStage : public testing::TestWithParam<std::pair<std::size_t, int>> {};
 
-// n attempts take n (DIFS + data + SIFS + ACK) and mean backoffs of 67.5 µs, 207 µs, 490.5 µs, 1062 µs, 2209.5 µs and 4509 µs
-// together: three at 6 Mbps 5104.5 µs, four 7214 µs; five at 54 Mbps 3499.5 µs, six 6057 µs.
+// n attempts take n (DIFS + data + SIFS + ACK) and mean backoffs of 67.5 µs, 207 µs, 490.5 µs, 1062
+// µs, 2209.5 µs and 4509 µs together: three at 6 Mbps 5104.5 µs, four 7214 µs; five at 54 Mbps
+// 3499.5 µs, six 6057 µs.
 TEST_P(MinstrelStage, HasAsManyAttemptsAsFitInto6Ms) {
     const auto [mode, attempts] = GetParam();
     Shares shares{};
@@ -242,7 +245,8 @@ TEST(MinstrelRateControl, OfARateThatAlwaysSucceedsTwoAttemptsAreEnough) {
     EXPECT_EQ(link.chain(9), in_a_row({{2, 7}, {5, 6}, {2, 7}}));
 }
 
-// The mean of 24 Mbps falls below 10 % in eight updates of 0.75 each, and still is the largest. All others are unknown.
+// The mean of 24 Mbps falls below 10 % in eight updates of 0.75 each, and still is the largest. All
+// others are unknown.
 TEST(MinstrelRateControl, OfARateThatHardlyEverSucceedsTooAndOfUnknownOnes) {
     LossyLink link(1, 0);
     link.run(cliff_after(7), SimTime::from_seconds(1));
@@ -262,8 +266,8 @@ TEST(MinstrelRateControl, BesideTheSlowestRateAsTheBestOneThereIsASecondBest) {
     EXPECT_EQ(link.chain(7), in_a_row({{2, 0}, {4, 1}, {1, 0}}));
 }
 
-// 10000 frames, one in ten tries another of seven rates: 1000 ± 30; five standard deviations are allowed, a false
-// alarm in 2 million.
+// 10000 frames, one in ten tries another of seven rates: 1000 ± 30; five standard deviations are
+// allowed, a false alarm in 2 million.
 TEST(MinstrelRateControl, LooksAroundWithTheShareOfFramesThatItIsTold) {
     LossyLink link(3, 0.1);
     const Shares shares = cliff_after(0);

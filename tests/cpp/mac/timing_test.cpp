@@ -13,8 +13,8 @@ struct Expected {
 };
 
 TEST(MacTiming, OfEachOperationMode) {
-    // EIFS = SIFS + DIFS + ACK of 14 B at 1 Mbps (192 + 112 = 304 µs) or at 6 Mbps (20 + 6 * 4 = 44 µs, in g
-    // 50 µs).
+    // EIFS = SIFS + DIFS + ACK of 14 B at 1 Mbps (192 + 112 = 304 µs) or at 6 Mbps (20 + 6 * 4 = 44
+    // µs, in g 50 µs).
     for (const Expected& expected : {Expected{"b", 20, 10, 50, 364}, Expected{"g(erp)", 9, 10, 28, 88},
                                      Expected{"g(mixed)", 20, 10, 50, 364}, Expected{"a", 9, 16, 34, 94}}) {
         const MacTiming timing(mode_set(expected.op_mode));

@@ -7,7 +7,7 @@
 namespace netsim {
 namespace {
 
-TEST(BackgroundNoise, IsTheSamePowerForEveryReceiverByDefault) {
+TEST(BackgroundNoise, IsEqualForAllReceiversByDefault) {
     const BackgroundNoise noise{MediumConfig()};
     EXPECT_EQ(noise.power_w(22e6, 1), MediumConfig().background_noise_w);
     EXPECT_EQ(noise.power_w(1e6, 5), MediumConfig().background_noise_w);
@@ -20,8 +20,8 @@ MediumConfig thermal(double temperature_k) {
     return config;
 }
 
-// The figure that every text book has: -174 dBm in a hertz at 290 K.
-TEST(BackgroundNoise, ThermalNoiseIsThatOfTheTextBooks) {
+// The textbook value: -174 dBm in 1 Hz at 290 K.
+TEST(BackgroundNoise, ThermalNoiseMatchesTheTextbookFormula) {
     EXPECT_NEAR(dbm_from_w(BackgroundNoise(thermal(290)).power_w(1, 1)), -173.98, 0.005);
     EXPECT_NEAR(dbm_from_w(BackgroundNoise(thermal(290)).power_w(20e6, ratio_from_db(7))), -93.965, 0.005);
 }

@@ -45,8 +45,8 @@ struct Worst {
     std::vector<NodeId> interferers;
 };
 
-// The definition, without any search: every start is looked at, and everything is added up there. Those are named of whom as
-// strong ones and stronger ones do not outweigh the rest without it.
+// The definition, without a search: sums at every start. A node is an interferer if the others that
+// are at least as strong do not outweigh the rest without it.
 Worst plain_worst(const Frames& frames, SimTime start, SimTime end) {
     Worst worst;
     SimTime when;
@@ -78,14 +78,14 @@ Worst plain_worst(const Frames& frames, SimTime start, SimTime end) {
     return worst;
 }
 
-TEST(Interference, NothingDisturbsAReceptionAlone) {
+TEST(Interference, IsZeroForASingleFrame) {
     InterferenceSum sum;
     sum.begin(us(0), us(10));
     EXPECT_EQ(sum.worst_w(), 0);
     EXPECT_EQ(sum.steps(), (std::vector<InterferenceStep>{{us(0), 0}}));
 }
 
-TEST(Interference, WhatTouchesThePeriodOnlyAtAnEndDoesNotDisturb) {
+TEST(Interference, IgnoresFramesThatOnlyTouchThePeriod) {
     InterferenceSum sum;
     Frames frames;
     sum.begin(us(10), us(20));
@@ -104,7 +104,7 @@ TEST(Interference, StepsFollowStartsAndEnds) {
     EXPECT_EQ(sum.steps(), (std::vector<InterferenceStep>{{us(10), 1}, {us(12), 3}, {us(16), 2}}));
 }
 
-TEST(Interference, AWeakFrameIsNotLostBesideAStrongOne) {
+TEST(Interference, KeepsAWeakFrameNextToAStrongOne) {
     InterferenceSum sum;
     Frames frames;
     sum.begin(us(0), us(20));
@@ -125,19 +125,19 @@ std::vector<NodeId> named_of(const std::vector<double>& powers_w) {
     return sum.interferers();
 }
 
-TEST(Interferers, WhomOneOutweighsTogetherAreNotNamed) {
+TEST(Interferers, ExcludeWeakOnesOutweighedByOne) {
     EXPECT_EQ(named_of({1, 2, 10, 3}), (std::vector<NodeId>{3}));
 }
 
-TEST(Interferers, AsManyAreNamedAsOutweighTheRest) {
+TEST(Interferers, IncludeEnoughToOutweighTheRest) {
     EXPECT_EQ(named_of({1, 5, 4, 3}), (std::vector<NodeId>{2, 3}));
 }
 
-TEST(Interferers, WhoIsAsStrongAsTheLastIsNamedToo) {
+TEST(Interferers, IncludeThoseAsStrongAsTheLast) {
     EXPECT_EQ(named_of({4, 1, 4, 4}), (std::vector<NodeId>{1, 3, 4}));
 }
 
-TEST(Interferers, AreNoneWhereNothingDisturbs) {
+TEST(Interferers, AreEmptyWithoutInterference) {
     EXPECT_TRUE(named_of({}).empty());
 }
 
@@ -160,13 +160,13 @@ protected:
     InterferenceSum sum;
 };
 
-TEST_P(RandomFrames, WorstIsThatOfThePlainSearchToTheLastBit) {
+TEST_P(RandomFrames, WorstMomentMatchesThePlainSearch) {
     const Worst expected = plain_worst(frames, us(20), us(40));
     EXPECT_EQ(sum.worst_w(), expected.sum_w);
     EXPECT_EQ(sum.interferers(), expected.interferers);
 }
 
-TEST_P(RandomFrames, StepsAreTheSumAtEveryMoment) {
+TEST_P(RandomFrames, StepsMatchTheSumAtEveryMoment) {
     const auto& steps = sum.steps();
     EXPECT_EQ(steps.front().start, us(20));
     for (std::size_t i = 0; i < steps.size(); ++i) {

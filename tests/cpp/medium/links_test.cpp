@@ -11,30 +11,30 @@
 namespace netsim {
 namespace {
 
-ReceiverKind usual() {
+ReceiverParameters usual() {
     return {.band = {2.412e9, 20e6}, .sensitivity_w = 3e-12, .energy_detection_w = 3e-12, .noise_w = 1e-14};
 }
 
-ReceiverKind with_sensitivity(double sensitivity_w) {
-    ReceiverKind kind = usual();
+ReceiverParameters with_sensitivity(double sensitivity_w) {
+    ReceiverParameters kind = usual();
     kind.sensitivity_w = sensitivity_w;
     return kind;
 }
 
-ReceiverKind elsewhere() {
-    ReceiverKind kind = usual();
+ReceiverParameters elsewhere() {
+    ReceiverParameters kind = usual();
     kind.band.carrier_hz = 2.437e9;
     return kind;
 }
 
 class LinksTest : public testing::Test {
 protected:
-    RadioId add(Position place, const ReceiverKind& kind = usual(), std::uint8_t interface = 0) {
+    RadioId add(Position place, const ReceiverParameters& kind = usual(), std::uint8_t interface = 0) {
         if (interface == 0) {
             places.emplace_back(place);
         }
         const auto node = static_cast<NodeId>(places.size()) - 1;
-        return links.add(InterfaceId{node, interface}, {.trajectory = &places.back(), .kind = kind},
+        return links.add(InterfaceId{node, interface}, {.trajectory = &places.back(), .parameters = kind},
                          MountedAntenna(), SimTime());
     }
     Transmission sent_by(RadioId radio, double power_w = 1e-3) const {
@@ -44,7 +44,7 @@ protected:
         sent.start = SimTime::from_us(10);
         sent.duration = SimTime::from_us(100);
         sent.power_w = power_w;
-        sent.band = links.kind(radio).band;
+        sent.band = links.receiver(radio).band;
         sent.origin = links.position(radio, sent.start);
         return sent;
     }
@@ -53,23 +53,23 @@ protected:
     Links links{MediumConfig(), 1};
 };
 
-TEST_F(LinksTest, OfOneBandAndLikeEarsAreOneAudience) {
+TEST_F(LinksTest, GroupsReceiversOfOneBandAndSimilarSensitivity) {
     const RadioId one = add({0, 0, 0});
     const RadioId like = add({10, 0, 0}, with_sensitivity(2.9e-12));
-    EXPECT_EQ(links.audience_of(one), links.audience_of(like));
-    EXPECT_EQ(links.audiences().size(), 1U);
-    EXPECT_EQ(links.audiences()[0].least_w, 2.9e-12);
+    EXPECT_EQ(links.group_of(one), links.group_of(like));
+    EXPECT_EQ(links.groups().size(), 1U);
+    EXPECT_EQ(links.groups()[0].min_power_w, 2.9e-12);
 }
 
-TEST_F(LinksTest, WhoHearsMuchLessOrElsewhereIsOfAnotherAudience) {
+TEST_F(LinksTest, SeparatesReceiversOfOtherBandsOrSensitivities) {
     const RadioId one = add({0, 0, 0});
     const RadioId keen = add({10, 0, 0}, with_sensitivity(1e-15));
     const RadioId other = add({10, 0, 0}, elsewhere());
-    EXPECT_NE(links.audience_of(one), links.audience_of(keen));
-    EXPECT_NE(links.audience_of(one), links.audience_of(other));
+    EXPECT_NE(links.group_of(one), links.group_of(keen));
+    EXPECT_NE(links.group_of(one), links.group_of(other));
 }
 
-TEST_F(LinksTest, AnArrivalComesAfterItsWayAndIsLockableIfItIsStrongEnough) {
+TEST_F(LinksTest, AnArrivalIsDelayedAndLockableIfStrongEnough) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Position place{300, 0, 0};
@@ -84,7 +84,7 @@ TEST_F(LinksTest, AnArrivalComesAfterItsWayAndIsLockableIfItIsStrongEnough) {
     }
 }
 
-TEST_F(LinksTest, AShareOfTheBandBringsThatShareOfThePower) {
+TEST_F(LinksTest, AShareOfTheBandGetsThatShareOfThePower) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Position place{300, 0, 0};
@@ -92,28 +92,28 @@ TEST_F(LinksTest, AShareOfTheBandBringsThatShareOfThePower) {
                      links.power_w(sent_by(sender), 1, receiver, place, 300) / 4);
 }
 
-TEST_F(LinksTest, NobodyGetsAPowerFromBeyondItsReach) {
+TEST_F(LinksTest, NoReceiverBeyondTheReachGetsThePower) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Transmission sent = sent_by(sender);
-    Audience& audience = links.audiences()[0];
-    const double reach_m = links.reach_m(audience, sent);
-    EXPECT_EQ(reach_m, links.reach_of_power_m(sent, audience, audience.noticed_w(sent)));
-    EXPECT_LT(links.power_w(sent, 1, receiver, {reach_m, 0, 0}, reach_m), audience.least_w);
-    EXPECT_GT(links.power_w(sent, 1, receiver, {0.999 * reach_m, 0, 0}, 0.999 * reach_m), audience.least_w);
-    EXPECT_EQ(links.reach_of_power_m(sent, audience, 0), std::numeric_limits<double>::infinity());
+    ReceiverGroup& group = links.groups()[0];
+    const double reach_m = links.reach_m(group, sent);
+    EXPECT_EQ(reach_m, links.reach_of_power_m(sent, group, group.min_noticed_w(sent)));
+    EXPECT_LT(links.power_w(sent, 1, receiver, {reach_m, 0, 0}, reach_m), group.min_power_w);
+    EXPECT_GT(links.power_w(sent, 1, receiver, {0.999 * reach_m, 0, 0}, 0.999 * reach_m), group.min_power_w);
+    EXPECT_EQ(links.reach_of_power_m(sent, group, 0), std::numeric_limits<double>::infinity());
 }
 
-TEST_F(LinksTest, WhoIsNearerThanThatFindsItLoud) {
+TEST_F(LinksTest, ReceiversWithinTheEdRadiusExceedTheThreshold) {
     const RadioId sender = add({0, 0, 0});
     const RadioId receiver = add({300, 0, 0});
     const Transmission sent = sent_by(sender);
-    const double loud_m = links.loud_to_all_m(sent, links.audiences()[0]);
+    const double loud_m = links.ed_radius_m(sent, links.groups()[0]);
     ASSERT_GT(loud_m, 0);
-    EXPECT_TRUE(usual().is_surely_loud(links.power_w(sent, 1, receiver, {loud_m, 0, 0}, loud_m)));
+    EXPECT_TRUE(usual().surely_exceeds_ed(links.power_w(sent, 1, receiver, {loud_m, 0, 0}, loud_m)));
 }
 
-TEST_F(LinksTest, TheAddresseeIsTheInterfaceOfThatNodeThatCanDecodeIt) {
+TEST_F(LinksTest, TheAddresseeIsTheInterfaceThatCanDecodeIt) {
     const RadioId sender = add({0, 0, 0});
     add({10, 0, 0}, elsewhere());
     const RadioId second = add({10, 0, 0}, usual(), 1);

@@ -15,7 +15,7 @@ using test::Air;
 using test::BareRadio;
 using test::us;
 
-// At the end of whatever it could lock on to, holds the bounds of what disturbed that against the sum.
+// Compares the bounds of the interference with the sum, at the end of every lockable arrival.
 class Judge final : public MediumListener {
 public:
     Judge(Air& air, Position place) : medium_(air.medium), trajectory_(place) {
@@ -30,19 +30,19 @@ public:
     void arrival_started(const Arrival&) override {}
     void arrival_ended(const Arrival& arrival) override {
         if (arrival.lockable) {
-            const double most_w =
+            const double max_w =
                 medium_.interference_with(id_, arrival, arrival.start, arrival.end).worst_w();
-            const double bound_w = medium_.most_interference_w(id_, arrival);
-            EXPECT_LE(most_w, bound_w);
-            EXPECT_LE(bound_w, medium_.most_interference_w(arrival) * (1 + 1e-6));
-            disturbed += most_w > 0 ? 1 : 0;
-            most_sum_w += most_w;
+            const double bound_w = medium_.max_interference_w(id_, arrival);
+            EXPECT_LE(max_w, bound_w);
+            EXPECT_LE(bound_w, medium_.max_interference_w(arrival) * (1 + 1e-6));
+            disturbed += max_w > 0 ? 1 : 0;
+            max_sum_w += max_w;
             bound_sum_w += bound_w;
         }
     }
 
     int disturbed = 0;
-    double most_sum_w = 0;
+    double max_sum_w = 0;
     double bound_sum_w = 0;
 
 private:
@@ -51,7 +51,8 @@ private:
     RadioId id_ = 0;
 };
 
-// Thirty senders in a square of 4 km and a judge in its middle; each sends one frame within the time of five.
+// Thirty senders in a square of 4 km, and a receiver that checks at its center. Each sends one
+// frame within the duration of five.
 void send_all_over(Air& air, std::uint64_t seed) {
     RandomStream draws(seed, 0, Purpose{1002});
     for (int i = 0; i < 30; ++i) {
@@ -62,14 +63,14 @@ void send_all_over(Air& air, std::uint64_t seed) {
     air.run();
 }
 
-class BoundsOfInterference : public testing::TestWithParam<std::string_view> {};
+class InterferenceBounds : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
+TEST_P(InterferenceBounds, AreNeverBelowTheSum) {
     MediumConfig config;
     config.path_loss = GetParam();
     int disturbed = 0;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        Air air(config, Hearing::what_matters, seed);
+        Air air(config, Culling::enabled, seed);
         Judge judge(air, {0, 0, 5});
         send_all_over(air, seed);
         disturbed += judge.disturbed;
@@ -77,19 +78,19 @@ TEST_P(BoundsOfInterference, AreNeverBelowTheSum) {
     EXPECT_GT(disturbed, 10) << "too few overlap to judge by: with this path loss, senders are too far apart";
 }
 
-INSTANTIATE_TEST_SUITE_P(PathLosses, BoundsOfInterference, testing::ValuesIn(path_loss_names));
+INSTANTIATE_TEST_SUITE_P(PathLosses, InterferenceBounds, testing::ValuesIn(path_loss_names));
 
-TEST(BoundOfInterference, AtAReceiverIsNearTheSumOfThoseThatDisturbIt) {
+TEST(InterferenceBound, AtAReceiverIsCloseToTheSum) {
     Air air;
     Judge judge(air, {0, 0, 0});
     BareRadio& sender = air.add_radio({100, 0, 0}, test::radio_of_power(0.002));
-    BareRadio& close = air.add_radio({-600, 0, 0}, test::radio_of_power(0.002));
+    BareRadio& close_interferers = air.add_radio({-600, 0, 0}, test::radio_of_power(0.002));
     BareRadio& far = air.add_radio({0, 9000, 0}, test::radio_of_power(0.002));
-    for (BareRadio* each : {&sender, &close, &far}) {
+    for (BareRadio* each : {&sender, &close_interferers, &far}) {
         air.at(us(10), [each] { each->send(us(100)); });
     }
     air.run();
-    EXPECT_LE(judge.bound_sum_w, judge.most_sum_w * 1.01);
+    EXPECT_LE(judge.bound_sum_w, judge.max_sum_w * 1.01);
 }
 
 }  // namespace

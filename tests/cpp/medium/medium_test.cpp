@@ -40,7 +40,7 @@ TEST(Medium, ThePropagationDelayIsRoundedToAPicosecond) {
     EXPECT_EQ(sniffer.heard.at(0).end, us(110) + SimTime::from_ps(333'564));
 }
 
-TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
+TEST(Medium, ArrivesWithThePowerAfterPathLoss) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
     Sniffer& sniffer = air.add_sniffer({50, 0, 0});
@@ -49,7 +49,7 @@ TEST(Medium, ArrivesWithWhatThePathLossLeaves) {
     EXPECT_NEAR(sniffer.heard.at(0).power_w, 7.8264e-10, 1e-14);  // 13.0103 dBm − 74.0747 dB
 }
 
-TEST(Medium, OfManyRadiosEachHasItsOwnSensitivity) {
+TEST(Medium, EachRadioHasItsOwnSensitivity) {
     Air air;
     constexpr double arriving_w = 24.5e-12;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(test::power_for(arriving_w, 50)));
@@ -70,13 +70,13 @@ TEST(Medium, OfManyRadiosEachHasItsOwnSensitivity) {
     air.run();
 }
 
-// Of 22 MHz, channels that are 15 MHz apart share 7.
+// Channels of 22 MHz that are 15 MHz apart overlap by 7 MHz.
 RadioConfig three_channels_up(RadioConfig config = RadioConfig()) {
     config.carrier_hz += 15e6;
     return config;
 }
 
-TEST(Medium, OnAnOverlappingChannelTheShareOfItsPowerArrives) {
+TEST(Medium, AShareOfThePowerArrivesOnAnOverlappingChannel) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
     Sniffer& same = air.add_sniffer({50, 0, 0});
@@ -112,7 +112,7 @@ TEST(Medium, AFrameOfAnOverlappingChannelIsInterference) {
     EXPECT_EQ(air.frame_fates.interferers_at(receiver.id()), (std::map<NodeId, std::uint64_t>{{2, 1}}));
 }
 
-TEST(Medium, AtNoDistanceTheFrameArrivesAtOnceAndWhole) {
+TEST(Medium, AtDistanceZeroTheFrameArrivesAtOnceWithFullPower) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0}, test::radio_of_power(0.02));
     Sniffer& sniffer = air.add_sniffer({0, 0, 0});
@@ -122,7 +122,7 @@ TEST(Medium, AtNoDistanceTheFrameArrivesAtOnceAndWhole) {
     EXPECT_DOUBLE_EQ(sniffer.heard.at(0).power_w, 0.02);
 }
 
-TEST(Medium, PositionsAreThoseOfTheStartOfTheTransmission) {
+TEST(Medium, UsesPositionsAtTheStartOfTheTransmission) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0});
     Sniffer& sniffer = air.add_sniffer({light_microsecond_m, 0, 0});
@@ -150,7 +150,7 @@ TEST(Medium, MakesACopyForEveryOtherRadioOfTheBand) {
     EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::below_sensitivity), 1U);
 }
 
-TEST(Medium, TellsAddresseesFromOverhearers) {
+TEST(Medium, SeparatesAddresseesFromOverhearers) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0});
     BareRadio& addressee = air.add_radio({10, 0, 0});
@@ -172,7 +172,7 @@ TEST(Medium, ACopyIsInTheAirUntilItEnds) {
     EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::in_air), 0U);
 }
 
-TEST(Medium, ReceiversThatItDoesNotMatterToCostNoEvent) {
+TEST(Medium, IrrelevantReceiversCostNoEvent) {
     Air air;
     BareRadio& sender = air.add_radio({0, 0, 0});
     for (int i = 0; i < 100; ++i) {
@@ -183,7 +183,7 @@ TEST(Medium, ReceiversThatItDoesNotMatterToCostNoEvent) {
     EXPECT_EQ(air.simulator.event_count(), 1U);  // the end of the transmission
 }
 
-// Notes in which order receivers are told of the end of node 2's frames.
+// Records the order of notifications of the end of node 2's frames.
 class EndListener final : public MediumListener {
 public:
     EndListener(int name, std::vector<int>& order) : name_(name), order_(order) {}
@@ -200,7 +200,7 @@ private:
     std::vector<int>& order_;
 };
 
-TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
+TEST(Medium, TiesAreBrokenByNodeNotByNotification) {
     Air air;
     std::vector<int> order;
     const Trajectory place({0, 0, 0});
@@ -224,7 +224,7 @@ TEST(Medium, TiesAreBrokenByNodeAndNotByWhenTheyWereTold) {
     EXPECT_EQ(order, (std::vector{0, 1}));
 }
 
-TEST(Medium, ForgetsTransmissionsThatCannotMatterAnyMore) {
+TEST(Medium, DropsTransmissionsThatCannotMatter) {
     Air air;
     BareRadio& one = air.add_radio({0, 0, 0});
     BareRadio& other = air.add_radio({100, 0, 0});
@@ -242,9 +242,9 @@ TEST(Medium, ForgetsTransmissionsThatCannotMatterAnyMore) {
     EXPECT_LE(most, 4U);
 }
 
-TEST(Medium, RemembersAFrameForAsLongAsItInterferes) {
-    // The interferer ends just after the signal has begun, and many short frames elsewhere come and go
-    // meanwhile.
+TEST(Medium, KeepsAFrameWhileItInterferes) {
+    // The interferer ends just after the signal has begun, and many short frames elsewhere come and
+    // go meanwhile.
     Air air;
     BareRadio& receiver = air.add_radio({0, 0, 0});
     BareRadio& signal = air.add_radio({200, 0, 0}, test::radio_of_power(test::power_for(4e-12, 200)));

@@ -119,7 +119,8 @@ TEST(LinkBudget, WhereALimitDecidesTheShareIsTheChanceOfTheFading) {
     }
 }
 
-// Over the amplitude of a link, whose square is the gain, from its density and the chances without fading.
+// Over the amplitude of a link, whose square is the gain, from its density and the chances without
+// fading.
 double plain_mean(const LinkBudget& without_fading, const std::function<double(double)>& density,
                   double range_m, double power_w) {
     constexpr double step = 0.002;  // of the natural logarithm

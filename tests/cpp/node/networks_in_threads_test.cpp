@@ -1,5 +1,6 @@
-// Networks share nothing: several may run at the same time, each in a thread of its own. Under ThreadSanitizer
-// (`make test-threads`) this also finds what they share without an effect on the result.
+// Networks share nothing: several may run at the same time, each in a thread of its own. Under
+// ThreadSanitizer (`make test-threads`) this also finds what they share without an effect on the
+// result.
 #include <cstdint>
 #include <thread>
 #include <vector>

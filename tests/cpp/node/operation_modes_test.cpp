@@ -86,7 +86,8 @@ TEST(Network, AFrameThatAStationCannotDecodeMakesItsChannelBusy) {
 
 TEST(Network, AFrameThatAStationCannotDecodeDisturbsWhatItReceives) {
     Network network(MediumConfig(), 1);
-    // Too weak to be heard by the sender, 300 m away, and ten times as strong as its frame at the receiver.
+    // Too weak to be heard by the sender, 300 m away, and ten times as strong as its frame at the
+    // receiver.
     NodeConfig hidden = station("g(erp)", {10, 0, 0}, 6e6);
     hidden.wlan[0].radio.tx_power_w = 1e-4;
     Recorder& disturber = test::add_recorder(network, hidden);

@@ -1,6 +1,6 @@
-// Expected numbers come from outside this code: from the formulas at the top of error_rate.hpp evaluated with
-// 50 digits (mpmath: erfc, sqrt, exp, and the weight spectra as written there), from ns-3 3.44 and from
-// INET 4.5.
+// Expected numbers come from outside this code: from the formulas at the top of error_rate.hpp
+// evaluated with 50 digits (mpmath: erfc, sqrt, exp, and the weight spectra as written there), from
+// ns-3 3.44 and from INET 4.5.
 #include "netsim/phy/error_rate.hpp"
 
 #include <algorithm>
@@ -93,8 +93,8 @@ TEST(NistErrorModel, CckSuccessIsThatOfTheFits) {
     });
 }
 
-// A row of ns-3's table: the success of 8 · bytes bits in the frame's mode. A frame adds header, service field, tail
-// and padding, which the tests leave out.
+// A row of ns-3's table: the success of 8 · bytes bits in the frame's mode. A frame adds header,
+// service field, tail and padding, which the tests leave out.
 struct Chunk {
     std::string mode;
     int psdu_bytes = 0;
@@ -118,8 +118,8 @@ std::vector<Chunk> chunks_of_ns3() {
     return chunks;
 }
 
-// At 1 Mbps ns-3 takes bandwidth over bitrate, 22, where we take 2 times the SNIR: its curve, 10.41 dB to the
-// right, is ours.
+// At 1 Mbps ns-3 takes bandwidth over bitrate, 22, where we take 2 times the SNIR: its curve, 10.41
+// dB to the right, is ours.
 TEST(NistErrorModel, BitErrorsAreThoseOfNs3) {
     struct Column {
         double mbps;
@@ -139,8 +139,8 @@ TEST(NistErrorModel, BitErrorsAreThoseOfNs3) {
     }
 }
 
-// 1998 broadcast frames of 100 B per point, on INET's radio with this SNIR (free space, 2.412 GHz, -110 dBm
-// of noise): within 4 standard deviations of the binomial distribution.
+// 1998 broadcast frames of 100 B per point, on INET's radio with this SNIR (free space, 2.412 GHz,
+// -110 dBm of noise): within 4 standard deviations of the binomial distribution.
 TEST(NistErrorModel, ReceptionRatiosAreThoseOfInet) {
     struct Link {
         double mbps;
@@ -194,7 +194,7 @@ TEST(NistErrorModel, BitErrorsAreAtMostOneAndFallWithTheSnir) {
 std::vector<Mode> bounded_modes() {
     std::vector<Mode> modes;
     for (const Mode& each : mode_set("g(mixed)").modes()) {
-        if (NistErrorModel().least_success(each, infinity, 100) > 0) {
+        if (NistErrorModel().min_success(each, infinity, 100) > 0) {
             modes.push_back(each);
         }
     }
@@ -208,11 +208,11 @@ TEST(NistErrorModel, BoundsTheSuccessOfAllModesButCck) {
 TEST(NistErrorModel, SuccessIsNeverBelowItsBoundAtThatSnirOrALargerOne) {
     for (const Mode& each : bounded_modes()) {
         for (const int psdu_bytes : {14, 164, 1536}) {
-            double most_bound = 0;
+            double max_bound = 0;
             for (int step = 0; step < 23'037; ++step) {  // up to 1e4
                 const double snir = 1e-6 * std::pow(1.001, step);
-                most_bound = std::max(most_bound, NistErrorModel().least_success(each, snir, psdu_bytes));
-                EXPECT_GE(NistErrorModel().success_probability(each, snir, psdu_bytes), most_bound)
+                max_bound = std::max(max_bound, NistErrorModel().min_success(each, snir, psdu_bytes));
+                EXPECT_GE(NistErrorModel().success_probability(each, snir, psdu_bytes), max_bound)
                     << each.name << " at " << snir;
             }
         }
@@ -222,25 +222,26 @@ TEST(NistErrorModel, SuccessIsNeverBelowItsBoundAtThatSnirOrALargerOne) {
 TEST(NistErrorModel, SuccessIsNeverAboveItsBoundAtThatSnirOrASmallerOne) {
     for (const Mode& each : bounded_modes()) {
         for (const int psdu_bytes : {14, 164, 1536}) {
-            double least_bound = 2;
+            double min_bound = 2;
             for (int step = 23'036; step >= 0; --step) {  // from 1e4
                 const double snir = 1e-6 * std::pow(1.001, step);
-                least_bound = std::min(least_bound, NistErrorModel().most_success(each, snir, psdu_bytes));
-                EXPECT_LE(NistErrorModel().success_probability(each, snir, psdu_bytes), least_bound)
+                min_bound = std::min(min_bound, NistErrorModel().max_success(each, snir, psdu_bytes));
+                EXPECT_LE(NistErrorModel().success_probability(each, snir, psdu_bytes), min_bound)
                     << each.name << " at " << snir;
             }
         }
     }
 }
 
-// Where 1000 bytes fail once in a thousand times, the bound knows that they succeed 99 times in 100.
+// Where 1000 bytes fail once in a thousand times, the bound knows that they succeed 99 times in
+// 100.
 TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
     for (const Mode& each : bounded_modes()) {
         double snir = 0.1;
         while (NistErrorModel().success_probability(each, snir, 1000) < 0.999) {
             snir *= 1.001;
         }
-        EXPECT_GT(NistErrorModel().least_success(each, snir, 1000), 0.99) << each.name;
+        EXPECT_GT(NistErrorModel().min_success(each, snir, 1000), 0.99) << each.name;
     }
 }
 
@@ -251,25 +252,25 @@ TEST(NistErrorModel, TheBoundFromAboveIsCloseWhereNearlyAllFails) {
         while (NistErrorModel().success_probability(each, snir, 1000) > 0.01) {
             snir /= 1.001;
         }
-        EXPECT_LT(NistErrorModel().most_success(each, snir, 1000), 0.2) << each.name;
+        EXPECT_LT(NistErrorModel().max_success(each, snir, 1000), 0.2) << each.name;
     }
 }
 
 TEST(NistErrorModel, OfCckThereIsNoBound) {
     for (const double mbps : {5.5, 11.0}) {
-        EXPECT_EQ(NistErrorModel().least_success(mode(mbps), infinity, 100), 0) << mbps;
-        EXPECT_EQ(NistErrorModel().most_success(mode(mbps), 0, 100), 1) << mbps;
+        EXPECT_EQ(NistErrorModel().min_success(mode(mbps), infinity, 100), 0) << mbps;
+        EXPECT_EQ(NistErrorModel().max_success(mode(mbps), 0, 100), 1) << mbps;
     }
 }
 
 TEST(NistErrorModel, TheBoundSaysWhatIsCertain) {
     for (const Mode& each : bounded_modes()) {
-        EXPECT_EQ(NistErrorModel().least_success(each, 1000, 1000), 1) << each.name;
+        EXPECT_EQ(NistErrorModel().min_success(each, 1000, 1000), 1) << each.name;
     }
 }
 
-// Above some SNIR the model stops computing: there the longest frame succeeds to the last digit already. The
-// SNIR are 0.9 of those at which it stops.
+// Above some SNIR the model stops computing: there the longest frame succeeds to the last digit
+// already. The SNIR are 0.9 of those at which it stops.
 TEST(NistErrorModel, ShortCutForStrongSignalsChangesNoDigit) {
     for (const auto& [mbps, snir] :
          {std::pair{6.0, 13 * 0.9}, std::pair{9.0, 24 * 0.9}, std::pair{12.0, 26 * 0.9},

@@ -1,7 +1,7 @@
-// Durations are worked out by hand from the formulas at the top of modes.hpp. For OFDM and n bytes: n = 14:
-// 134 bits, 100: 822, 164: 1334, 1500: 12022; divided by N_DBPS and rounded up, times 4 µs, plus 20 µs. For
-// DSSS and CCK n = 14: 112 bits, 100: 800, 164: 1312, 1500: 12000; divided by the bitrate and rounded up to
-// µs, plus 192 µs.
+// Durations are computed by hand from the formulas at the top of modes.hpp. For OFDM and n bytes:
+// n = 14: 134 bits, 100: 822, 164: 1334, 1500: 12022; divided by N_DBPS and rounded up, times 4 µs,
+// plus 20 µs. For DSSS and CCK n = 14: 112 bits, 100: 800, 164: 1312, 1500: 12000; divided by the
+// bitrate and rounded up to µs, plus 192 µs.
 #include "netsim/phy/modes.hpp"
 
 #include <algorithm>
@@ -103,8 +103,8 @@ TEST(ModeSet, TableHasAllNamesOfTheConfiguration) {
     }
 }
 
-// Of two sets, one knows the formats of a mode of the other only if it has that mode itself: what a station can decode
-// follows from the formats.
+// Of two sets, one knows the formats of a mode of the other only if it has that mode itself: what a
+// station can decode follows from the formats.
 TEST(ModeSet, KnowsTheFormatsOfItsOwnModesOnly) {
     for (const std::string_view one : op_mode_names) {
         for (const std::string_view other : op_mode_names) {

@@ -15,7 +15,8 @@ using test::sensitivity_w;
 using test::strong_w;
 using test::us;
 
-// A signal of which one interferer leaves an SNIR of 5, and two at once 2.5, which is below the threshold.
+// A signal of which one interferer leaves an SNIR of 5, and two at once 2.5, which is below the
+// threshold.
 class PartialOverlap : public test::RadioAmongSenders {
 protected:
     void SetUp() override {

@@ -19,7 +19,8 @@ using test::us;
 
 constexpr double strong_w = 1e-10;
 
-// A receiver whose frames come from a microsecond away; its channel is busy by energy only far above them.
+// A receiver whose frames come from a microsecond away; its channel is busy by energy only far
+// above them.
 class RadioOptions : public testing::Test {
 protected:
     RadioOptions() { config.energy_detection_w = 1; }

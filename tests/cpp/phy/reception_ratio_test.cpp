@@ -1,7 +1,8 @@
-// Over distance, the share of frames that a radio decodes is what the error model says for the SNR there.
+// Over distance, the share of frames that a radio decodes is what the error model says for the SNR
+// there.
 //
-// Each count lies within the interval in which a binomial count lies 99.9 % of the time. Seeds are fixed, so
-// a test that passes once passes always.
+// Each count lies within the interval in which a binomial count lies 99.9 % of the time. Seeds are
+// fixed, so a test that passes once passes always.
 #include <cmath>
 #include <string>
 #include <vector>

@@ -48,19 +48,19 @@ double success(const ReceptionModel& reception, FramePart part, const Arrival& a
 TEST(Reception, NoInterferenceUpToTheBoundLeavesLessThanTheLeastSuccess) {
     const Frame100 frame(mode_set("g(erp)").mode_for_bitrate(24e6), 40);
     const ReceptionModel reception = model();
-    for (const double most_w : {0.0, 0.1 * noise_w, 0.5 * noise_w, 0.9 * noise_w}) {
-        const double least = reception.least_success(frame.arrival, most_w);
-        EXPECT_GT(least, 0) << most_w;
+    for (const double max_w : {0.0, 0.1 * noise_w, 0.5 * noise_w, 0.9 * noise_w}) {
+        const double least = reception.min_success(frame.arrival, max_w);
+        EXPECT_GT(least, 0) << max_w;
         for (const double share : {0.0, 0.3, 1.0}) {
-            EXPECT_GE(reception.success(frame.arrival, share * most_w), least) << share << " of " << most_w;
+            EXPECT_GE(reception.success(frame.arrival, share * max_w), least) << share << " of " << max_w;
         }
     }
 }
 
 TEST(Reception, BelowTheThresholdTheLeastSuccessIsNone) {
     const Frame100 frame(mode_set("g(erp)").mode_for_bitrate(6e6), 100);
-    EXPECT_GT(model(49).least_success(frame.arrival, noise_w), 0);
-    EXPECT_EQ(model(50).least_success(frame.arrival, noise_w), 0);
+    EXPECT_GT(model(49).min_success(frame.arrival, noise_w), 0);
+    EXPECT_EQ(model(50).min_success(frame.arrival, noise_w), 0);
 }
 
 // Also where its success is worked out from bounds, as of all but CCK, or is none, or is certain.
@@ -101,7 +101,8 @@ TEST(Reception, PartsAreNeverBeyondTheEndOfTheFrame) {
     EXPECT_EQ(period_of(FramePart::data, frame.arrival).end, us(1018));
 }
 
-// The law of chunks: with the same noise everywhere, header and data together are the closed form of mode "min".
+// The law of chunks: with the same noise everywhere, header and data together are the closed form
+// of mode "min".
 TEST(Reception, UnderEvenNoiseChunksAreTheClosedForm) {
     RandomStream draws(1, 0, Purpose{1003});
     const auto modes = mode_set("g(mixed)").modes();

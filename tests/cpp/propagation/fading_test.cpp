@@ -127,8 +127,8 @@ TEST(Fading, ChancesOfShadowingAreThoseOfANormalNumber) {
     }
 }
 
-// Γ(m, x) / Γ(m) for whole and half m. Source: M. Abramowitz, I. A. Stegun, "Handbook of Mathematical Functions",
-// 1964, 6.5.13, 6.5.17 and 6.5.22.
+// Γ(m, x) / Γ(m) for whole and half m. Source: M. Abramowitz, I. A. Stegun, "Handbook of
+// Mathematical Functions", 1964, 6.5.13, 6.5.17 and 6.5.22.
 double gamma_above(double shape, double x) {
     const bool is_whole = shape == std::floor(shape);
     double above = is_whole ? std::exp(-x) : std::erfc(std::sqrt(x));
@@ -161,8 +161,8 @@ TEST(Fading, ChancesOfRayleighAreExponentialAndThoseOfNakagamiWithAShapeOf1) {
     }
 }
 
-// The power of k + 1 complex numbers, k drawn from Poisson's distribution of mean K. Source: M. Abramowitz, I. A. Stegun, as
-// above, 26.4.25.
+// The power of k + 1 complex numbers, k drawn from Poisson's distribution of mean K. Source: M.
+// Abramowitz, I. A. Stegun, as above, 26.4.25.
 TEST(Fading, ChancesOfRicianAreThoseOfGammaWithAShapeFromPoisson) {
     for (const double k_db : {-100.0, -10.0, 0.0, 8.0, 20.0}) {
         MediumConfig rician = config_of("RicianFading");

@@ -1,4 +1,5 @@
-// Expected numbers were computed from the formulas with complex arithmetic in Python, not with this code.
+// Expected numbers were computed from the formulas with complex arithmetic in Python, not with this
+// code.
 #include "netsim/propagation/material.hpp"
 
 #include <cmath>

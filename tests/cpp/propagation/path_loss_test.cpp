@@ -1,4 +1,5 @@
-// Expected numbers were computed from the formulas in decibels with 50 digits (mpmath), not with this code.
+// Expected numbers were computed from the formulas in decibels with 50 digits (mpmath), not with
+// this code.
 #include "netsim/propagation/path_loss.hpp"
 
 #include <cmath>
@@ -107,8 +108,8 @@ TEST(PathLoss, ReachOfExtremeGains) {
     EXPECT_EQ(free_space().reach_m(0, channel_1_hz), std::numeric_limits<double>::infinity());
 }
 
-// By default the loss steps up at the breakpoint, from 58.26 dB to 58.5 dB: 58.4 dB are reached just below
-// it.
+// By default the loss steps up at the breakpoint, from 58.26 dB to 58.5 dB: 58.4 dB are reached
+// just below it.
 TEST(PathLoss, ReachStopsAtAStepUpOfTheLoss) {
     EXPECT_DOUBLE_EQ(breakpoint().reach_m(ratio_from_db(-58.4), channel_1_hz), 8);
 }

@@ -26,7 +26,8 @@ Transmission sent_from(const Position& origin, NodeId sender = 0, SimTime start 
     return sent;
 }
 
-// Each path loss with drawn parameters, over drawn positions, near and far, up to a scene's diagonal.
+// Each path loss with drawn parameters, over drawn positions, near and far, up to a scene's
+// diagonal.
 class EveryPathLoss : public testing::TestWithParam<std::string_view> {
 protected:
     EveryPathLoss() { config.path_loss = GetParam(); }
@@ -53,8 +54,8 @@ TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
         const double distance_m = distance(a, b);
         const double gain = propagation.gain(sent_from(a, 0, SimTime::from_us(i)), {1, 0}, b, distance_m);
         ASSERT_GE(gain, 0);
-        ASSERT_LE(gain, propagation.most_gain_beyond(distance_m, 2.412e9) * (1 + 1e-12));
-        ASSERT_LE(gain, propagation.most_gain_beyond(between(0, distance_m), 2.412e9) * (1 + 1e-12));
+        ASSERT_LE(gain, propagation.max_gain_beyond(distance_m, 2.412e9) * (1 + 1e-12));
+        ASSERT_LE(gain, propagation.max_gain_beyond(between(0, distance_m), 2.412e9) * (1 + 1e-12));
         if (gain > 0) {
             ASSERT_GE(propagation.reach_m(gain, 2.412e9) * (1 + 1e-12), distance_m) << gain;
         }
@@ -144,8 +145,8 @@ TEST(Propagation, ObstaclesAreAFactorOnIt) {
 
 TEST(Propagation, DelayIsThatOfLight) {
     EXPECT_EQ(propagation_delay(299.792458), SimTime::from_us(1));
-    EXPECT_GE(most_propagation_delay(299.792458), SimTime::from_us(1));
-    EXPECT_GT(most_propagation_delay(std::numeric_limits<double>::infinity()), SimTime::from_seconds(1e6));
+    EXPECT_GE(max_propagation_delay(299.792458), SimTime::from_us(1));
+    EXPECT_GT(max_propagation_delay(std::numeric_limits<double>::infinity()), SimTime::from_seconds(1e6));
 }
 
 TEST(Propagation, UnknownPathLossIsAnError) {

@@ -1,4 +1,5 @@
-// Expected numbers were computed from complex amplitudes with 40 digits (mpmath), not with this code.
+// Expected numbers were computed from complex amplitudes with 40 digits (mpmath), not with this
+// code.
 #include "netsim/propagation/two_ray.hpp"
 
 #include <string>

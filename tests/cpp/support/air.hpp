@@ -43,7 +43,8 @@ struct Heard {
     double power_w;
 };
 
-// Hears every frame of its band at its place and keeps the instants. Sends nothing, disturbs nothing.
+// Hears every frame of its band at its place and keeps the instants. Sends nothing, disturbs
+// nothing.
 class Sniffer final : public MediumListener {
 public:
     explicit Sniffer(Position place) : trajectory(place) {}
@@ -59,9 +60,9 @@ public:
     }
 };
 
-inline std::shared_ptr<const RadioKind> kind_of(const RadioConfig& config, Medium& medium,
-                                                std::uint64_t seed) {
-    return std::make_shared<const RadioKind>(config, medium, seed);
+inline std::shared_ptr<const RadioModel> model_of(const RadioConfig& config, Medium& medium,
+                                                  std::uint64_t seed) {
+    return std::make_shared<const RadioModel>(config, medium, seed);
 }
 
 // A radio without a MAC.
@@ -69,7 +70,7 @@ struct BareRadio {
     BareRadio(Simulator& simulator, Medium& medium, InterfaceId interface, const RadioConfig& config,
               Position place, std::uint64_t seed)
         : trajectory(place),
-          radio(interface, kind_of(config, medium, seed), config.tx_power_w, trajectory),
+          radio(interface, model_of(config, medium, seed), config.tx_power_w, trajectory),
           log(simulator) {
         radio.set_listener(log);
     }
@@ -118,7 +119,7 @@ struct Station final : NetworkInterfaceListener {
             const MacConfig& mac_config, Position place, std::uint64_t seed)
         : simulator(simulator_),
           trajectory(place),
-          radio(interface, kind_of(radio_config, medium, seed), radio_config.tx_power_w, trajectory),
+          radio(interface, model_of(radio_config, medium, seed), radio_config.tx_power_w, trajectory),
           dcf(radio, std::make_shared<const DcfParameters>(simulator_, mac_config), seed) {
         dcf.set_listener(this);
     }
@@ -151,9 +152,9 @@ struct Station final : NetworkInterfaceListener {
 
 class Air {
 public:
-    explicit Air(const MediumConfig& config = MediumConfig(), Hearing hearing = Hearing::what_matters,
+    explicit Air(const MediumConfig& config = MediumConfig(), Culling culling = Culling::enabled,
                  std::uint64_t seed = 1)
-        : medium(simulator, config, frame_fates, fingerprint, hearing, seed), seed_(seed) {}
+        : medium(simulator, config, frame_fates, fingerprint, culling, seed), seed_(seed) {}
 
     // The first interface of one more node.
     InterfaceId next_node() {

@@ -1,4 +1,5 @@
-// Numbers, flags and names taken from any bytes, zeros when they have run out. Used by what the fuzzer draws.
+// Numbers, flags and names taken from any bytes, zeros when they have run out. Used by what the
+// fuzzer draws.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// The fixture of tests of CSMA/CA as in 802.15.4: devices on one air, and the durations and intervals of IEEE
-// 802.15.4, written out, from which instants are worked out by hand.
+// The fixture of tests of CSMA/CA as in 802.15.4: devices on one air, and the durations and
+// intervals of IEEE 802.15.4, written out, from which instants are computed by hand.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ struct Device final : NetworkInterfaceListener {
            std::uint64_t seed)
         : air(air_),
           trajectory(place),
-          radio(air.next_node(), kind_of(radio_config, air.medium, seed), radio_config.tx_power_w,
+          radio(air.next_node(), model_of(radio_config, air.medium, seed), radio_config.tx_power_w,
                 trajectory),
           csma(air.simulator, radio, config, seed) {
         csma.set_listener(this);
@@ -63,7 +63,8 @@ struct Device final : NetworkInterfaceListener {
     std::vector<SimTime> received;
 };
 
-// Devices that draw their backoffs from streams of one seed, a sniffer, and a radio that keeps the channel busy.
+// Devices that draw their backoffs from streams of one seed, a sniffer, and a radio that keeps the
+// channel busy.
 class CsmaDevices : public testing::Test {
 protected:
     static constexpr std::uint64_t seed = 7;

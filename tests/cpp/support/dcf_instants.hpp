@@ -1,5 +1,5 @@
-// What the tests of the Dcf count with: the instants are worked out by hand from the durations and intervals of IEEE
-// 802.11, which are written out here.
+// What the tests of the Dcf count with: the instants are computed by hand from the durations and
+// intervals of IEEE 802.11, which are written out here.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Draws what the models of path loss and fading have for parameters, on both sides of what is usual.
+// Draws what the models of path loss and fading have for parameters, on both sides of what is
+// usual.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
-// Random scenarios for what looks for receivers by place: more nodes than hear each other, on and around the borders
-// of any grid, anywhere in the world, fast ones among them, of several bands, powers and thresholds.
+// Random scenarios for what looks for receivers by place: more nodes than hear each other, on and
+// around the borders of any grid, anywhere in the world, fast ones among them, of several bands,
+// powers and thresholds.
 #pragma once
 
 #include "support/random_scenario.hpp"
@@ -29,8 +30,8 @@ inline RandomScenario make_far_flung_scenario(std::uint64_t seed) {
     const double reach_m =
         make_path_loss(scenario.medium).reach_m(usual.sensitivity_w / usual.tx_power_w, usual.carrier_hz);
     const int count = 33 + static_cast<int>(draws.uniform_int(chance(0.2) ? 300 : 100));
-    const double neighbours = log_between(0.3, 30);
-    const double area_m = reach_m * std::sqrt(3.14 * count / neighbours);
+    const double neighbors = log_between(0.3, 30);
+    const double area_m = reach_m * std::sqrt(3.14 * count / neighbors);
     const double lattice_m = chance(0.3) ? reach_m / (1 + draws.uniform_int(4)) : 0;
     const Position corner =
         chance(0.5) ? Position{}

@@ -1,9 +1,10 @@
-// A scenario and a script of commands read from any bytes: models of every name, positions, times, powers, ranges and texts
-// of every size.
+// A scenario and a script of commands read from any bytes: models of every name, positions, times,
+// powers, ranges and texts of every size.
 //
-// What the configurations refuse is no scenario, and what a node refuses is no command; everything else has to run
-// without a crash, no message may wait for nothing, and the ledgers have to balance. Used by the fuzzer (tests/fuzz), which
-// searches for bytes that break it, and by a test that tries random ones.
+// What the configurations refuse is no scenario, and what a node refuses is no command; everything
+// else has to run without a crash, no message may wait for nothing, and the ledgers have to
+// balance. Used by the fuzzer (tests/fuzz), which searches for bytes that break it, and by a test
+// that tries random ones.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +42,8 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t most_events = 20'000;
-    static constexpr int most_commands = 60;
+    static constexpr std::uint64_t max_events = 20'000;
+    static constexpr int max_commands = 60;
     static constexpr double longest_wait_s = 1.1e6;  // 2^20 backoff periods of a second, and a little
 
     void add_nodes(Network& network) {
@@ -56,7 +57,7 @@ private:
 
     void follow_script(Network& network) {
         SimTime now;
-        for (int command = 0; command < most_commands && !bytes_.empty(); ++command) {
+        for (int command = 0; command < max_commands && !bytes_.empty(); ++command) {
             if (network.node_count() == 0) {
                 return;
             }
@@ -69,7 +70,7 @@ private:
                 const double step_s = bytes_.number(1e-4);
                 if (step_s >= 0 && step_s < 1e3) {
                     now = now + SimTime::from_seconds(step_s);
-                    if (!network.run_until(now, most_events)) {
+                    if (!network.run_until(now, max_events)) {
                         return;
                     }
                 }
@@ -78,7 +79,8 @@ private:
         is_done_ = true;
     }
 
-    // Lets everything end that has begun. What waits for nothing is an error; very slow ones need not end.
+    // Lets everything end that has begun. What waits for nothing is an error; very slow ones need
+    // not end.
     std::string_view come_to_rest(Network& network) {
         if (!run_for(network, 100)) {
             return "";
@@ -99,7 +101,7 @@ private:
     }
 
     static bool run_for(Network& network, double seconds) {
-        return network.run_until(network.now() + SimTime::from_seconds(seconds), most_events);
+        return network.run_until(network.now() + SimTime::from_seconds(seconds), max_events);
     }
 
     static std::uint64_t waiting_messages(Network& network) {
@@ -135,7 +137,8 @@ private:
 
     Payload text() { return std::make_shared<const std::string>(bytes_.below(70'000), 'x'); }
 
-    // Every message has met its fate or waits in a queue; with nothing on the air, so has every copy of every frame.
+    // Every message has met its fate or waits in a queue; with nothing on the air, so has every
+    // copy of every frame.
     std::string imbalance(Network& network) const {
         for (std::size_t index = 0; is_at_rest_ && index < frame_kind_count; ++index) {
             for (const bool overheard : {false, true}) {

@@ -1,4 +1,5 @@
-// Two nodes 10 m apart for the tests of native protocols: one runs the protocol, the other one writes down.
+// Two nodes 10 m apart for the tests of native protocols: one runs the protocol, the other one
+// writes down.
 #pragma once
 
 #include <string_view>

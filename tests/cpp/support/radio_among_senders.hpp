@@ -1,4 +1,5 @@
-// The fixture of tests of a radio: a receiver, and senders around it whose frames reach it with a given power.
+// The fixture of tests of a radio: a receiver, and senders around it whose frames reach it with a
+// given power.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,5 @@
-// Draws options of the receiver for each node of a scenario: what they leave out of the energy, and for how long.
+// Draws options of the receiver for each node of a scenario: what they leave out of the energy, and
+// for how long.
 #pragma once
 
 #include "support/random_scenario.hpp"

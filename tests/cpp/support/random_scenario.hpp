@@ -1,4 +1,5 @@
-// Random scenarios: nodes whose links are good, marginal and hopeless, with bursts of messages that collide.
+// Random scenarios: nodes whose links are good, marginal and hopeless, with bursts of messages that
+// collide.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +22,7 @@ struct RandomScenario {
     Talk talk;
 };
 
-inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes = 3, int most_nodes = 40) {
+inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes = 3, int max_nodes = 40) {
     RandomStream draws(seed, 0, Purpose{1001});
     const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
     const auto log_between = [&](double low, double high) {
@@ -50,7 +51,8 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     const double lattice_m = chance(0.3) ? area_m / 4 : 0;  // equal distances, shared places
     const bool short_backoffs = chance(0.3);                // many frames in one instant
 
-    // From a stream of its own, so that scenarios without RTS are what they were before there was RTS.
+    // From a stream of its own, so that scenarios without RTS are what they were before there was
+    // RTS.
     RandomStream rts_draws(seed, 1, Purpose{1001});
     const bool with_rts = rts_draws.uniform() < 0.5;
     // Likewise options of the receiver, each drawn for each node.
@@ -66,7 +68,7 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     RandomStream mode_draws(seed, 5, Purpose{1001});
     const bool of_several_modes = mode_draws.uniform() < 0.3;
 
-    const int count = fewest_nodes + static_cast<int>(draws.uniform_int(most_nodes - fewest_nodes + 1));
+    const int count = fewest_nodes + static_cast<int>(draws.uniform_int(max_nodes - fewest_nodes + 1));
     for (int id = 0; id < count; ++id) {
         NodeConfig node("node " + std::to_string(id));
         node.initial_position = {between(0, area_m), between(0, area_m),
@@ -142,8 +144,8 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
 // A scenario as it runs, with what it delivered.
 class ScenarioRun {
 public:
-    explicit ScenarioRun(const RandomScenario& scenario, Hearing hearing = Hearing::what_matters)
-        : network(scenario.medium, scenario.seed, hearing) {
+    explicit ScenarioRun(const RandomScenario& scenario, Culling culling = Culling::enabled)
+        : network(scenario.medium, scenario.seed, culling) {
         for (const NodeConfig& config : scenario.nodes) {
             Node& node = network.add_node(config);
             node.set_protocol(std::make_unique<Talker>(node, scenario.talk, deliveries));

@@ -1,5 +1,5 @@
-// A protocol that talks at random, through all its interfaces: bursts of messages at random times and changes of
-// course, from a stream of its own.
+// A protocol that talks at random, through all its interfaces: bursts of messages at random times
+// and changes of course, from a stream of its own.
 #pragma once
 
 #include <memory>
@@ -100,7 +100,8 @@ private:
             }
         }
     }
-    // Draws nothing for a share of 0, so that scenarios without what it is the share of stay as they are.
+    // Draws nothing for a share of 0, so that scenarios without what it is the share of stay as
+    // they are.
     bool draws_below(double share) { return share > 0 && draws_.uniform() < share; }
     // Who has only one draws nothing, likewise.
     std::int32_t interface() {

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.cli.calibration import check_picture, draw, text
+from gradysim.cli.calibrate import check_picture, draw, text_of_calibration
 from gradysim.integrated.calibration import Calibration
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.parameter_types import quantity
@@ -36,13 +36,13 @@ def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None
 
 @pytest.mark.parametrize(("interfaces", "wlan"), [(1, "wlan[*]"), (2, "wlan[0]")])
 def test_its_line_sets_the_power_of_the_interface_that_it_is_about(interfaces: int, wlan: str) -> None:
-    lines = text(calibration(interfaces)).splitlines()
+    lines = text_of_calibration(calibration(interfaces)).splitlines()
     assert f"    *.relay.{wlan}.radio.transmitter.power = 1mW" in lines
 
 
 @given(st.floats(min_value=1e-15, max_value=1e9))
 def test_its_powers_are_the_next_ones_that_are_enough(tx_power_w: float) -> None:
-    printed = text(replace(calibration(), tx_power_w=tx_power_w))
+    printed = text_of_calibration(replace(calibration(), tx_power_w=tx_power_w))
     power = quantity("W")
     (in_mw,) = re.findall(r"power = (\S+)$", printed, re.MULTILINE)
     assert tx_power_w <= float(power.convert(parse_value(in_mw))) <= tx_power_w * (1 + 1.1e-5)
@@ -52,26 +52,30 @@ def test_its_powers_are_the_next_ones_that_are_enough(tx_power_w: float) -> None
 
 
 def test_an_interface_that_is_not_the_first_is_named() -> None:
-    lines = text(replace(calibration(2), sender_interface=1, receiver="base.wlan[1]")).splitlines()
+    lines = text_of_calibration(
+        replace(calibration(2), sender_interface=1, receiver="base.wlan[1]")
+    ).splitlines()
     assert lines[0] == "relay.wlan[1] to base.wlan[1]: 0.5 of the broadcast frames are received at 50 m"
     assert "    *.relay.wlan[1].radio.transmitter.power = 1mW" in lines
 
 
 def test_a_sensitivity_that_decides_is_told() -> None:
-    assert "sensitivity of -90 dBm decides" in text(calibration(deciding_sensitivity_w=1e-12))
-    assert "sensitivity" not in text(calibration())
+    assert "sensitivity of -90 dBm decides" in text_of_calibration(calibration(deciding_sensitivity_w=1e-12))
+    assert "sensitivity" not in text_of_calibration(calibration())
 
 
 def test_a_channel_without_noise_is_told() -> None:
-    assert "\n10.00 dB above the noise), with a power of" in text(calibration())
-    assert "\nwithout noise), with a power of" in text(replace(calibration(), snr_at_range=math.inf))
+    assert "\n10.00 dB above the noise), with a power of" in text_of_calibration(calibration())
+    assert "\nwithout noise), with a power of" in text_of_calibration(
+        replace(calibration(), snr_at_range=math.inf)
+    )
 
 
 def test_a_preamble_that_asks_for_more_is_told() -> None:
-    told = text(replace(calibration(), deciding_preamble_w=10**-11.2))
+    told = text_of_calibration(replace(calibration(), deciding_preamble_w=10**-11.2))
     assert "receiver's preambleDetection.minimumPower of -82 dBm decides, not the noise: no" in told
     assert "sensitivity" not in told
-    assert "preamble" not in text(calibration())
+    assert "preamble" not in text_of_calibration(calibration())
 
 
 @pytest.mark.parametrize(
@@ -79,10 +83,10 @@ def test_a_preamble_that_asks_for_more_is_told() -> None:
     [(1, "The obstacle is left"), (2, "The 2 obstacles are left")],
 )
 def test_obstacles_that_are_left_out_are_told(obstacles: int, told: str) -> None:
-    assert f"\n{told} out: nothing stands in between.\n" in text(
+    assert f"\n{told} out: nothing stands in between.\n" in text_of_calibration(
         replace(calibration(), obstacles_left_out=obstacles)
     )
-    assert "left out" not in text(calibration())
+    assert "left out" not in text_of_calibration(calibration())
 
 
 @pytest.mark.parametrize(
@@ -90,7 +94,7 @@ def test_obstacles_that_are_left_out_are_told(obstacles: int, told: str) -> None
     [(2.5, "   2.5 m"), (2561.725, "2561.7 m"), (99_999.6, "100000 m"), (1_234_567.8, "1234568 m")],
 )
 def test_distances_are_metres_without_an_exponent(distance_m: float, written: str) -> None:
-    lines = text(replace(calibration(), curve=((distance_m, 0.5),))).splitlines()
+    lines = text_of_calibration(replace(calibration(), curve=((distance_m, 0.5),))).splitlines()
     assert lines[-1].startswith(f"{written}    50.00 %  █")
 
 

@@ -1,6 +1,6 @@
 """What Ctrl-C does to a run."""
 
-from python.cli.command import both_modes, interrupt_endless_run, objects
+from python.cli.command import PROTOCOL, both_modes, interrupt_endless_run, objects
 
 
 @both_modes
@@ -19,7 +19,9 @@ def test_a_second_ctrl_c_leaves_a_protocol_that_never_returns(gradysim, mode):
     assert done.returncode == 130
     (run,) = objects(done.stdout)
     assert (run["interrupted"], run["sim_time_s"]) == (True, 1.0)
-    assert "Stuck: run 0 was interrupted, 0 of 3 runs are done, 2 were not begun (1..2)" in done.stderr
+    line = PROTOCOL.splitlines().index("            signal.raise_signal(signal.SIGINT)") + 1
+    assert f'protocol.py", line {line}, in handle_timer' in done.stderr
+    assert "in handle_timer of node 0 (Stuck 0) at 1 s of simulated time" in done.stderr
 
 
 @both_modes

@@ -2,7 +2,7 @@ from io import StringIO
 
 from rich.console import Console
 
-from gradysim.cli.key_table import markdown, plain_text, rich_tables
+from gradysim.cli.keys import markdown_page, plain_text, rich_tables
 from gradysim.scenario.key_list import KeyRow, KeySection
 
 SECTIONS = [KeySection("Of nodes", (KeyRow("*.nodes[*].a", "m", "1m", "Length"),))]
@@ -13,7 +13,7 @@ def test_plain_text_is_a_line_per_key() -> None:
 
 
 def test_markdown_is_a_table_per_section() -> None:
-    assert markdown(SECTIONS).endswith(
+    assert markdown_page(SECTIONS).endswith(
         "## Of nodes\n\n| key | unit or value | default | meaning |\n|---|---|---|---|\n"
         "| `*.nodes[*].a` | m | `1m` | Length |\n"
     )

@@ -96,7 +96,7 @@ def test_an_argument_that_nothing_takes_is_named_with_what_is_missing(gradysim, 
 def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
     done = gradysim("run", "test.ini", "--mode", "prototype", option, value)
     assert (done.returncode, done.stdout) == (2, "")
-    assert f"Invalid value for {option}: {value} is no whole number" in done.stderr
+    assert f"Invalid value for {option}: {value} is not an integer" in done.stderr
 
 
 @compiled

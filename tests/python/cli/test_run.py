@@ -232,3 +232,9 @@ def test_the_command_can_be_called_from_python(folder):
     with contextlib.redirect_stdout(output):
         assert main(["calibrate", str(folder / "test.ini"), "--range", "50m"]) == 0
     assert 40 * "█" in output.getvalue()
+
+
+def test_runs_lists_the_runs_of_a_configuration_without_nodes_or_time_limit(gradysim, folder):
+    (folder / "bare.ini").write_text("[General]\nrepeat = 2\n*.uavs[*].speed = ${speed=1, 2}mps\n")
+    done = gradysim("runs", "bare.ini")
+    assert (done.returncode, len(done.stdout.splitlines())) == (0, 4)

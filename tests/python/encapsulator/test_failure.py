@@ -32,5 +32,5 @@ def test_what_is_no_exception_as_others_has_a_note(exception):
     assert notes_on(exception) == notes_on(RuntimeError())
 
 
-def test_an_interruption_has_no_note():
-    assert notes_on(KeyboardInterrupt()) == []
+def test_an_interrupt_has_a_note_of_the_callback_that_does_not_return():
+    assert notes_on(KeyboardInterrupt()) == notes_on(ValueError())

@@ -281,13 +281,13 @@ def test_a_failing_constructor_gets_a_note(monkeypatch):
     assert failure.value.__notes__ == ["in __init__ of node 0 (Scripted 0) at 0 s of simulated time"]
 
 
-def test_an_interrupt_gets_no_note():
+def test_an_interrupt_gets_a_note():
     def initialize(protocol):
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt) as interrupt:
         Pair(initialize=initialize).run()
-    assert not hasattr(interrupt.value, "__notes__")
+    assert "in initialize of node 0" in interrupt.value.__notes__[0]
 
 
 def test_the_encapsulator_calls_the_protocol():

@@ -62,6 +62,11 @@ def test_only_the_proxy_includes_pybind11(root: Path, project_files: ProjectFile
     assert offenders == []
 
 
+def test_only_one_header_prefetches(root: Path, engine_files: list[Path]) -> None:
+    users = [str(file) for file in engine_files if "__builtin_prefetch" in (root / file).read_text()]
+    assert users == ["cpp/netsim/kernel/prefetch.hpp"]
+
+
 def test_every_folder_of_the_engine_has_its_layer(engine_files: list[Path]) -> None:
     assert sorted({layer(file) for file in engine_files} - set(LAYERS)) == []
 

@@ -14,7 +14,7 @@ void BeaconConfig::validate() const {
 }
 
 BeaconProtocol::BeaconProtocol(Node& node, const BeaconConfig& config)
-    : node_(node), message_(node.filler(config.payload_bytes)), config_(config) {}
+    : node_(node), message_(node.padding(config.payload_bytes)), config_(config) {}
 
 NativeProtocol BeaconProtocol::description() {
     using Config = BeaconConfig;
@@ -36,7 +36,7 @@ void BeaconProtocol::initialize() {
 }
 
 void BeaconProtocol::schedule() {
-    // Multiplied, not added up: all nodes round alike, and no error grows.
+    // Multiplied, not accumulated: all nodes round alike, and errors do not grow.
     const double time_s = start_s_ + static_cast<double>(sent_) * config_.interval_s;
     if (time_s < config_.stop_s) {
         node_.schedule_timer("beacon", SimTime::of_event(time_s));

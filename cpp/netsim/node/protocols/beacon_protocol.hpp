@@ -1,9 +1,10 @@
-// A node that broadcasts at regular times and counts what it hears: examples/reference/beacon.py, natively.
+// A node that broadcasts periodically and counts what it receives: examples/reference/beacon.py in
+// C++.
 #pragma once
 
 #include <cstdint>
 
-#include "netsim/kernel/fetch.hpp"
+#include "netsim/kernel/prefetch.hpp"
 #include "netsim/node/protocols/parameter.hpp"
 
 namespace netsim {
@@ -18,8 +19,8 @@ struct BeaconConfig {
     void validate() const;
 };
 
-// Message number k goes out at first_send + offset + k · interval. The offset is drawn at the start, between 0 and
-// spread. Tracked in the end: "sent", "received".
+// Message number k is sent at first_send + offset + k · interval. The offset is drawn at the start,
+// between 0 and spread. Tracked at the end: "sent", "received".
 class alignas(64) BeaconProtocol final : public Protocol {
 public:
     BeaconProtocol(Node& node, const BeaconConfig& config);
@@ -30,12 +31,13 @@ public:
     void handle_packet(const Payload&) override { ++received_; }
     void handle_telemetry(const Position&) override {}
     void finish() override;
-    void fetch() const override { netsim::fetch(*message_); }
+    void prefetch() const override { netsim::prefetch(*message_); }
 
 private:
     void schedule();
 
-    // First what every message that is heard touches: the cache line that the medium fetches ahead.
+    // The members that every received message reads come first: the cache line that the medium
+    // prefetches.
     std::int64_t received_ = 0;
     std::int64_t sent_ = 0;
     double start_s_ = 0;

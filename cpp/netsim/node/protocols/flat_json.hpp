@@ -1,4 +1,5 @@
-// JSON objects whose values are whole numbers, truth values and texts without escapes: the messages of ZigZag.
+// JSON objects whose values are integers, booleans and strings without escapes: the messages of
+// ZigZag.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace netsim {
 using FlatJsonValue = std::variant<bool, std::int64_t, std::string>;
 using FlatJson = std::map<std::string, FlatJsonValue, std::less<>>;
 
-// None for any other text.
+// None for any other string.
 std::optional<FlatJson> parse_flat_json(std::string_view text);
 
 }  // namespace netsim

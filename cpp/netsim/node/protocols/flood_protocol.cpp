@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view origin_timer = "flood";
 
-// Takes a whole number and the blank behind it from the front of `rest`.
+// Removes an integer and the space after it from the front of `rest`.
 bool take_number(std::string_view& rest, std::int64_t& number) {
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
     if (error != std::errc() || end == rest.data() + rest.size() || *end != ' ') {
@@ -75,7 +75,7 @@ std::string FloodProtocol::text(std::int64_t number, std::int64_t hops) const {
 }
 
 void FloodProtocol::handle_timer(const std::string& timer) {
-    if (timer != origin_timer) {  // the text of a message to be relayed
+    if (timer != origin_timer) {  // the timer is named after the message to relay
         node_.broadcast(std::make_shared<const std::string>(timer));
         ++relayed_;
         return;
@@ -98,7 +98,7 @@ void FloodProtocol::handle_packet(const Payload& message) {
         return;
     }
     ++received_;
-    most_hops_ = std::max(most_hops_, hops);
+    max_hops_ = std::max(max_hops_, hops);
     if (hops < config_.hop_limit) {
         const double time_s = node_.now().seconds() + node_.random().uniform(0, config_.jitter_s);
         node_.schedule_timer(text(number, hops + 1), SimTime::of_event(time_s, node_.now()));
@@ -107,8 +107,8 @@ void FloodProtocol::handle_packet(const Payload& message) {
 
 void FloodProtocol::finish() {
     const std::pair<std::string_view, std::int64_t> counts[] = {
-        {"sent", sent_},       {"received", received_},   {"duplicates", duplicates_},
-        {"relayed", relayed_}, {"most_hops", most_hops_},
+        {"sent", sent_},       {"received", received_},  {"duplicates", duplicates_},
+        {"relayed", relayed_}, {"most_hops", max_hops_},
     };
     for (const auto& [name, count] : counts) {
         node_.tracked_variables().set(name, count);

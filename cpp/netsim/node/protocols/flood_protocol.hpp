@@ -1,5 +1,5 @@
-// Flooding: a message reaches all nodes of a network, relayed by each of them once. examples/reference/flood.py,
-// natively.
+// Flooding: a message reaches all nodes of a network, relayed by each of them once.
+// examples/reference/flood.py in C++.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,9 @@ struct FloodConfig {
     void validate() const;
 };
 
-// A message is "NUMBER HOPS ", filled up with x to payload_bytes. HOPS, 1 from the origin, grows by one with each
-// relay. Tracked: "sent", "received" (each message once), "duplicates", "relayed", "most_hops".
+// A message is "NUMBER HOPS ", padded with x to payload_bytes. HOPS is 1 from the origin and grows
+// by 1 with each relay. Tracked: "sent", "received" (each message once), "duplicates", "relayed",
+// "most_hops".
 class FloodProtocol final : public Protocol {
 public:
     FloodProtocol(Node& node, const FloodConfig& config) : node_(node), config_(config) {}
@@ -47,7 +48,7 @@ private:
     std::int64_t received_ = 0;
     std::int64_t duplicates_ = 0;
     std::int64_t relayed_ = 0;
-    std::int64_t most_hops_ = 0;
+    std::int64_t max_hops_ = 0;
 };
 
 }  // namespace netsim

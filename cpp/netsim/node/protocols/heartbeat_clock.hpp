@@ -1,4 +1,4 @@
-// When heartbeats are sent: number k at k · interval + a random delay of up to `jitter`.
+// The times of heartbeats: number k at k · interval + a random delay of up to `jitter`.
 //
 // All nodes count from time zero, so without jitter they all send at exactly the same instants.
 #pragma once
@@ -12,7 +12,8 @@ namespace netsim {
 
 class HeartbeatClock {
 public:
-    // interval_s > 0; 0 ≤ jitter_s ≤ interval_s. The first heartbeat is the first one after `start_s`.
+    // interval_s > 0; 0 ≤ jitter_s ≤ interval_s. The first heartbeat is the first one after
+    // `start_s`.
     HeartbeatClock(double interval_s, double jitter_s, double start_s, RandomStream& random)
         : interval_s_(interval_s),
           jitter_s_(jitter_s),
@@ -27,7 +28,7 @@ public:
 private:
     double interval_s_;
     double jitter_s_;
-    double number_;  // a whole one
+    double number_;  // an integer
     RandomStream& random_;
 };
 

@@ -1,4 +1,4 @@
-// The native protocols: the table that `protocol.typename` of an .ini file is looked up in.
+// The table of native protocols, for `protocol.typename` in an .ini file.
 //
 // To add a protocol: its own file in this folder, and one line in native_protocols.cpp.
 #pragma once
@@ -11,10 +11,11 @@
 
 namespace netsim {
 
-// In the order in which lists show them.
+// In the order of listings.
 const std::vector<NativeProtocol>& native_protocols();
 
-// Gives `node` the protocol of that name. Throws ConfigError for a name, a parameter or a value that makes no sense.
+// Sets the protocol of that name on `node`. Throws ConfigError for an invalid name, parameter or
+// value.
 void set_native_protocol(Node& node, std::string_view name, const Parameters& parameters = {});
 
 }  // namespace netsim

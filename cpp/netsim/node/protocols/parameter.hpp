@@ -1,4 +1,4 @@
-// The parameters of native protocols: fields of a plain struct, each with the name, unit and meaning that people see.
+// The parameters of native protocols: fields of a plain struct, each with name, unit and meaning.
 #pragma once
 
 #include <algorithm>
@@ -18,31 +18,31 @@
 
 namespace netsim {
 
-// The alternatives are the kinds of parameters.
+// The alternatives are the types of parameters.
 using ParameterValue = std::variant<bool, std::int64_t, double>;
 
 struct Parameter {
-    std::string_view name;  // as in the Python class that does the same
+    std::string_view name;  // as in the equivalent Python class
     ParameterValue default_value;
     std::string_view unit;  // SI; "" for a plain number, "B" for a size in bytes
     std::string_view meaning;
 };
 
-// What is given; what is not has its default. A whole number will do for a number.
+// The given values; others have their defaults. An integer is accepted for a float.
 using Parameters = std::map<std::string, ParameterValue, std::less<>>;
 
 // One row of the table of native protocols.
 struct NativeProtocol {
     std::string_view name;
     std::string_view meaning;
-    std::string_view python_class;  // "file.py:Class" in examples/ that does the same, or ""
+    std::string_view python_class;  // the equivalent "file.py:Class" in examples/, or ""
     std::vector<Parameter> parameters;
-    // Makes the protocol of one node. Throws ConfigError for an unknown name, another kind of value, or one out of
-    // range.
+    // Creates the protocol of one node. Throws ConfigError for an unknown name, or a value of
+    // another type or out of range.
     std::function<std::unique_ptr<Protocol>(Node&, const Parameters&)> make;
 };
 
-// A field of the struct `Config`, and how it is called.
+// A field of the struct `Config` with its name.
 template <typename Config>
 struct ParameterField {
     std::string_view name;
@@ -55,18 +55,20 @@ struct ParameterField {
                                            const std::vector<std::string_view>& names);
 [[noreturn]] void refuse_kind_of_parameter(std::string_view parameter, const ParameterValue& expected);
 
-// For a size of messages, from 0 to what the node's wlan[0] takes, and at most 65,507 B (the largest UDP payload).
+// Checks a message size: from 0 to the limit of the node's wlan[0], and at most 65,507 B (the
+// largest UDP payload).
 void check_payload_bytes(Node& node, std::int64_t payload_bytes);
 
-// For the id of a node of the network that `node` is in, and for that of another one than `node`.
+// Check the id of a node in the network of `node`, and of one other than `node`.
 void check_node_id(const Node& node, std::string_view field, std::int64_t id);
 void check_other_node_id(const Node& node, std::string_view field, std::int64_t id);
 
-// For a protocol that moves its node: refuses a mobility that cannot.
+// For a protocol that moves its node: rejects a mobility model that cannot.
 void check_can_move(const Node& node, std::string_view protocol);
 
-// A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults and validate(), which
-// leaves a field `payload_bytes` to the check above: how long a message may be is up to the node.
+// A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults
+// and validate(). A field `payload_bytes` is checked by the function above, since its limit depends
+// on the node.
 template <typename Type, typename Config>
 NativeProtocol native_protocol(std::string_view name, std::string_view meaning, std::string_view python_class,
                                std::vector<ParameterField<Config>> fields) {

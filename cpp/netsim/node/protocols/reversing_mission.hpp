@@ -1,5 +1,5 @@
-// Flies a node along a list of waypoints, to and fro: the mission of gradysim.protocol.plugin.mission_mobility that
-// loops with REVERSE, natively. Driven by the telemetry of the node.
+// Flies a node along a list of waypoints, back and forth: gradysim.protocol.plugin.mission_mobility
+// with loop mode REVERSE, in C++. Driven by the telemetry of the node.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@ public:
     ReversingMission(Node& node, double speed_mps, double tolerance_m = 0.5)
         : node_(node), speed_mps_(speed_mps), tolerance_m_(tolerance_m) {}
 
-    // Whether the waypoints are being flown from the last to the first.
+    // Whether the node flies from the last waypoint to the first.
     bool is_reversed() const { return reversed_; }
     bool is_idle() const { return mission_.empty(); }
 
-    // Flies to the first of the waypoints (not none) and on from there.
+    // Starts at the first waypoint. There must be one.
     void start(std::vector<Position> mission);
-    // Turns round: flies to the next waypoint of the new direction, if it is new. Only when not idle.
+    // Reverses: flies to the next waypoint of the new direction, if it changed. Only when not idle.
     void set_reversed(bool reversed);
-    // The node's telemetry.
+    // Call it with the node's telemetry.
     void handle_telemetry(const Position& position);
 
 private:

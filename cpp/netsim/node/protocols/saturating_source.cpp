@@ -16,7 +16,7 @@ void SaturatingSourceConfig::validate() const {
 }
 
 SaturatingSource::SaturatingSource(Node& node, const SaturatingSourceConfig& config)
-    : node_(node), config_(config), message_(node.filler(config.payload_bytes)) {}
+    : node_(node), config_(config), message_(node.padding(config.payload_bytes)) {}
 
 NativeProtocol SaturatingSource::description() {
     using Config = SaturatingSourceConfig;

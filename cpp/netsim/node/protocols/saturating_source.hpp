@@ -1,4 +1,4 @@
-// A node that always has something to send: examples/reference/saturating_source.py, natively.
+// A node that always has something to send: examples/reference/saturating_source.py in C++.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct SaturatingSourceConfig {
     void validate() const;
 };
 
-// Hands a burst of messages to its MAC at regular times, faster than the channel can carry them: the queue never runs
-// empty. The defaults offer 32 Mbps of payload. What does not fit into the queue is dropped there. The time of the first
-// burst is drawn at the start, between 0 and spread.
+// It passes a burst of messages to its MAC periodically, faster than the channel can carry them:
+// the queue never runs empty. The defaults offer 32 Mbps of payload. Messages that do not fit into
+// the queue are dropped. The time of the first burst is drawn at the start, between 0 and spread.
 class SaturatingSource final : public Protocol {
 public:
     SaturatingSource(Node& node, const SaturatingSourceConfig& config);

@@ -1,7 +1,8 @@
-// Who holds which data, when messages can be lost: examples/zigzag/custody.py, natively.
+// Custody of data over a lossy channel: examples/zigzag/custody.py in C++.
 //
-// A message says how much its sender has handed to the receiver so far, in all. The receiver takes what is new to it,
-// so a message that comes twice adds nothing, and a lost one is made good by the next that gets through.
+// A message has the total number of readings that its sender has handed to the receiver so far. The
+// receiver takes what is new to it. So a duplicate adds nothing, and the next message makes up for
+// a lost one.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +19,14 @@ public:
     std::int64_t held() const { return held_; }
     // One more reading.
     void add_reading() { ++held_; }
-    // Readings handed to `peer` so far, in all: what a message to it says.
+    // The total number of readings handed to `peer` so far, for messages to it.
     std::int64_t given_to(NodeId peer) const {
         const auto found = given_.find(peer);
         return found == given_.end() ? 0 : found->second;
     }
-    // Hands everything to `peer`: the next message to it will say so.
+    // Hands all readings to `peer`, as of the next message to it.
     void give_all(NodeId peer) { given_[peer] += std::exchange(held_, 0); }
-    // Takes what is new in a message of `peer` that has `given` so many in all; returns how many.
+    // Takes what is new in a message of `peer` with the total `given`. Returns how many.
     std::int64_t take(NodeId peer, std::int64_t given) {
         std::int64_t& taken = taken_[peer];
         const std::int64_t added = std::max<std::int64_t>(0, given - taken);

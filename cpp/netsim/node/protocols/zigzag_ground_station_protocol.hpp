@@ -1,4 +1,4 @@
-// The ground station's part of ZigZag: examples/zigzag/ground_station.py, natively.
+// The ground station of ZigZag: examples/zigzag/ground_station.py in C++.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct ZigZagGroundStationConfig {
     void validate() const;
 };
 
-// Stands still and takes all data of each UAV that comes by; the UAV then flies away from it. Tracked: "data", readings
-// that have arrived; "deliveries", how often a UAV brought any.
+// Stands still and takes all data of each UAV that passes; the UAV then flies away from it.
+// Tracked: "data", readings received; "deliveries", how often a UAV brought any.
 class ZigZagGroundStationProtocol final : public Protocol {
 public:
     ZigZagGroundStationProtocol(Node& node, const ZigZagGroundStationConfig& config);

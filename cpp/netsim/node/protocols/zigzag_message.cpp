@@ -12,7 +12,7 @@ namespace netsim::zigzag {
 
 namespace {
 
-// One visitor says the fields of each message, for writing and for reading.
+// One visitor lists the fields of each message, for writing and reading.
 template <typename Visitor>
 void visit_fields(Visitor&& visitor, UavHeartbeat& message) {
     visitor("sender", message.sender);
@@ -54,7 +54,7 @@ struct Writer {
     }
 };
 
-// Fills the fields of a message; `complete` tells whether each was there, and of its type.
+// Fills the fields of a message. `complete`: whether each was present with the right type.
 struct FieldReader {
     const FlatJson& object;
     std::size_t fields = 0;

@@ -1,4 +1,4 @@
-// The messages of ZigZag, and their form on the air: the JSON texts of examples/zigzag/message.py, byte for byte.
+// The messages of ZigZag in JSON, byte for byte as in examples/zigzag/message.py.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace netsim::zigzag {
 
-// Broadcast by a UAV: I am here.
+// Heartbeat of a UAV, broadcast.
 struct UavHeartbeat {
     NodeId sender = 0;
     bool homeward = false;   // flies towards the ground station
@@ -18,7 +18,7 @@ struct UavHeartbeat {
     bool operator==(const UavHeartbeat&) const = default;
 };
 
-// Broadcast by the ground station: I am here, and I take everything.
+// Heartbeat of the ground station, broadcast. It takes all data.
 struct GroundHeartbeat {
     NodeId sender = 0;
 
@@ -32,16 +32,16 @@ struct SensorData {
     bool operator==(const SensorData&) const = default;
 };
 
-// The answer to a heartbeat: let us exchange our data and fly apart.
+// The reply to a heartbeat: a request to exchange data and fly apart.
 struct PairRequest {
     NodeId sender = 0;
     NodeId carrier = 0;      // the one of the two that gets all data
-    std::int64_t given = 0;  // what the sender has handed to the receiver so far, in all (see Custody)
+    std::int64_t given = 0;  // total handed to the receiver so far (see Custody)
 
     bool operator==(const PairRequest&) const = default;
 };
 
-// The answer to a PairRequest: agreed, and done on my side.
+// The reply to a PairRequest: confirmed, and done by the sender.
 struct PairConfirmation {
     NodeId sender = 0;
     NodeId carrier = 0;
@@ -53,7 +53,7 @@ struct PairConfirmation {
 using Message = std::variant<UavHeartbeat, GroundHeartbeat, SensorData, PairRequest, PairConfirmation>;
 
 Payload encode(const Message& message);
-// Throws SimulationError for a text that is no message of ZigZag.
+// Throws SimulationError for a string that is not a ZigZag message.
 Message decode(const std::string& text);
 
 }  // namespace netsim::zigzag

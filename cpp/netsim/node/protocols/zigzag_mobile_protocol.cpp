@@ -10,12 +10,12 @@
 namespace netsim {
 
 void ZigZagMobileConfig::validate() const {
-    constexpr double most_sensors = 1e6;
+    constexpr double max_sensors = 1e6;
     check_greater("protocol.heartbeat_interval", heartbeat_interval_s, 0, "s");
     check_between("protocol.heartbeat_jitter", heartbeat_jitter_s, 0, heartbeat_interval_s, "s");
     check_at_least("protocol.interaction_timeout", interaction_timeout_s, 0, "s");
     check_at_least("protocol.launch_interval", launch_interval_s, 0, "s");
-    check_between("protocol.sensor_count", static_cast<double>(sensor_count), 0, most_sensors, "");
+    check_between("protocol.sensor_count", static_cast<double>(sensor_count), 0, max_sensors, "");
     check_finite("protocol.sensor_spacing", sensor_spacing_m, "m");
     check_finite("protocol.altitude", altitude_m, "m");
     check_finite("protocol.altitude_step", altitude_step_m, "m");

@@ -1,4 +1,4 @@
-// The UAV's part of ZigZag: examples/zigzag/mobile.py, natively. How the protocol works is told there.
+// The UAV of ZigZag: examples/zigzag/mobile.py, which explains the protocol, in C++.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,9 @@ struct ZigZagMobileConfig {
     void validate() const;
 };
 
-// Flies to and fro over the sensors, collects their readings and relays them to the ground station. Tracked: "data",
-// readings that it holds; "collected", received from sensors so far; "interactions", exchanges so far.
+// Flies back and forth over the sensors, collects their readings and relays them to the ground
+// station. Tracked: "data", readings it holds; "collected", readings from sensors so far;
+// "interactions", exchanges so far.
 class ZigZagMobileProtocol final : public Protocol {
 public:
     ZigZagMobileProtocol(Node& node, const ZigZagMobileConfig& config);
@@ -50,9 +51,9 @@ private:
     void launch();
     void send_heartbeat();
     NodeId carrier_of_pair(NodeId peer, bool peer_is_homeward) const;
-    // Answers a heartbeat of `peer`.
+    // Replies to a heartbeat of `peer`.
     void ask(NodeId peer, NodeId carrier);
-    // Hands all data to `peer` if it is the carrier. Returns what the message to it says of that.
+    // Hands all data to `peer` if it is the carrier. Returns the total for the message to it.
     std::int64_t hand_over(NodeId peer, NodeId carrier);
     // Ends an exchange: the carrier flies towards the ground station, the other one away from it.
     void part(NodeId carrier);

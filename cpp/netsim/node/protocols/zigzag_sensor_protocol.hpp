@@ -1,4 +1,4 @@
-// The sensor's part of ZigZag: examples/zigzag/sensor.py, natively.
+// The sensor of ZigZag: examples/zigzag/sensor.py in C++.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ struct ZigZagSensorConfig {
     void validate() const {}
 };
 
-// Stands still and answers each heartbeat of a UAV with a reading. Tracked: "answered", readings sent so far.
+// Stands still and replies to each heartbeat of a UAV with a reading. Tracked: "answered", readings
+// sent so far.
 class ZigZagSensorProtocol final : public Protocol {
 public:
     ZigZagSensorProtocol(Node& node, const ZigZagSensorConfig&) : node_(node) {}

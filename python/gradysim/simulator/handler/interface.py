@@ -1,11 +1,13 @@
 """What a simulation expects of each of its handlers."""
 
-import asyncio
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.node import Node
+
+if TYPE_CHECKING:
+    import asyncio
 
 
 class INodeHandler(ABC):
@@ -57,7 +59,7 @@ class IAsyncNodeHandler(INodeHandler):
     `finalize` the remaining tasks are cancelled and the loop is closed.
     """
 
-    def inject_async(self, asyncio_loop: asyncio.AbstractEventLoop, real_time: float) -> None:
+    def inject_async(self, asyncio_loop: "asyncio.AbstractEventLoop", real_time: float) -> None:
         """Take the asyncio loop of a new simulation; called after `inject`.
 
         Args:

@@ -29,7 +29,7 @@ protected:
         };
         other->on_timer = [](test::Recorder& self, const std::string& text) { self.send(0, text); };
     }
-    // What the tested node said that is no heartbeat.
+    // What the tested node sent besides heartbeats.
     std::vector<Message> answers() const {
         std::vector<Message> result;
         for (const std::string& text : other->packet_texts()) {
@@ -74,7 +74,8 @@ TEST_F(ZigZagMobileTest, AsksForAnExchange) {
     hear({zigzag::SensorData{1}, zigzag::UavHeartbeat{1, false, true}, zigzag::UavHeartbeat{1, true, true},
           zigzag::GroundHeartbeat{1}});
     run("ZigZagMobileProtocol", hovering(), 50);
-    // Both fly outward: the lower id carries. The other flies homeward: this one carries. The station always carries.
+    // Both fly outward: the lower id carries. The other flies homeward: this one carries. The
+    // station always carries.
     EXPECT_EQ(answers(), (std::vector<Message>{zigzag::PairRequest{0, 0, 0}, zigzag::PairRequest{0, 0, 0},
                                                zigzag::PairRequest{0, 1, 1}}));
 }

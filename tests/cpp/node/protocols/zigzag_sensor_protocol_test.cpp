@@ -26,7 +26,7 @@ protected:
         };
         other->on_timer = [](test::Recorder& self, const std::string& text) { self.send(0, text); };
     }
-    // What the tested node said that is no heartbeat.
+    // What the tested node sent besides heartbeats.
     std::vector<Message> answers() const {
         std::vector<Message> result;
         for (const std::string& text : other->packet_texts()) {

@@ -1,0 +1,100 @@
+// The transmit queue of one interface: waiting frames, the frame in progress, and the ledger of
+// their messages.
+//
+//   add() -> WAITING --begin_next()--> IN PROGRESS --finish(fate)--> gone
+//     |
+//     +--the queue is full--> gone: queue_overflow
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "netsim/kernel/prefetch.hpp"
+#include "netsim/mac/frame.hpp"
+#include "netsim/mac/frame_fifo.hpp"
+#include "netsim/trace/message_fates.hpp"
+
+namespace netsim {
+
+class TransmitQueue {
+public:
+    // `node`: of the interface. `capacity`: of waiting frames; the one in progress does not count.
+    TransmitQueue(NodeId node, int capacity) : capacity_(capacity), node_(node) {}
+
+    // The frame of a new message from this node, with the next sequence number and without a
+    // duration field.
+    Frame frame_of(NodeId destination, Payload payload, int psdu_bytes, SimTime now) {
+        constexpr std::size_t max_prefetched = 256;
+        prefetch_bytes(payload->data(), std::min(payload->size(), max_prefetched));  // receivers will read it
+        Frame frame;
+        frame.kind = destination == broadcast_id ? FrameKind::broadcast : FrameKind::unicast;
+        frame.transmitter = node_;
+        frame.receiver = destination;
+        frame.sequence = next_sequence_++;
+        frame.psdu_bytes = psdu_bytes;
+        frame.payload = std::move(payload);
+        frame.accepted = now;
+        return frame;
+    }
+    // Accepts the message of a data frame. False if the queue is full and the frame is dropped.
+    bool add(Frame frame) {
+        const MessageKind kind = message_kind(frame);
+        fates_.accept(kind);
+        if (waiting() >= static_cast<std::size_t>(capacity_)) {
+            fates_.book(kind, MessageFate::queue_overflow);
+            return false;
+        }
+        queue_.push(std::make_shared<const Frame>(std::move(frame)));
+        return true;
+    }
+
+    // Waiting frames and the one in progress.
+    std::size_t size() const { return queue_.size(); }
+    bool empty() const { return queue_.empty(); }
+    const MessageFates& message_fates() const { return fates_; }
+
+    // Makes the first waiting frame, which must exist, the one in progress, unless a frame is in
+    // progress already.
+    void begin_next() { is_in_progress_ = true; }
+    bool is_in_progress() const { return is_in_progress_; }
+    // Only while there is a frame in progress, here and below.
+    const std::shared_ptr<const Frame>& in_progress() const { return queue_.front(); }
+    // Frames never change: these replace the frame in progress by a modified one.
+    void set_retry() {
+        if (!in_progress()->retry) {
+            change([](Frame& frame) { frame.retry = true; });
+        }
+    }
+    void set_duration_field(SimTime duration) {
+        if (in_progress()->duration_field != duration) {
+            change([duration](Frame& frame) { frame.duration_field = duration; });
+        }
+    }
+    // Removes the frame in progress.
+    void finish(MessageFate fate) {
+        fates_.book(message_kind(*in_progress()), fate);
+        queue_.pop();
+        is_in_progress_ = false;
+    }
+
+private:
+    template <typename Change>
+    void change(const Change& change) {
+        Frame changed = *in_progress();
+        change(changed);
+        queue_.front() = std::make_shared<const Frame>(std::move(changed));
+    }
+    std::size_t waiting() const { return queue_.size() - (is_in_progress_ ? 1 : 0); }
+
+    FrameFifo queue_;
+    int capacity_;
+    bool is_in_progress_ = false;  // the first
+    NodeId node_;
+    std::uint32_t next_sequence_ = 0;
+    MessageFates fates_;
+};
+
+}  // namespace netsim

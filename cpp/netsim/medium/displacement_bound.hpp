@@ -1,0 +1,42 @@
+// An upper bound for the displacement of any node, shared by all nodes.
+//
+// The total grows with the speed of the fastest node. Between two instants, no node is displaced by
+// more than the difference of the totals. So the error of positions noted earlier is known without
+// an event per node. Used by the medium and its NeighborSearch.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "netsim/mobility/trajectory.hpp"
+
+namespace netsim {
+
+class DisplacementBound final : private CourseListener {
+public:
+    // The trajectory must outlive this object, or not change after this object is destroyed.
+    void watch(const Trajectory& trajectory, SimTime now);
+
+    // Bound for the way of any node so far, in m. `now` must not be before the latest change of a
+    // course.
+    double total_m(SimTime now) const {
+        return now <= since_ ? total_m_ : total_m_ + fastest_mps_ * (now - since_).seconds();
+    }
+    // Whether no node moves, now and until the next change of a course.
+    bool all_stand() const { return fastest_mps_ == 0; }
+    std::uint64_t course_changes() const { return course_changes_; }
+    // Finds the fastest node now. Until then, the fastest since the last call counts. O(nodes).
+    void refresh(SimTime now);
+
+private:
+    void course_changed(SimTime now, double speed_mps) override;
+    void advance(SimTime now);
+
+    std::vector<const Trajectory*> trajectories_;
+    SimTime since_ = SimTime::long_ago();
+    double total_m_ = 0;  // at `since_`
+    double fastest_mps_ = 0;
+    std::uint64_t course_changes_ = 0;
+};
+
+}  // namespace netsim

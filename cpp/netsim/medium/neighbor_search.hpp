@@ -1,0 +1,101 @@
+// The radios near a place, found with a grid over their positions.
+//
+// The plane is cut into square cells; heights do not count. The cells map to a table of fixed size,
+// row by row, so coordinates of any size work. Distant cells may share a table entry, which costs
+// time but does not change results. The radios of a row of cells are contiguous in memory.
+//
+// Nodes move without notifying the grid. It keeps their positions from when it was built, and
+// widens each search by the distance that they can have moved since. When that gets too large, it
+// is rebuilt.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "netsim/geometry/position.hpp"
+#include "netsim/interface_id.hpp"
+#include "netsim/medium/displacement_bound.hpp"
+
+namespace netsim {
+
+class NeighborSearch {
+public:
+    // The DisplacementBound passed to `prepare` must watch the trajectory.
+    void add(RadioId radio, const Trajectory& trajectory);
+    std::size_t size() const { return radios_.size(); }
+
+    // Call it at each instant before `near` and `farthest_m`. `reach_m` is a radius of the coming
+    // searches: the size of the cells follows the usual ones.
+    void prepare(SimTime now, DisplacementBound& displacement, double reach_m);
+
+    struct Neighbor {    // half a cache line: a transmission reads these more often than anything else
+        Position place;  // now
+        RadioId radio = 0;
+    };
+    // All radios within `radius_m` of `centre`, and some others nearby; all radios if the radius is
+    // infinite. The order depends only on the nodes' positions. Valid until the next call.
+    std::span<const Neighbor> near(const Position& centre, double radius_m);
+
+    // An upper bound for the distance in m from there to any node.
+    double farthest_m(const Position& from) const;
+
+private:
+    struct Radio {
+        RadioId id;
+        const Trajectory* trajectory;
+    };
+
+    void build(SimTime now, double reach_m);
+    // Whether the cells are much smaller or larger than they should be.
+    bool is_of_wrong_size() const;
+
+    std::int64_t cell_of(double coordinate_m) const {
+        constexpr double most = 1e15;  // so that all differences fit
+        return static_cast<std::int64_t>(std::clamp(std::floor(coordinate_m / cell_m_), -most, most));
+    }
+    std::size_t column_of(std::int64_t cell) const {
+        return static_cast<std::size_t>(cell) & (columns_ - 1);  // a power of two
+    }
+    // Entries are read in batches: `batch` contiguous ones, or fewer if `end` comes first.
+    static constexpr std::uint32_t batch = 4;
+    static constexpr std::uint32_t usual_batches = 4;  // enough for most ranges of entries
+    struct Batch {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
+    // The entries of the cells that are within the radius, row by row. Valid until the next call.
+    std::span<const Batch> batches_within(const Position& centre, double radius_m);
+    // Writes the batches from `first` to before `end` to `next`. Returns the end of what it wrote.
+    static Batch* add_batches(Batch* next, std::uint32_t first, std::uint32_t end);
+
+    std::vector<Radio> radios_;
+    std::vector<Neighbor> entries_;                // positions when the grid was built, by place in the table
+    std::vector<const Trajectory*> trajectories_;  // of the entries
+    std::vector<std::uint32_t> first_entry_;       // of each place in the table, and the end
+    std::size_t columns_ = 1;                      // as many rows as columns
+    double cell_m_ = 1;
+    Position lowest_;
+    Position highest_;
+    double rounding_m_ = 0;  // of coordinates as large as those of the nodes
+    SimTime now_;
+
+    // State when the grid was built, and changes since.
+    double slack_m_ = -1;  // how far nodes may move before a rebuild; less than 0: not built
+    double total_m_ = 0;   // DisplacementBound::total_m, then
+    std::uint64_t course_changes_ = 0;
+    bool stood_ = false;      // all nodes, then
+    double moved_m_ = 0;      // bound for the displacement of any node since then
+    bool all_stand_ = false;  // exactly where they were then
+    double reaches_m_ = 0;    // sum of the requested radii
+    std::uint64_t requests_ = 0;
+
+    std::vector<Batch> batches_;        // result of batches_within, reused
+    std::vector<std::uint32_t> found_;  // entries
+    std::vector<Neighbor> near_;        // result of near, reused
+};
+
+}  // namespace netsim

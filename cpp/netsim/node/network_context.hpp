@@ -1,0 +1,24 @@
+// What the nodes of one network share: its clock, the number of nodes, and statistics over all of
+// them.
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/kernel/fingerprint.hpp"
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/node/payload_hash.hpp"
+#include "netsim/node/payload_padding.hpp"
+#include "netsim/trace/message_delays.hpp"
+
+namespace netsim {
+
+struct NetworkContext {
+    Simulator& simulator;
+    Fingerprint& fingerprint;
+    PayloadHash payload_hash{};
+    MessageDelays message_delays{};
+    PayloadPadding padding{};
+    std::int32_t node_count = 0;
+};
+
+}  // namespace netsim

@@ -1,0 +1,106 @@
+"""The options of the commands, each declared once: its name, type, default and help."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Parameter
+
+if TYPE_CHECKING:
+    from cyclopts import Token
+
+Mode = Literal["integrated", "prototype"]
+"""The same as in `gradysim.results.result`, which `gradysim --help` does not load."""
+
+DEFAULT_DIR = Path("results")
+
+FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
+ConfigOption = Annotated[str, Parameter(alias="-c", help="Name of the configuration: a section of the file.")]
+SetOption = Annotated[
+    tuple[str, ...],
+    Parameter(
+        name="--set",
+        negative="",
+        show_default=False,
+        help="KEY=VALUE: takes precedence over the file; may be repeated, for other keys.",
+    ),
+]
+"""Of several commands."""
+
+
+def _integer(_type: type, tokens: "Sequence[Token]") -> int:
+    """Convert as int() does. Cyclopts would round `1.5` to 2, and another seed is another run."""
+    text = tokens[0].value
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"{text} is not an integer") from None
+
+
+Integer = Annotated[int, Parameter(converter=_integer, n_tokens=1)]
+Flag = Annotated[bool, Parameter(negative="", show_default=False)]
+NodeNames = Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=(1, None), show_default=False)]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class RunOptions:
+    """Options of `gradysim run`. The docstring of a field is its help."""
+
+    config: ConfigOption = "General"
+
+    runs: Annotated[str | None, Parameter(alias="-r")] = None
+    """Run numbers such as 0..3,5; all runs of the configuration by default."""
+
+    mode: Mode = "integrated"
+    """The 802.11 network of the compiled engine, or the plain simulator in Python. Their messages reach 786 m
+    and 60 m by default: `gradysim keys range`."""
+
+    settings: SetOption = ()
+
+    seed: Integer | None = None
+    """Seed of run 0, to which run N adds N; by default the file's seed-set."""
+
+    result_dir: Path | None = None
+    """Write each run's JSON object to DIR/CONFIG-#RUN.MODE.json."""
+
+    resume: Flag = False
+    """Leave out runs whose file in --result-dir is complete and of the same settings, seed and files
+    (protocols, obstacles), with what --scalars, --vectors, --pcap and --fates-at ask for."""
+
+    jobs: Annotated[Integer, Parameter(alias="-j")] = 1
+    """How many runs at once."""
+
+    scalars: Flag = False
+    """Write the numbers of each run to DIR/CONFIG-#RUN.MODE.sca for OMNeT++'s analysis tools, DIR as in
+    --result-dir (default: results)."""
+
+    vectors: NodeNames = ()
+    """NODE...: write what tracked variables and positions of these nodes were over time to
+    DIR/CONFIG-#RUN.MODE.vec, DIR as above. A node (uavs[0]), a group (uavs), or all."""
+
+    pcap: NodeNames = ()
+    """NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap (that of
+    its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a group (uavs),
+    or all."""
+
+    fates_at: NodeNames = ()
+    """NODE...: report what became of the frames that reached these nodes, who interfered, and what became of
+    the messages that they sent. A node (uavs[0]), a group (uavs), or all."""
+
+    as_json: Annotated[Flag, Parameter(name="--json")] = False
+    """Print one JSON object per run, one per line, no more."""
+
+    quiet: Flag = False
+    """No progress bar and no summaries: warnings and failures only."""
+
+    @property
+    def directory(self) -> Path:
+        """The directory of all files."""
+        return DEFAULT_DIR if self.result_dir is None else self.result_dir
+
+    @property
+    def writes_files(self) -> bool:
+        """Whether the directory has to exist before the runs; captures make it themselves."""
+        return self.result_dir is not None or self.scalars or bool(self.vectors)

@@ -1,0 +1,176 @@
+"""The files of a run of `gradysim run`: their names, their directory, and how they are written."""
+
+import errno
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gradysim.cli.options import RunOptions
+
+if TYPE_CHECKING:
+    from gradysim.results.result import RunResult
+    from gradysim.scenario.node.node_spec import NodeSpec
+    from gradysim.scenario.scenario import Scenario
+
+_LONGEST_PID = 2**22
+"""As Linux counts. Files that are being written have the number of the process at the end of their names."""
+
+
+def ids_of_fates(scenario: "Scenario", options: RunOptions) -> list[int]:
+    """Return the ids of the nodes that --fates-at names."""
+    from gradysim.scenario.node_names import nodes_named
+
+    return [node.id for node in nodes_named(scenario, options.fates_at)]
+
+
+def nodes_of_vectors(scenario: "Scenario", options: RunOptions) -> "list[NodeSpec]":
+    """Return the nodes that --vectors names."""
+    from gradysim.scenario.node_names import nodes_named
+
+    return nodes_named(scenario, options.vectors)
+
+
+def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
+    """Return {id of a node: its capture file} of one run."""
+    from gradysim.integrated.capture import capture_files
+
+    return capture_files(scenario, options.pcap, options.directory)
+
+
+def capture_files_of(scenario: "Scenario", options: RunOptions) -> list[Path]:
+    """Return the capture files of all radios of the nodes that --pcap names."""
+    if not options.pcap:
+        return []
+    from gradysim.integrated.capture import files_of_interfaces
+
+    return list(files_of_interfaces(scenario, captures(scenario, options)).values())
+
+
+def omnetpp_file(scenario: "Scenario", options: RunOptions, suffix: str) -> Path:
+    """Return the file of a run's scalars, `.sca`, or vectors, `.vec`."""
+    from gradysim.results.files import run_file
+
+    return run_file(options.directory, scenario.config, scenario.run_number, options.mode, suffix)
+
+
+def files_beside_result(scenario: "Scenario", options: RunOptions) -> list[Path]:
+    """Return all files of a run that are asked for, but for that of its result."""
+    return [*capture_files_of(scenario, options), *files_for_omnetpp(scenario, options)]
+
+
+def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
+    """Return the file of scalars and that of vectors, as far as they are asked for, in this order."""
+    suffixes = [*([".sca"] if options.scalars else []), *([".vec"] if options.vectors else [])]
+    return [omnetpp_file(scenario, options, suffix) for suffix in suffixes]
+
+
+def make_result_dir(directory: Path) -> None:
+    """Make the folder of --result-dir. Raises ConfigError, which names the option."""
+    from gradysim.scenario.errors.config_error import ConfigError
+
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = "it is no folder" if os.path.lexists(directory) else error.strerror or str(error)
+        raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
+
+
+def check_may_be_written_to(directory: Path) -> None:
+    """Raise ConfigError, which names the option, if no file can be made in it."""
+    from gradysim.scenario.errors.config_error import ConfigError
+
+    if not os.access(directory, os.W_OK | os.X_OK):
+        raise ConfigError(f"--result-dir {directory}: it takes no files from you; expected another folder")
+
+
+def check_sqlite(options: RunOptions) -> None:
+    """Raise ConfigError for files that this Python cannot write, before runs that take hours."""
+    if not (options.scalars or options.vectors):
+        return
+    try:
+        import sqlite3  # noqa: F401
+    except ImportError as error:
+        from gradysim.scenario.errors.config_error import ConfigError
+
+        option = "--scalars" if options.scalars else f"--vectors {options.vectors[0]}"
+        raise ConfigError(f"{option}: {error}; expected a Python with the module sqlite3") from error
+
+
+def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
+    """Raise ConfigError for a name of a file that is too long for the folder, before the first run begins."""
+    from gradysim.scenario.errors.config_error import ConfigError
+
+    last = scenarios[-1]  # with the longest number
+    folders = (options.directory, *options.directory.parents)
+    there = next((folder for folder in folders if folder.is_dir()), Path())  # captures make theirs themselves
+    for file in _all_files(last, options):
+        try:
+            os.lstat(there / file.name)
+        except OSError as error:
+            if error.errno == errno.ENAMETOOLONG:
+                raise ConfigError(
+                    f"--result-dir {options.directory}: {file.name} would be too long a name of a file in it;"
+                    " expected a shorter name of the configuration"
+                ) from error
+
+
+def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
+    """Give the files that a run will write, those that are renamed once they are complete as until then."""
+    from gradysim.results.files import run_file
+
+    yield from capture_files_of(scenario, options)
+    complete = files_for_omnetpp(scenario, options)
+    if options.result_dir is not None:
+        complete.append(run_file(options.directory, scenario.config, scenario.run_number, options.mode))
+    for file in complete:
+        yield file.with_name(f"{file.name}.{_LONGEST_PID}")
+
+
+def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
+    """Write what was asked for of a run, and give a line about each file.
+
+    Captures are there already: radios write them. Files for OMNeT++ that an earlier run left under names of
+    this one are removed first, also those that it replaces, if there is room for them. Raises OSError, with
+    the name of the file.
+
+    The result comes first: it is there if the disk has no room for the others. Once they are complete it is
+    written again, and names them.
+    """
+    from gradysim.results.files import write_run_file
+
+    if options.writes_files:
+        yield from _remove_of_earlier_runs(scenario, options)
+    if options.result_dir is not None:
+        yield f"written to {write_run_file(result, options.result_dir)}"
+    if options.scalars or options.vectors:
+        yield from _write_for_omnetpp(scenario, result, options)
+    for capture in capture_files_of(scenario, options):
+        yield f"captured in {capture}"
+    if options.result_dir is not None and (others := files_beside_result(scenario, options)):
+        write_run_file(result, options.result_dir, others)
+
+
+def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterator[str]:
+    """Remove what a reader would take for scalars or vectors of this run, and are those of another one."""
+    for suffix, is_replaced in ((".sca", options.scalars), (".vec", bool(options.vectors))):
+        path = omnetpp_file(scenario, options, suffix)
+        if path.is_file():
+            path.unlink()
+            if not is_replaced:
+                yield f"removed {path}, of an earlier run"
+
+
+def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
+    from gradysim.results.omnetpp import identity_of, vectors_of, write_scalar_file, write_vector_file
+
+    identity = identity_of(result, scenario, options.directory)
+    if options.scalars:
+        path = omnetpp_file(scenario, options, ".sca")
+        network = scenario.network
+        write_scalar_file(result.scalars(network), identity, path, result.histograms(network))
+        yield f"scalars in {path}"
+    if options.vectors:
+        path = omnetpp_file(scenario, options, ".vec")
+        write_vector_file(vectors_of(result, scenario.network), identity, path)
+        yield f"vectors in {path}"
