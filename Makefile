@@ -22,7 +22,7 @@ python_checked := python tests examples bench
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench schema fingerprints clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang again
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -89,6 +89,9 @@ schema: build  ## Rewrite what is derived from the declarations of the engine's 
 
 fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
 	$(BIN)/python tests/fingerprints/update.py
+
+golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages about mistakes in scenarios.
+	REWRITE_GOLDEN=1 $(BIN)/python -m pytest -q tests/python/scenario/test_messages.py
 
 clean:  ## Remove what was built; .venv stays.
 	rm -rf build dist $(STAMPS)/editable

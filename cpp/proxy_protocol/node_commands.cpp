@@ -28,14 +28,14 @@ PyObject* name_of(const char* text) {
     return PyUnicode_InternFromString(text);
 }
 
-// What cannot even be taken apart.
+// The argument does not have the attributes of a command, or one of them has the wrong type.
 class Unreadable : public std::exception {
 public:
-    const char* what() const noexcept override { return "what was given cannot be read as a command"; }
+    const char* what() const noexcept override { return "the argument cannot be read as a command"; }
 };
 
-// An attribute of a command. What has none is no command of that kind, but something else that a
-// protocol passed by mistake: a text, or a command to its vehicle in the place of one to its radio.
+// An attribute of a command. An argument without it is something else, such as a str or a command of
+// the other kind.
 py::object attribute(py::handle command, PyObject* name) {
     PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
@@ -73,15 +73,14 @@ std::string text(py::handle value) {
     return utf8_from_python(value);
 }
 
-// What is wrong with a command, in the words that prototype mode has, too; "" if nothing is.
+// Calls a function of the validation that both modes share.
 template <typename... Arguments>
-py::object ask(const char* function, const Arguments&... arguments) {
-    return py::module_::import("gradysim.encapsulator.refused_commands").attr(function)(arguments...);
+py::object validation(const char* function, const Arguments&... arguments) {
+    return py::module_::import("gradysim.encapsulator.validation").attr(function)(arguments...);
 }
 
-// Carries out a command. What it refuses is raised as that exception of gradysim.protocol.errors,
-// as in every mode. `wrong` asks what is wrong with the command itself; if nothing is, the engine
-// has said what is.
+// Carries out a command. A failure is raised as that exception of gradysim.protocol.errors. `wrong`
+// returns what is wrong with the command itself; if that is "", the engine's error text is raised.
 template <typename Command, typename Wrong>
 void carry_out(const char* exception, Command command, Wrong wrong) {
     std::string words;
@@ -93,13 +92,13 @@ void carry_out(const char* exception, Command command, Wrong wrong) {
     } catch (const Unreadable& error) {
         words = error.what();
     }
-    const py::object told = wrong();
+    const py::object problem = wrong();
     const py::object type = py::module_::import("gradysim.protocol.errors").attr(exception);
-    PyErr_SetObject(type.ptr(), (py::len(told) > 0 ? told : python_from_utf8(words)).ptr());
+    PyErr_SetObject(type.ptr(), (py::len(problem) > 0 ? problem : python_from_utf8(words)).ptr());
     throw py::error_already_set();
 }
 
-// That of commands of one's own, which may have none, is the first.
+// A user's own command may have no interface: it goes to the first one.
 std::int32_t interface_of(py::handle command) {
     static PyObject* const interface_name = name_of("interface");
     const auto value = py::reinterpret_steal<py::object>(PyObject_GetAttr(command.ptr(), interface_name));
@@ -117,13 +116,10 @@ std::int32_t interface_of(py::handle command) {
             return static_cast<std::int32_t>(index);
         }
     }
-    // What is wrong is said in Python, since prototype mode says the same.
-    const auto check =
-        py::module_::import("gradysim.protocol.messages.interface_index").attr("checked_interface");
-    return check(value).cast<std::int32_t>();
+    return validation("checked_interface", value).cast<std::int32_t>();
 }
 
-// The id of a node, or what equals one, as an integer of NumPy does.
+// The id of a node, or an equal number such as an integer of NumPy.
 netsim::NodeId destination_of(py::handle value) {
     if (PyLong_Check(value.ptr())) {
         int overflow = 0;
@@ -133,9 +129,7 @@ netsim::NodeId destination_of(py::handle value) {
         }
         throw Unreadable();
     }
-    const auto check =
-        py::module_::import("gradysim.protocol.messages.destination_id").attr("checked_destination");
-    return check(value).cast<netsim::NodeId>();
+    return validation("checked_destination", value).cast<netsim::NodeId>();
 }
 
 void carry_out_communication(netsim::Node& node, py::handle command) {
@@ -159,6 +153,11 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     node.send(destination_of(destination), std::move(payload), interface);
 }
 
+// Whether SET_SPEED sets a speed, and not a velocity. In gradysim 0.7 unused parameters are 0.
+bool is_speed(py::handle command, const py::object& second, const py::object& third) {
+    return (second.is_none() && third.is_none()) || validation("is_speed", command).cast<bool>();
+}
+
 void carry_out_mobility(netsim::Node& node, py::handle command) {
     static PyObject* const type_name = name_of("command_type");
     static PyObject* const parameter_names[] = {name_of("param_1"), name_of("param_2"), name_of("param_3")};
@@ -166,7 +165,7 @@ void carry_out_mobility(netsim::Node& node, py::handle command) {
     const auto parameter = [&](int index) { return attribute(command, parameter_names[index]); };
     if (type == goto_coords_type) {
         node.go_to(netsim::Position{number(parameter(0)), number(parameter(1)), number(parameter(2))});
-    } else if (type == set_speed_type && parameter(1).is_none() && parameter(2).is_none()) {
+    } else if (type == set_speed_type && is_speed(command, parameter(1), parameter(2))) {
         node.set_speed(number(parameter(0)));
     } else {
         throw Unreadable();
@@ -180,14 +179,14 @@ void send_communication_command(netsim::Node& node, py::handle command) {
         "CommunicationException", [&] { carry_out_communication(node, command); },
         [&] {
             const auto ids = py::module_::import("builtins").attr("range")(node.node_count());
-            return ask("wrong_communication", command, node.id(), ids);
+            return validation("wrong_communication", command, node.id(), ids);
         });
 }
 
 void send_mobility_command(netsim::Node& node, py::handle command) {
     carry_out(
         "MasslessMobilityException", [&] { carry_out_mobility(node, command); },
-        [&] { return ask("wrong_mobility", command, node.id(), node.can_move()); });
+        [&] { return validation("wrong_mobility", command, node.id(), node.can_move()); });
 }
 
 void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) {
@@ -201,13 +200,13 @@ void schedule_timer(netsim::Node& node, py::handle timer, py::handle timestamp) 
             }
             node.schedule_timer(std::move(name), netsim::SimTime::of_event(time_s, node.now()));
         },
-        [&] { return ask("wrong_timer", timer, timestamp, node.id(), node.now().seconds()); });
+        [&] { return validation("wrong_timer", timer, timestamp, node.id(), node.now().seconds()); });
 }
 
 void cancel_timer(netsim::Node& node, py::handle timer) {
     carry_out(
         "TimerException", [&] { node.cancel_timer(text(timer)); },
-        [&] { return ask("wrong_timer_name", timer); });
+        [&] { return validation("wrong_timer_name", timer); });
 }
 
 }  // namespace proxy_protocol

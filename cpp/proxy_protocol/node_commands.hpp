@@ -1,7 +1,7 @@
-// What a Python protocol asks of its node, taken apart: commands and numbers of Python to calls of
-// the engine.
+// The calls of a Python protocol's provider: they turn command objects into calls of the engine.
 //
-// What cannot be carried out raises an exception of gradysim.protocol.errors.
+// A call that fails raises an exception of gradysim.protocol.errors, with the text of
+// gradysim.encapsulator.validation.
 #pragma once
 
 #include <pybind11/pybind11.h>

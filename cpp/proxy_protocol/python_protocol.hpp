@@ -1,8 +1,7 @@
 // The proxy protocol: a protocol of the engine that hands every event to a Python object.
 //
-// The methods are called by name at each event, not through bound methods kept from the start: the
-// dispatcher plugin binds them anew on the instance at any time. A call by name costs what the same
-// call costs within Python.
+// The methods are called by name at each event, since the dispatcher plugin may replace them on the
+// instance at any time. A call by name costs as much as the same call in Python.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -13,7 +13,7 @@ TelemetryObject::TelemetryObject()
 
 py::handle TelemetryObject::at(const netsim::Position& position) {
     if (!is_as_handed_out()) {
-        make_anew();
+        create();
     }
     const double values[] = {position.x, position.y, position.z};
     for (Py_ssize_t axis = 0; axis < 3; ++axis) {
@@ -39,7 +39,7 @@ bool TelemetryObject::is_as_handed_out() const {
            PyDict_GetItemWithError(fields_.ptr(), current_position_.ptr()) == coordinates_.ptr();
 }
 
-void TelemetryObject::make_anew() {
+void TelemetryObject::create() {
     coordinates_ = py::tuple(3);
     auto* type = reinterpret_cast<PyTypeObject*>(class_.ptr());
     telemetry_ = py::reinterpret_steal<py::object>(type->tp_new(type, py::tuple().ptr(), nullptr));

@@ -21,7 +21,7 @@ public:
 
 private:
     bool is_as_handed_out() const;
-    void make_anew();
+    void create();
 
     pybind11::object class_;
     pybind11::object current_position_;  // the interned name of its field

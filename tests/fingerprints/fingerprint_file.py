@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import config_names
+from gradysim.scenario.ini import config_names, read_ini
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = Path(__file__).with_name("fingerprints.csv")

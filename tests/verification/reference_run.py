@@ -9,7 +9,7 @@ from gradysim import _netsim
 from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.native_protocols import native_protocol
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.protocol_modules import origin_of
 
 _ROOT = Path(__file__).parents[2]

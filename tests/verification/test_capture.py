@@ -5,8 +5,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import config_names
+from gradysim.scenario.ini import config_names, read_ini
 from verification.finding import Finding
 from verification.nist import success_probability
 from verification.reference_data import Row, rows

@@ -6,10 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from gradysim.scenario.expressions import ParameterContext, parse_value
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import Ranked, search_order
 from gradysim.scenario.functions import Value
-from gradysim.scenario.matching.lookup import is_option
+from gradysim.scenario.ini import Ranked, read_ini, search_order
+from gradysim.scenario.lookup import is_option
 from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.runs import numbered_runs
 from gradysim.scenario.sweep import name_iterations, run_variables, substitute, text_of_iterations

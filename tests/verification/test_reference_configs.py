@@ -9,9 +9,8 @@ import gradysim.integrated.run
 import gradysim.prototype.run
 from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import config_names
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.ini import config_names, read_ini
 from gradysim.scenario.native_protocols import NativeProtocol
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference

@@ -1,6 +1,7 @@
 """The command `gradysim`.
 
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
+    gradysim check FILE.ini [-c CONFIG]
     gradysim runs FILE.ini [-c CONFIG]
     gradysim means DIR [QUANTITY...] [--csv]
     gradysim keys [PATTERN] [--markdown]
@@ -20,14 +21,8 @@ from typing import TYPE_CHECKING
 from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.cli.calibrate import calibrate_power
-from gradysim.cli.exit_code import (
-    INTERRUPTED,
-    MISTAKE,
-    OK,
-    abandon_output,
-    is_about_output,
-    say_mistake,
-)
+from gradysim.cli.check import check_file
+from gradysim.cli.exit_code import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.run import run
@@ -65,6 +60,7 @@ app = App(
     error_formatter=mistake_in_arguments,
 )
 app.command(run)
+app.command(check_file, name="check")
 app.command(list_runs, name="runs")
 app.command(print_means, name="means")
 app.command(list_keys, name="keys")

@@ -49,7 +49,7 @@ def calibrate_power(
     """Find the transmitter power for a wanted range under the models of a configuration."""
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.parameter_types import quantity, whole_bytes
     from gradysim.scenario.sweep import text_of_iterations
 
@@ -83,14 +83,17 @@ def calibrate_power(
 
 def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
     """Return the value that an option says. Raises ConfigError, which names the option."""
-    from gradysim.scenario.errors.config_error import BadValue, ConfigError
+    from gradysim.scenario.errors import BadValue, ConfigError
     from gradysim.scenario.expressions import parse_value
 
     try:
         return kind.convert(parse_value(text))
     except BadValue as error:
         raise ConfigError(
-            f"{option} {text}: {error.problem}; expected {kind.expected}{error.suggestion}"
+            f"{option} {text}: {error.problem}",
+            expected=kind.expected,
+            suggestion=error.suggestion,
+            hint=error.hint,
         ) from error
 
 

@@ -31,7 +31,7 @@ def print_failure(failure: BaseException, file: TextIO) -> None:
         NativeProtocolError,
         TimerException,
     )
-    from gradysim.sitl.error import SitlError
+    from gradysim.sitl import SitlError
 
     without_frames = (NativeProtocolError, CaptureError, SitlError)  # no code of the user led to these
     refused_commands = (CommunicationException, MasslessMobilityException, TimerException)

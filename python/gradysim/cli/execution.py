@@ -12,7 +12,7 @@ from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import captures, ids_of_fates, nodes_of_vectors
 from gradysim.integrated.compiled_part import CompiledPartMissingError
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -190,7 +190,7 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
 
 def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
     """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     for name in names:
         raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")

@@ -37,8 +37,7 @@ def print_means(
         repeated,
     )
     from gradysim.results.quantity import name_filter
-    from gradysim.scenario.errors.config_error import ConfigError
-    from gradysim.scenario.errors.nearest import did_you_mean
+    from gradysim.scenario.errors import ConfigError, nearest
 
     quoted = shlex.quote(str(directory))
     try:
@@ -59,8 +58,9 @@ def print_means(
         for quantity in quantities:
             if not any(map(name_filter(quantity), names)):
                 raise ConfigError(
-                    f"{directory}: no quantity is called `{quantity}`; expected one that"
-                    f" `gradysim means {quoted}` prints{did_you_mean(quantity, names)}"
+                    f"{directory}: no quantity is called `{quantity}`",
+                    expected=f"one that `gradysim means {quoted}` prints",
+                    suggestion=nearest(quantity, names),
                 )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)

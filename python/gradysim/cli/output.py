@@ -10,7 +10,7 @@ from gradysim.cli.options import RunOptions
 
 if TYPE_CHECKING:
     from gradysim.results.result import RunResult
-    from gradysim.scenario.node.node_spec import NodeSpec
+    from gradysim.scenario.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
 
 _LONGEST_PID = 2**22
@@ -67,7 +67,7 @@ def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
 
 def make_result_dir(directory: Path) -> None:
     """Make the folder of --result-dir. Raises ConfigError, which names the option."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -78,7 +78,7 @@ def make_result_dir(directory: Path) -> None:
 
 def check_may_be_written_to(directory: Path) -> None:
     """Raise ConfigError, which names the option, if no file can be made in it."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     if not os.access(directory, os.W_OK | os.X_OK):
         raise ConfigError(f"--result-dir {directory}: it takes no files from you; expected another folder")
@@ -91,7 +91,7 @@ def check_sqlite(options: RunOptions) -> None:
     try:
         import sqlite3  # noqa: F401
     except ImportError as error:
-        from gradysim.scenario.errors.config_error import ConfigError
+        from gradysim.scenario.errors import ConfigError
 
         option = "--scalars" if options.scalars else f"--vectors {options.vectors[0]}"
         raise ConfigError(f"{option}: {error}; expected a Python with the module sqlite3") from error
@@ -99,7 +99,7 @@ def check_sqlite(options: RunOptions) -> None:
 
 def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
     """Raise ConfigError for a name of a file that is too long for the folder, before the first run begins."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     last = scenarios[-1]  # with the longest number
     folders = (options.directory, *options.directory.parents)

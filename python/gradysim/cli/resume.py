@@ -18,7 +18,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Sc
     Raises ConfigError without a folder.
     """
     from gradysim.results.files import files_changed_since
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_files, text_of_runs
 
     result_dir = options.result_dir

@@ -53,7 +53,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     from gradysim.cli.study import check_jobs, run_all
     from gradysim.cli.waiting import waiting
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError, ErrorCollector
 
     bar = not options.quiet and not options.as_json
     try:
@@ -79,8 +79,11 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             with waiting(f"reading {file}", shown=bar):
                 scenarios = placed(checked, scenarios)
             with waiting(f"checking {options.config}", shown=bar):
+                errors = ErrorCollector()
                 for scenario in scenarios:
-                    check_network(scenario, is_built_next=len(scenarios) == 1)
+                    with errors.collecting():
+                        check_network(scenario, is_built_next=len(scenarios) == 1)
+                errors.raise_all()
             tell(findings_of(scenarios, options.mode))
     except (ConfigError, CompiledPartMissingError, OSError) as mistake:
         return say_mistake(mistake)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
     """List the runs of a configuration."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.lint import unread_variables
     from gradysim.scenario.load import runs_of
     from gradysim.scenario.sweep import text_of_iterations
@@ -40,7 +40,7 @@ def check(
 
     Says on the error output which of `settings` have no effect, because others before them have their keys.
     """
-    from gradysim.scenario.errors.argument_names import ArgumentNames
+    from gradysim.scenario.errors import ArgumentNames
     from gradysim.scenario.load import CheckedScenarios
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
@@ -56,7 +56,7 @@ def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "lis
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
-    from gradysim.scenario.file.reader import Entry, read_overrides
+    from gradysim.scenario.ini import Entry, read_overrides
 
     first: dict[str, Entry] = {}
     for entry in read_overrides(file, settings, option):

@@ -89,7 +89,7 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
 
 def check_jobs(jobs: int) -> None:
     """Raise ConfigError for a number of runs at once that cannot be, before anything is read."""
-    from gradysim.scenario.errors.config_error import ConfigError
+    from gradysim.scenario.errors import ConfigError
 
     if jobs < 1:
         raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")

@@ -15,8 +15,7 @@ from gradysim.cli.outcome_tables import (
     messages_from_nodes,
     network_outcomes,
 )
-from gradysim.protocol.plain_value import plain_value
-from gradysim.protocol.readable_number import readable_number
+from gradysim.protocol.plain_value import plain_value, readable_number
 from gradysim.results.delays import Delays
 from gradysim.results.outcomes import LEDGERS
 from gradysim.results.quantity import quantities

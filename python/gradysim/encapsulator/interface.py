@@ -1,10 +1,12 @@
-"""What an environment calls to make a protocol happen."""
+"""The interface of an encapsulator: what an environment calls to run a protocol."""
 
 from abc import ABC, abstractmethod
-from typing import Any, Generic, TypeVar
+from collections.abc import Mapping
+from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position
 
 T = TypeVar("T", bound=IProtocol)
 
@@ -12,11 +14,11 @@ T = TypeVar("T", bound=IProtocol)
 class IEncapsulator(ABC, Generic[T]):
     """Holds one protocol and translates between it and one environment.
 
-    What the callbacks return is the environment's affair: in prototype mode nothing, for a host outside the
-    list of consequences.
+    The return value of a callback depends on the environment. Prototype mode ignores it;
+    `InteropEncapsulator` returns the list of consequences.
 
     Attributes:
-        protocol: The protocol inside; there from `encapsulate` on.
+        protocol: The protocol inside; set by `encapsulate`.
     """
 
     protocol: T
@@ -44,3 +46,29 @@ class IEncapsulator(ABC, Generic[T]):
     @abstractmethod
     def finish(self) -> Any:
         """Run the protocol's `finish`."""
+
+
+@runtime_checkable
+class NodePositions(Protocol):
+    """Provider of a simulator, which knows the position of every node. For extensions."""
+
+    def node_positions(self) -> Mapping[int, Position]:
+        """Return the current position (x, y, z) in meters of every node, by id."""
+
+
+def add_protocol_note(
+    exception: BaseException, *, node_id: int, protocol: type, time_s: float, callback: str
+) -> None:
+    """Add a note with node, simulated time and callback to an exception that a protocol has raised.
+
+    A KeyboardInterrupt gets the note, too: it names a callback that does not return.
+
+    Args:
+        exception: The exception. Its traceback does not change.
+        node_id: Id of the protocol's node.
+        protocol: Class of the protocol.
+        time_s: Simulated time in seconds.
+        callback: Name of the protocol's method that raised it.
+    """
+    label = f"{protocol.__name__} {node_id}"
+    exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

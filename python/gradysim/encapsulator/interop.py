@@ -1,6 +1,6 @@
-"""Runs a protocol for a host outside, that wants to be told what the protocol did.
+"""Encapsulator for another program that hosts the protocol and carries out its commands.
 
-The host sets time and id, calls a callback and gets the list of consequences to carry out, in order.
+The host sets time and id, calls a callback and gets the list of consequences, in order.
 """
 
 from collections.abc import Callable
@@ -10,8 +10,7 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from gradysim.encapsulator.failure import add_protocol_note
-from gradysim.encapsulator.interface import IEncapsulator
+from gradysim.encapsulator.interface import IEncapsulator, add_protocol_note
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import TrackedVariables
 from gradysim.protocol.interface import IProtocol, IProvider
@@ -21,14 +20,14 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class ConsequenceType(int, Enum):
-    """What the protocol wants; the payload depends on it.
+    """Kind of a consequence, which decides the type of its payload.
 
     Attributes:
         COMMUNICATION: Payload: CommunicationCommand.
         MOBILITY: Payload: MobilityCommand.
         TIMER: Payload: (name, absolute time in seconds).
         TRACK_VARIABLE: Payload: (name, value); the value of a removed variable is None.
-        CANCEL_TIMER: Payload: name of the timers to forget.
+        CANCEL_TIMER: Payload: name of the timers to cancel.
     """
 
     COMMUNICATION = 0
@@ -43,10 +42,10 @@ Consequence = tuple[ConsequenceType, Payload]
 
 
 class InteropProvider(IProvider):
-    """Collects what the protocol does.
+    """Provider that collects what the protocol does.
 
     Attributes:
-        consequences: What was collected since the host last took it.
+        consequences: Consequences since the host last took them.
         timestamp: Simulated time in seconds, set by the host.
         id: Id of the node, set by the host.
         seed: Seed of the run, set by the host.
@@ -78,7 +77,7 @@ class InteropProvider(IProvider):
         self.consequences.append((ConsequenceType.MOBILITY, copy(command)))
 
     def schedule_timer(self, timer: str, timestamp: float) -> None:
-        """Collect the timer; whether its time makes sense is for the host to say."""
+        """Collect the timer. The host checks its time."""
         self.consequences.append((ConsequenceType.TIMER, (timer, timestamp)))
 
     def cancel_timer(self, timer: str) -> None:
@@ -95,7 +94,7 @@ class InteropProvider(IProvider):
 
     @property
     def random(self) -> Random:
-        """The node's stream in the run; made on first use, of the seed and the id that hold then."""
+        """The node's random stream. It is made on first use, from the current seed and id."""
         if self._random is None:
             self._random = RandomStream(self.seed, self.id, Purpose.PROTOCOL)
         return self._random
@@ -105,10 +104,10 @@ class InteropProvider(IProvider):
 
 
 class InteropEncapsulator(IEncapsulator[IProtocol]):
-    """The protocol as the host sees it: each callback returns its consequences, in order.
+    """Calls the protocol; each callback returns its consequences, in order.
 
-    An exception of the protocol passes through, with a note of node, time and callback; the consequences
-    of that callback are dropped.
+    An exception of the protocol gets a note with node, time and callback. The consequences of that callback
+    are dropped.
     """
 
     provider: InteropProvider
@@ -129,7 +128,7 @@ class InteropEncapsulator(IEncapsulator[IProtocol]):
         self.provider.id = id
 
     def set_seed(self, seed: int) -> None:
-        """Set the seed of the run, before `initialize`; without it 0 holds."""
+        """Set the seed of the run, before `initialize`; the default is 0."""
         self.provider.seed = seed
 
     def initialize(self) -> list[Consequence]:

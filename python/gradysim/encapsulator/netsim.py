@@ -1,21 +1,18 @@
-"""Glue between one Python protocol and one node of the compiled engine.
+"""Encapsulator of integrated mode: one Python protocol on one node of the compiled engine.
 
-`gradysim.integrated` makes one encapsulator per node. The engine calls the five methods of the *protocol*
-by their names, so that plugins which re-bind them are honoured; it never comes through this file. In the
-other direction the calls of the provider are the engine's own bound methods, so that what a protocol asks
-for costs one call.
+The engine calls the five methods of the *protocol* by name, so that plugins can replace them; these calls do
+not pass through this file. The methods of the provider are the engine's own bound methods, so that each costs
+one call.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from gradysim.encapsulator.checked_provider import CheckedProvider
-from gradysim.encapsulator.failure import add_protocol_note
-from gradysim.encapsulator.geo_target import geo_target
-from gradysim.encapsulator.interface import IEncapsulator
+from gradysim.encapsulator.interface import IEncapsulator, add_protocol_note
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.encapsulator.wrong_arguments import reword_wrong_arguments
+from gradysim.encapsulator.tracked_variables import CheckedProvider
+from gradysim.encapsulator.validation import geo_target
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
@@ -41,14 +38,11 @@ _SAME_IN_THE_ENGINE = (
 
 
 class NetsimProvider(CheckedProvider):
-    """What a protocol may ask of its node, answered by the engine.
-
-    Errors are those of `gradysim.protocol.errors`: a timer in the past, a destination that does not exist, a
-    message over the MTU.
+    """Provider whose calls go to the engine. They raise the exceptions of `gradysim.protocol.errors`.
 
     Attributes:
-        handlers: Handlers that watch the run, by their labels; for extensions.
-        mode: Name of the mode, for people.
+        handlers: Handlers that watch the run, by label; for extensions.
+        mode: Name of the mode, for messages.
     """
 
     mode = "integrated mode"
@@ -69,9 +63,9 @@ class NetsimProvider(CheckedProvider):
             node: The engine's node.
             seed: Seed of the run; the protocol's random numbers follow from it and the node's id.
             reference_coordinates: (latitude deg, longitude deg, altitude m) of the scene's origin.
-            nodes: All nodes of the network, for extensions that look around.
-            handlers: Handlers that watch the run, by their labels.
-            steer: Carries out mobility commands in the place of the engine.
+            nodes: All nodes of the network; for `node_positions`.
+            handlers: Handlers that watch the run, by label.
+            steer: Carries out mobility commands instead of the engine.
         """
         self._node = node
         self._nodes = nodes
@@ -79,20 +73,19 @@ class NetsimProvider(CheckedProvider):
         self._reference_coordinates = reference_coordinates
         self._random = RandomStream(seed, node.id, Purpose.PROTOCOL)
         self.tracked_variables: dict[str, Any] = {}
-        # Each hides the method of the class that has its name: a call goes straight to the engine.
+        # Each attribute hides the method of the class: a call goes straight to the engine.
         for name in _SAME_IN_THE_ENGINE:
             setattr(self, name, getattr(node, name))
         if steer is not None:
-            setattr(self, "send_mobility_command", steer)  # noqa: B010 (as above, it hides a method)
+            setattr(self, "send_mobility_command", steer)  # noqa: B010 (hides a method, as above)
 
     @property
     def random(self) -> Random:
         """The protocol's own random numbers: the same for the same seed and node, in both modes."""
         return self._random
 
-    # What IProvider asks for by name. But for mobility commands that no autopilot carries out, calls do not
-    # get here: they go to the attributes of the instance, which __init__ sets. These do the same for whoever
-    # calls them by the class, as super() does.
+    # The abstract methods of IProvider. Only mobility commands without an autopilot get here; other calls go
+    # to the attributes of the instance, which __init__ sets. These methods are for calls through super().
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
         """Hand a message to the node's network interface."""
@@ -122,9 +115,10 @@ class NetsimProvider(CheckedProvider):
         return self._node.get_id()
 
     def node_positions(self) -> dict[int, Position]:
-        """Return where every node is now, (x, y, z) in metres by id.
+        """Return the current position (x, y, z) in meters of every node, by id. For extensions.
 
-        For extensions: protocols have no business knowing.
+        Raises:
+            RuntimeError: The provider was made without the nodes.
         """
         if not self._nodes:
             raise RuntimeError("the positions of the nodes are unknown: the provider was made without them")
@@ -132,7 +126,7 @@ class NetsimProvider(CheckedProvider):
 
 
 class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
-    """Puts a protocol on a node of the engine and says where a failure in it happened."""
+    """Puts a protocol on a node of the engine, and adds a note to the exceptions that it raises."""
 
     def __init__(
         self,
@@ -165,31 +159,30 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
             raise
         self._node.set_protocol(self.protocol, self._note)
 
-    # What IEncapsulator asks for by name. The engine calls the protocol itself; these are for handlers that
-    # call a node's protocol by its encapsulator, as in prototype mode.
+    # The engine calls the protocol itself. These methods are for handlers that call the protocol of a node
+    # through its encapsulator, as in prototype mode.
 
     def initialize(self) -> None:
-        """Call the protocol's method of this name, as do the four below."""
+        """Run the protocol's `initialize`."""
         self.protocol.initialize()
 
     def handle_timer(self, timer: str) -> None:
-        """A timer is due."""
+        """Run the protocol's `handle_timer`."""
         self.protocol.handle_timer(timer)
 
     def handle_packet(self, message: str) -> None:
-        """A message has arrived."""
+        """Run the protocol's `handle_packet`."""
         self.protocol.handle_packet(message)
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """The node's position is known anew."""
+        """Run the protocol's `handle_telemetry`."""
         self.protocol.handle_telemetry(telemetry)
 
     def finish(self) -> None:
-        """The run is over."""
+        """Run the protocol's `finish`."""
         self.protocol.finish()
 
     def _note(self, failure: BaseException, callback: str) -> None:
-        reword_wrong_arguments(failure)
         add_protocol_note(
             failure,
             node_id=self._node.id,

@@ -1,14 +1,13 @@
-"""Runs a protocol inside a simulation in Python: its commands go straight to the simulation's handlers."""
+"""Encapsulator of prototype mode: the commands of a protocol go to the handlers of the simulator."""
 
 import logging
 from collections.abc import Mapping
 from random import Random
 from typing import Any, Protocol, cast
 
-from gradysim.encapsulator.checked_provider import CheckedProvider
-from gradysim.encapsulator.failure import add_protocol_note
-from gradysim.encapsulator.interface import IEncapsulator
+from gradysim.encapsulator.interface import IEncapsulator, add_protocol_note
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
+from gradysim.encapsulator.tracked_variables import CheckedProvider
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
@@ -19,7 +18,7 @@ _logger = logging.getLogger(__name__)
 
 
 class _Node(Protocol):
-    """What is needed of a node. The attribute `seed`, the run's, is taken as 0 where there is none."""
+    """A node of the simulator. Its optional attribute `seed` is the seed of the run; the default is 0."""
 
     id: int
 
@@ -41,17 +40,17 @@ class _TimerHandler(Protocol):
 
 
 class PythonProvider(CheckedProvider):
-    """Passes what a protocol does to the handlers labelled "communication", "mobility" and "timer".
+    """Provider that passes calls to the handlers labeled "communication", "mobility" and "timer".
 
-    A command for which there is no handler is dropped with a warning; without timers the time is always 0.
+    A command without a handler is dropped with a warning. Without a timer handler the time is always 0.
 
     Attributes:
         node: The protocol's node.
-        handlers: Every handler of the simulation by its label.
-        communication_handler: The one labelled "communication"; None if there is none.
-        mobility_handler: The one labelled "mobility", or None.
-        timer_handler: The one labelled "timer", or None.
-        mode: Name of the mode, for people.
+        handlers: Every handler of the simulation, by label.
+        communication_handler: The handler labeled "communication", or None.
+        mobility_handler: The handler labeled "mobility", or None.
+        timer_handler: The handler labeled "timer", or None.
+        mode: Name of the mode, for messages.
     """
 
     mode = "prototype mode"
@@ -66,28 +65,28 @@ class PythonProvider(CheckedProvider):
         self._random: Random | None = None
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Send a message; the handler's CommunicationException tells of a command that makes no sense."""
+        """Send a message. The handler raises CommunicationException for an invalid command."""
         if self.communication_handler is None:
             self._warn_without("communication", "a message was not sent")
         else:
             self.communication_handler.handle_command(command, self.node)
 
     def send_mobility_command(self, command: MobilityCommand) -> None:
-        """Order the vehicle; the handler's MobilityException tells of a command that makes no sense."""
+        """Steer the vehicle. The handler raises MobilityException for an invalid command."""
         if self.mobility_handler is None:
             self._warn_without("mobility", "a command was not carried out")
         else:
             self.mobility_handler.handle_command(command, self.node)
 
     def schedule_timer(self, timer: str, timestamp: float) -> None:
-        """Set a timer; the handler's TimerException tells of a time in the past."""
+        """Set a timer. The handler raises TimerException for a time in the past."""
         if self.timer_handler is None:
             self._warn_without("timer", f"the timer {timer!r} was not set")
         else:
             self.timer_handler.set_timer(timer, timestamp, self.node)
 
     def cancel_timer(self, timer: str) -> None:
-        """Forget every pending timer of that name."""
+        """Cancel every pending timer of that name."""
         if self.timer_handler is None:
             self._warn_without("timer", f"the timer {timer!r} was not cancelled")
         else:
@@ -112,9 +111,10 @@ class PythonProvider(CheckedProvider):
         return self._random
 
     def node_positions(self) -> dict[int, Position]:
-        """Return where every node is now, (x, y, z) in metres by id; RuntimeError without a mobility handler.
+        """Return the current position (x, y, z) in meters of every node, by id. For extensions.
 
-        For extensions: protocols have no business knowing.
+        Raises:
+            RuntimeError: There is no mobility handler.
         """
         nodes: Mapping[int, Any] | None = getattr(self.handlers.get("mobility"), "nodes", None)
         if nodes is None:
@@ -128,7 +128,7 @@ class PythonProvider(CheckedProvider):
 
 
 class PythonEncapsulator(IEncapsulator[IProtocol]):
-    """Calls the protocol directly. Its exceptions pass through, with a note of node, time and callback."""
+    """Calls the protocol, and adds a note with node, time and callback to the exceptions that it raises."""
 
     def __init__(self, node: _Node, **handlers: Any) -> None:
         self.node = node

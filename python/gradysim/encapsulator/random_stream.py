@@ -1,7 +1,7 @@
 """Named streams of random numbers: those of the engine, in plain Python.
 
-A stream is named by (seed of the run, node, purpose), so nobody's draws disturb anybody else's. `random()`
-gives bit for bit what `RandomStream::uniform()` of cpp/netsim/kernel/random.hpp gives for the same name: a
+A stream is named by (seed of the run, node, purpose), so streams do not disturb each other. `random()`
+returns bit for bit what `RandomStream::uniform()` of cpp/netsim/kernel/random.hpp gives for the same name: a
 protocol draws the same numbers in both modes, and a native one the same as its counterpart in Python.
 
 Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as 1, 2, 3",
@@ -25,13 +25,13 @@ Words = tuple[int, int, int, int]
 
 
 class Purpose(IntEnum):
-    """What a stream is drawn for. The numbers are part of every result: never change one, only add.
+    """Purpose of a stream. The numbers are part of every result: never change one, only add.
 
-    Those below 100 are the engine's too, where `enum class Purpose` has them all.
+    The engine has those below 100, too; see `enum class Purpose`.
 
     Attributes:
         PROTOCOL: `IProvider.random`.
-        PARAMETER: Values that an .ini file draws; of the path of the parameter in the place of a node.
+        PARAMETER: Values that an .ini file draws. The path of the parameter takes the place of the node.
         COMMUNICATION: Lost messages of prototype mode; of the receiver.
     """
 
@@ -88,7 +88,7 @@ class RandomStream(Random):
     """
 
     def __new__(cls, *_: Any, **__: Any) -> Self:
-        """As object's: the names of streams are no business of the base class."""
+        """Like `object.__new__`: the base class does not take the name of a stream."""
         return super().__new__(cls)
 
     def __init__(self, seed: int = 0, node: int = 0, purpose: int = Purpose.PROTOCOL) -> None:
@@ -138,9 +138,9 @@ class RandomStream(Random):
         return result
 
     def seed(self, a: Any = None, version: int = 2) -> None:
-        """Begin again: with the seed `a` instead of the run's, or with the same one if there is none.
+        """Restart the stream, with the seed `a` if it is given.
 
-        What is no whole number is made one as `random.Random` does it.
+        Other values than integers are converted as `random.Random` does.
         """
         if a is not None:
             number = a if isinstance(a, int) else Random(a).getrandbits(64)
@@ -148,12 +148,12 @@ class RandomStream(Random):
         self._begin()
 
     def getstate(self) -> tuple[Any, ...]:
-        """What `setstate` takes, in this stream or in another one."""
+        """Return a state for `setstate` of this or another stream."""
         name = (self._seed, self._node, self._purpose)
         return ("Philox4x32-10", name, self._block, tuple(self._words), self.gauss_next)
 
     def setstate(self, state: tuple[Any, ...]) -> None:
-        """Go on where the stream that gave `state` was; ValueError if no such stream did."""
+        """Continue where the stream that returned `state` was; ValueError if `state` is not of a stream."""
         if len(state) != 5 or state[0] != "Philox4x32-10":
             raise ValueError("the state is not that of a RandomStream")
         self._seed, self._node, self._purpose = state[1]

@@ -1,25 +1,38 @@
-"""A dictionary that reports how it changes: a protocol's tracked variables."""
+"""The tracked variables of a protocol: validation, and reports of each change."""
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from typing import Any, Self
+
+from gradysim.protocol.interface import IProvider
 
 _set_item = dict.__setitem__  # looked up once: this is the hot path
 
 
 def check_variables(variables: object) -> None:
-    """Raise TypeError for what are no tracked variables."""
+    """Raise TypeError if `variables` is not a mapping."""
     if not isinstance(variables, Mapping):
         raise TypeError(f"tracked_variables = {variables!r:.80}: expected a dict")
 
 
-class TrackedVariables(dict[str, Any]):
-    """Behaves as a dict and reports every item that is set or removed, by whatever method.
+class CheckedProvider(IProvider):
+    """Provider that rejects invalid assignments to `tracked_variables`, in the callback that makes them."""
 
-    Setting an item to the value that it has is reported too. What changes inside a value, such as an
-    element appended to a list, cannot be seen.
+    def __setattr__(self, name: str, value: Any) -> None:
+        # Not a property: each access would cost more.
+        if name == "tracked_variables":
+            check_variables(value)
+        super().__setattr__(name, value)
+
+
+class TrackedVariables(dict[str, Any]):
+    """Dict that reports every item that is set or removed, by any method.
+
+    Setting an item to its current value is reported, too. A change inside a value, such as an element
+    appended to a list, is not seen.
     """
 
-    __slots__ = ("_on_change",)  # so that `tracked_variables.x = 5` is an error, as it is of a dict
+    __slots__ = ("_on_change",)  # so that `tracked_variables.x = 5` is an error, as for a dict
 
     def __init__(self, on_change: Callable[[str, Any], None]) -> None:
         """Start empty. `on_change(name, value)` is called after each change, with None for a removed item."""
@@ -35,13 +48,13 @@ class TrackedVariables(dict[str, Any]):
         self._on_change(name, None)
 
     def setdefault(self, name: str, default: Any = None) -> Any:
-        """As of dict; reported if the item is new."""
+        """Like `dict.setdefault`; reported if the item is new."""
         if name not in self:
             self[name] = default
         return self[name]
 
     def update(self, *others: Any, **items: Any) -> None:
-        """As of dict; each item is reported."""
+        """Like `dict.update`; each item is reported."""
         for name, value in dict(*others, **items).items():
             self[name] = value
 
@@ -50,7 +63,7 @@ class TrackedVariables(dict[str, Any]):
         return self
 
     def pop(self, name: str, *default: Any) -> Any:
-        """As of dict; reported if the item was there."""
+        """Like `dict.pop`; reported if the item was there."""
         present = name in self
         value = super().pop(name, *default)
         if present:
@@ -58,23 +71,25 @@ class TrackedVariables(dict[str, Any]):
         return value
 
     def popitem(self) -> tuple[str, Any]:
-        """As of dict; reported."""
+        """Like `dict.popitem`; reported."""
         name, value = super().popitem()
         self._on_change(name, None)
         return name, value
 
     def clear(self) -> None:
-        """As of dict; each item is reported."""
+        """Like `dict.clear`; each item is reported."""
         names = list(self)
         super().clear()
         for name in names:
             self._on_change(name, None)
 
     def replace(self, variables: Mapping[str, Any]) -> None:
-        """Become equal to `variables`, for a protocol that assigns another dict; removals come first.
+        """Become equal to `variables`, which a protocol has assigned. Removals are reported first.
 
-        Nothing is reported if they are this very dict: `provider.tracked_variables |= {"b": 2}` assigns it.
-        Raises TypeError for what is no dict.
+        Nothing is reported for this dict itself, which `provider.tracked_variables |= {"b": 2}` assigns.
+
+        Raises:
+            TypeError: `variables` is not a mapping.
         """
         check_variables(variables)
         if variables is self:
@@ -85,5 +100,35 @@ class TrackedVariables(dict[str, Any]):
         self.update(values)
 
     def __reduce__(self) -> tuple[type, tuple[()], None, None, Iterator[tuple[str, Any]]]:
-        """A copy, also a deep or a pickled one, is a plain dict: changes of it are none of the protocol's."""
+        """Make every copy, also a deep or a pickled one, a plain dict whose changes are not reported."""
         return (dict, (), None, None, iter(self.items()))
+
+
+def watch_tracked_variables(provider: IProvider, on_change: Callable[[str, Any], None]) -> None:
+    """Call `on_change(name, value)` after each change from now on, with None for a removed variable.
+
+    The class of the provider becomes a subclass in which `tracked_variables` is a property. So a dict that
+    the protocol assigns is watched, too. Other providers keep their plain attribute, which is faster.
+    """
+    watched = TrackedVariables(on_change)
+    watched.update(vars(provider).pop("tracked_variables"))
+    provider.__class__ = _watched(type(provider))
+    provider._watched_variables = watched  # type: ignore[attr-defined]
+
+
+@cache
+def _watched(provider_class: type[IProvider]) -> type[IProvider]:
+    """Return a subclass of `provider_class` that notices when `tracked_variables` is assigned."""
+
+    def get(self: Any) -> TrackedVariables:
+        variables: TrackedVariables = self._watched_variables
+        return variables
+
+    def assign(self: Any, variables: dict[str, Any]) -> None:
+        self._watched_variables.replace(variables)
+
+    return type(
+        provider_class.__name__,
+        (provider_class,),
+        {"__module__": provider_class.__module__, "tracked_variables": property(get, assign)},
+    )

@@ -13,10 +13,9 @@ from gradysim.integrated.engine_errors import EngineError, errors_at, text_of
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import ConfigError, did_you_mean
 from gradysim.scenario.keys import CENTER_FREQUENCY
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
 if TYPE_CHECKING:

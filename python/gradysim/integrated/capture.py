@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.results.recorder import checked_ids
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.node_names import nodes_named
 from gradysim.scenario.scenario import Scenario
 

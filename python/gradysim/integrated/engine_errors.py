@@ -13,9 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.says_in_full import says_in_full
-from gradysim.scenario.errors.sibling_files import file_meant
+from gradysim.scenario.errors import ConfigError, is_fully_qualified, nearest_file
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS, written_for
 from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.settings import Setting
@@ -142,7 +140,7 @@ def _for(target: str, name: str, place: Setting | None) -> str:
         return ""
     paths = [key.path for key in NODE_KEYS if key.target == target]
     paths += [key.path.partition(".")[2] for key in NETWORK_KEYS if key.target == target]
-    is_told = any(says_in_full(line, path) for path in paths or [target])
+    is_told = any(is_fully_qualified(line, path) for path in paths or [target])
     return "" if is_told else f"for {name}: "
 
 
@@ -152,7 +150,8 @@ def _file_meant(key: Key | None, setting: Setting) -> str:
     if key is None or not key.kind.is_file or os.path.exists(file):  # False of what no file can be called
         return ""
     written = setting.source.value.strip('"')
-    return file_meant(file, (".csv", ".txt"), written if written.endswith(file.name) else "")
+    match = nearest_file(file, (".csv", ".txt"), written if written.endswith(file.name) else "")
+    return f"; did you mean `{match}`?" if match else ""
 
 
 def _cause(error: "_netsim.ConfigError", settings: Mapping[str, Setting]) -> str:

@@ -11,13 +11,13 @@ from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.integrated.native_protocols import NativeView
 from gradysim.protocol.position import Position
 from gradysim.simulator.event import EventLoopException
-from gradysim.simulator.handler.given import (
-    finalize_after_failure,
-    given_handlers,
-    judge_nothing_more,
-    step_hooks,
-)
 from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.registry import (
+    finalize_after_failure,
+    handlers_by_label,
+    step_hooks,
+    stop_judging,
+)
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node
@@ -30,7 +30,7 @@ MODE = "integrated mode"
 def checked_handlers(handlers: Iterable[INodeHandler]) -> dict[str, INodeHandler]:
     """Return `handlers` by their labels. Raises TypeError or ValueError for one that cannot work here."""
     world = "the engine is its {label}, set in the scenario"
-    return given_handlers(handlers, MODE, world, asynchronous=False)
+    return handlers_by_label(handlers, MODE, world, asynchronous=False)
 
 
 class EngineEventLoop:
@@ -168,7 +168,7 @@ class EngineHandlers:
     def finalize(self, *, complete: bool = True) -> None:
         """Finalize the handlers, after the protocols. Assertions are checked only if the run is complete."""
         if not complete:
-            judge_nothing_more(self._live)
+            stop_judging(self._live)
         while self._live:
             self._live.pop(0).finalize()
 

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.keys import IEEE802154, NETWORK_KEYS, NODE_KEYS, OF_802154, has_radios, written_for
 from gradysim.scenario.lint import Finding, by_line
-from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import ReadBy
 from gradysim.scenario.settings import Setting

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, cast
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider
 from gradysim.scenario.native_protocols import NativeProtocol
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.settings import Setting
 

@@ -8,18 +8,18 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from gradysim.autopilots.scenario_flights import check_autopilots
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target, text_of
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
+from gradysim.integrated.node_kinds import one_of_each_kind
 from gradysim.integrated.power_for_range import PowersForRanges
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError, ErrorCollector
 from gradysim.scenario.keys import DEFAULT_INTERFACE
-from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.settings import Setting
+from gradysim.sitl.scenario_autopilots import check_autopilots
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
@@ -28,8 +28,15 @@ if TYPE_CHECKING:
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     """Return the network of `scenario` and its nodes in the order of their ids, without protocols in Python.
 
-    Raises ConfigError, with the place in the .ini file, when a value is outside the engine's range.
+    Raises ConfigError, with the place in the .ini file, when values are outside the engine's range.
     """
+    try:
+        return _built(scenario)
+    except ConfigError as error:
+        raise _with_other_errors(error, scenario) from error
+
+
+def _built(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     config = medium_config(scenario)
     with errors_at(settings_by_target("medium", scenario.medium)):
         network: Network = load_netsim().Network(config, scenario.seed)
@@ -39,6 +46,24 @@ def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
         if is_native(spec):
             set_native_protocol(node, spec)
     return network, nodes
+
+
+def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:
+    """Return the errors of the medium and of one node of each kind together with the first error."""
+    errors = ErrorCollector()
+    errors.add(first)
+    network: Network | None = None
+    with errors.collecting(), errors_at(settings_by_target("medium", scenario.medium)):
+        medium = medium_config(scenario)
+        network = load_netsim().Network(medium, scenario.seed)
+        powers = PowersForRanges(medium)
+    for spec in one_of_each_kind(scenario.nodes):
+        with errors.collecting():
+            if network is None:
+                node_config(spec)
+            else:
+                add_node(network, spec, powers, scenario.medium)
+    return errors.combined()
 
 
 def check_scenario(scenario: Scenario) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 
 
 def by_kind(nodes: Iterable[NodeSpec]) -> Mapping[object, Sequence[NodeSpec]]:

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import text_of
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import DEFAULT_INTERFACE, has_radios
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, NodeConfig

@@ -10,10 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.encapsulator.failure import add_protocol_note
-from gradysim.encapsulator.garbage_collection import garbage_left_alone
+from gradysim.encapsulator.interface import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
-from gradysim.encapsulator.watched_provider import watch_tracked_variables
+from gradysim.encapsulator.run_context import gc_paused
+from gradysim.encapsulator.tracked_variables import watch_tracked_variables
+from gradysim.integrated.autopilot_nodes import AutopilotNodes
 from gradysim.integrated.capture import (
     capture_errors,
     captures_completed_after_failure,
@@ -21,7 +22,6 @@ from gradysim.integrated.capture import (
     start_captures,
 )
 from gradysim.integrated.compiled_part import load_netsim
-from gradysim.integrated.flown_nodes import FlownNodes
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
@@ -90,17 +90,17 @@ class IntegratedRun(ScenarioRun):
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = frozenset(checked_ids("fates_at", fates_at, len(scenario.nodes)))
         files = checked_captures(captures or {}, scenario)
-        with garbage_left_alone():
+        with gc_paused():
             self._network, self._nodes = build_network(scenario)
         start_captures(self._network, scenario, files)
         # Protocols and network form a cycle; `execute` breaks it, but may never be called.
         weakref.finalize(self, self._network.release_protocols)
         self._handlers = EngineHandlers(handlers, self._network)
-        self._flown = FlownNodes(scenario, self._network, self._nodes)
+        self._autopilots = AutopilotNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
         with self._building():
             self._make_protocols()
-        self._flown.take_off()
+        self._autopilots.take_off()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
@@ -120,9 +120,10 @@ class IntegratedRun(ScenarioRun):
                 reference_coordinates=scenario.reference_coordinates,
                 nodes=self._nodes,
                 handlers=self._handlers.by_label,
-                steer=self._flown.steering_of(node.id),
+                steer=self._autopilots.steering_of(node.id),
             )
             encapsulator.provider.run_name = name
+            encapsulator.provider.has_telemetry = spec.has_telemetry
             if recorder is not None:
                 _record_tracked_variables(encapsulator, node, recorder)
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
@@ -138,14 +139,14 @@ class IntegratedRun(ScenarioRun):
                 raise self._native_failure(failure) from None
             finally:
                 self._handlers.finalize_after_failure()
-                self._flown.close()
+                self._autopilots.close()
                 self._network.release_protocols()
 
     def _start(self) -> Callable[[int], bool]:
         self._handlers.initialize()
         self._network.initialize()
         self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
-        self._flown.initialize()
+        self._autopilots.initialize()
         handlers, limit_s, factor = self._handlers, self._scenario.sim_time_limit_s, self._real_time_factor
         if factor == 0:
             return lambda max_events: handlers.run_until(limit_s, max_events)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from gradysim.scenario.keys import has_radios
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig

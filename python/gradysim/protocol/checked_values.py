@@ -1,6 +1,6 @@
-"""Checks of what a user hands over as number, point or range, for plugins and for simulators.
+"""Checks of numbers, points and ranges that users pass to plugins and simulators.
 
-Each error names the value, its purpose and what was expected.
+Each error names the value, its purpose and what is expected.
 """
 
 import math
@@ -13,16 +13,33 @@ from gradysim.protocol.position import Position
 
 
 def is_plain_number(value: object) -> bool:
-    """Whether it is an int or a float, which JSON has, too; a truth value is none."""
+    """Return whether `value` is an int or a float, as JSON has them, and not a bool."""
     return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def is_in_range(value: object, low: float, high: float = math.inf, *, above: bool = False) -> bool:
+    """Return whether `value` is a number from `low` to `high`. NaN, a bool and other types are not.
+
+    Without `high`, every finite number >= `low` is in the range. With `above`, `low` itself is not:
+    `is_in_range(value, -math.inf, above=True)` accepts every finite number.
+    """
+    if not isinstance(value, Real) or isinstance(value, bool):
+        return False
+    try:
+        number = float(value)
+    except OverflowError:
+        return False
+    if number == math.inf or not low <= number <= high:
+        return False
+    return number > low if above else True
 
 
 def checked_number(
     name: str, value: Any, accept: Callable[[float], bool], expected: str, error: type[Exception]
 ) -> float:
-    """Return `value` if it is a number that `accept` takes, otherwise raise `error`.
+    """Return `value` as a float if it is a number that `accept` accepts. Otherwise raise `error`.
 
-    NaN is for `accept` to refuse, which every comparison does. `expected` completes "... must be".
+    `accept` must reject NaN, as every comparison does. `expected` completes "... must be".
     """
     with suppress(OverflowError):  # of an integer that no double can hold
         if isinstance(value, Real) and not isinstance(value, bool) and accept(float(value)):
@@ -49,7 +66,7 @@ def checked_range(name: str, value: Any, error: type[Exception]) -> tuple[float,
 
 
 def _finite_numbers(value: Any) -> tuple[float, ...]:
-    """Return the elements of `value` as numbers; none if one of them is not finite, or it has no elements."""
+    """Return the elements of `value` as floats; nothing if one is not a finite number."""
     try:
         numbers = tuple(map(float, () if isinstance(value, str) else value))
     except (TypeError, ValueError, OverflowError):

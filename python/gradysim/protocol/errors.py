@@ -1,21 +1,20 @@
-"""What a protocol's command raises when it cannot be carried out: the same in every mode.
+"""Exceptions of a protocol's commands, the same in both modes.
 
-The published package has these names in the modules of prototype mode's handlers, where they still can be
-imported from.
+They can also be imported from the modules of prototype mode's handlers, as in gradysim 0.8.
 """
 
 
 class CommunicationException(Exception):  # noqa: N818 (the published name)
-    """A message cannot be sent: an unknown destination, no text, longer than the network takes, ..."""
+    """A message cannot be sent: unknown destination, not a str, too long for the network, ..."""
 
 
 class TimerException(Exception):  # noqa: N818 (the published name)
-    """A timer cannot be set or cancelled: it is in the past, its name is not a text, ..."""
+    """A timer cannot be set or canceled: it is in the past, its name is not a str, ..."""
 
 
 class MasslessMobilityException(Exception):  # noqa: N818 (the published name)
-    """A mobility command cannot be carried out: not a place, a negative speed, a node that stands, ..."""
+    """A mobility command cannot be carried out: invalid target, negative speed, stationary node, ..."""
 
 
 class NativeProtocolError(RuntimeError):
-    """A protocol of the engine got something wrong. No code of the user led to it: its note tells all."""
+    """A native protocol failed. Its note says where; no code of the user is involved."""

@@ -1,13 +1,12 @@
-"""The contract between a protocol and the environment that it runs in.
+"""The interface between a protocol and the environment that runs it.
 
-A protocol is a set of callbacks (`IProtocol`); all it can do to the world goes through its provider
-(`IProvider`). Neither knows which environment stands behind the other. What commands raise is in
-`gradysim.protocol.errors`.
+A protocol is a set of callbacks (`IProtocol`). It acts through its provider (`IProvider`). The exceptions
+that commands raise are in `gradysim.protocol.errors`.
 """
 
 from abc import ABC, abstractmethod
 from random import Random
-from typing import Any, Self
+from typing import Any, Self, TypeGuard
 
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
@@ -18,51 +17,52 @@ class IProvider(ABC):
     """What a node offers to its protocol.
 
     Attributes:
-        tracked_variables: Values that the protocol wants to be seen; environments show and record them under
-            these names.
-        run_name: `Study-#3.integrated`, where the run is one of several of a configuration; empty elsewhere.
-            Files that a protocol writes are to have it in their names, or the next run overwrites them.
+        tracked_variables: Values that environments show and record under these names.
+        run_name: `Study-#3.integrated` if the run is one of several of a configuration; otherwise empty. Use
+            it in the names of files that a protocol writes, or the next run overwrites them.
+        has_telemetry: Whether the node calls `IProtocol.handle_telemetry`.
     """
 
     tracked_variables: dict[str, Any]
     run_name: str = ""
+    has_telemetry: bool = True
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Hand a message, which is a text, to the node's radio. Nothing tells whether it arrives.
+        """Hand a message to the node's radio. There is no delivery report.
 
         Raises:
-            CommunicationException: The message is no text or too long for the network, or there is no such
-                destination or interface.
+            CommunicationException: The message is not a str or is too long for the network, or the
+                destination or the interface does not exist.
         """
 
     @abstractmethod
     def send_mobility_command(self, command: MobilityCommand) -> None:
-        """Hand an order to the node's vehicle.
+        """Hand a command to the node's vehicle.
 
         Raises:
-            MasslessMobilityException: It is no place in the scene or no speed, or the node cannot move. Other
-                vehicles of prototype mode, which scripts add, have exceptions of their own.
+            MasslessMobilityException: The target is not in the scene, the speed is not valid, or the node
+                cannot move. Other mobility handlers of prototype mode have exceptions of their own.
         """
 
     @abstractmethod
     def schedule_timer(self, timer: str, timestamp: float) -> None:
-        """Have `IProtocol.handle_timer(timer)` called at `timestamp`.
+        """Schedule a call of `IProtocol.handle_timer(timer)` at `timestamp`.
 
         Args:
             timer: Any name. Several timers of the same name may be pending.
             timestamp: Absolute time in seconds, of the same clock as `current_time`; not in the past.
 
         Raises:
-            TimerException: The name is no text, or the time is past or no finite number.
+            TimerException: The name is not a str, or the time is in the past or not a finite number.
         """
 
     @abstractmethod
     def cancel_timer(self, timer: str) -> None:
-        """Forget every pending timer of that name; nothing happens if there is none.
+        """Cancel every pending timer of that name. No-op if there is none.
 
         Raises:
-            TimerException: The name is no text.
+            TimerException: The name is not a str.
         """
 
     @abstractmethod
@@ -75,9 +75,9 @@ class IProvider(ABC):
 
     @property
     def random(self) -> Random:
-        """The node's own stream of random numbers: the same in every run with the same seed.
+        """The node's own random stream: the same in every run with the same seed.
 
-        A provider that does not say otherwise gets a stream that depends on the node's id alone.
+        The stream of this base class depends on the node's id alone.
         """
         stream: Random | None = getattr(self, "_default_random", None)
         if stream is None:
@@ -86,10 +86,10 @@ class IProvider(ABC):
 
 
 class IProtocol(ABC):
-    """The behaviour of one node: what it does when something happens.
+    """The behavior of one node.
 
-    Subclasses take no constructor arguments. `provider` is there from `initialize` on, not yet in the
-    constructor. The order of the nodes' `initialize` and `finish` is not part of the contract.
+    The constructor takes no arguments and runs before `provider` is set; use the provider from `initialize`
+    on. The order in which the nodes' `initialize` and `finish` are called is not specified.
 
     Attributes:
         provider: The node that this protocol runs on.
@@ -99,22 +99,22 @@ class IProtocol(ABC):
 
     @classmethod
     def instantiate(cls, provider: IProvider) -> Self:
-        """Make an instance that runs on `provider`; environments call this, not the constructor."""
+        """Make an instance that runs on `provider`. Environments call this instead of the constructor."""
         protocol = cls()
         protocol.provider = provider
         return protocol
 
     @abstractmethod
     def initialize(self) -> None:
-        """Called once, before anything else happens to the node."""
+        """Called once, before every other callback."""
 
     @abstractmethod
     def handle_timer(self, timer: str) -> None:
-        """Called when a timer scheduled under the name `timer` is due."""
+        """Called when the timer `timer` is due."""
 
     @abstractmethod
     def handle_packet(self, message: str) -> None:
-        """Called when the message of another node has been received."""
+        """Called when a message of another node has been received."""
 
     @abstractmethod
     def handle_telemetry(self, telemetry: Telemetry) -> None:
@@ -123,3 +123,21 @@ class IProtocol(ABC):
     @abstractmethod
     def finish(self) -> None:
         """Called once, after the last event of the run."""
+
+
+CALLBACKS = ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
+"""Names of the callbacks of a protocol."""
+
+
+def is_protocol_class(value: object) -> TypeGuard[type[IProtocol]]:
+    """Return whether `value` is a class with the structure of a protocol, abstract or not.
+
+    It need not derive from `IProtocol`: `gradys_embedded.protocol` has an interface of its own with the same
+    methods. Such an interface itself, which declares all callbacks as abstract, is not a protocol.
+    """
+    if not isinstance(value, type) or not all(
+        callable(getattr(value, name, None)) for name in ("instantiate", *CALLBACKS)
+    ):
+        return False
+    declared = (vars(value).get(name) for name in CALLBACKS)
+    return not all(getattr(method, "__isabstractmethod__", False) for method in declared)

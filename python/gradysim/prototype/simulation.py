@@ -1,29 +1,29 @@
 """A scenario as a simulation of the plain simulator in Python."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from gradysim.autopilots.scenario_flights import flights_of
+from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
-from gradysim.prototype.recorded_nodes import record_node
+from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.results.files import run_name
 from gradysim.results.recorder import NodeRecorder
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import MASSLESS, STATIONARY
 from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_integrated
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import Scenario
-from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
-from gradysim.simulator.handler.copy_ledger import CopyLedger
-from gradysim.simulator.handler.given import given_handlers
+from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
-from gradysim.simulator.handler.mobility.flown import FlownMobilityHandler
-from gradysim.simulator.handler.mobility.resting import RestingMobilityHandler
+from gradysim.simulator.handler.mobility.massless import IdleSkippingMobilityHandler
+from gradysim.simulator.handler.registry import handlers_by_label
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
+from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
+from gradysim.sitl.scenario_autopilots import flights_of
 
 
 def build_simulation(
@@ -31,11 +31,11 @@ def build_simulation(
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
     recorders: Mapping[int, NodeRecorder] | None = None,
-) -> tuple[Simulator, CopyLedger]:
+) -> tuple[Simulator, DeliveryLedger]:
     """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
     `handlers` come beside those of communication, timers and mobility, and after them; `real_time` is that of
-    `SimulationConfiguration`; `recorders` are told what nodes, by their ids, do over time.
+    `SimulationConfiguration`; `recorders` record nodes, by id, over time.
 
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
     handlers cannot be added, what the constructor of a protocol raises, and SitlError when an autopilot does
@@ -43,8 +43,8 @@ def build_simulation(
     """
     check_protocols(scenario)
     world = "its {label} handler follows from the scenario"
-    given = given_handlers(handlers, "prototype mode", world, asynchronous=True)
-    ledger = CopyLedger()
+    given = handlers_by_label(handlers, "prototype mode", world, asynchronous=True)
+    ledger = DeliveryLedger()
     communication = CommunicationHandler(communication_medium(scenario), ledger)
     builder = SimulationBuilder(
         SimulationConfiguration(
@@ -54,8 +54,8 @@ def build_simulation(
             execution_logging=False,
         )
     )
-    # Handlers may count events and act between them; the wall clock goes from one to the next.
-    mobility = mobility_handler(scenario, may_rest=not given and not real_time)
+    # Idle updates are not skipped if handlers count events, or if the wall clock paces them.
+    mobility = mobility_handler(scenario, skips_idle=not given and not real_time)
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
     for handler in given.values():
         builder.add_handler(handler)
@@ -65,12 +65,14 @@ def build_simulation(
     recorded = recorders or {}
 
     def prepare(node: Node[Any]) -> None:
-        node.protocol_encapsulator.provider.run_name = name
+        provider = node.protocol_encapsulator.provider
+        provider.run_name = name
+        provider.has_telemetry = scenario.nodes[node.id].has_telemetry
         if node.id in recorded:
             record_node(node, recorded[node.id])
 
     simulator = builder.prepare_nodes(prepare).build()
-    if isinstance(mobility, FlownMobilityHandler):
+    if isinstance(mobility, AutopilotMobilityHandler):
         mobility.take_off()
     return simulator, ledger
 
@@ -78,7 +80,7 @@ def build_simulation(
 def check_scenario(scenario: Scenario) -> None:
     """Raise ConfigError, with the place in the .ini file, when a value is outside the simulator's range.
 
-    Building the simulation does the same check; this is for who wants to know before other runs are run.
+    Building the simulation does the same check. Call this to check before other runs are started.
     """
     check_protocols(scenario)
     communication_medium(scenario)
@@ -93,8 +95,8 @@ def check_protocols(scenario: Scenario) -> None:
             raise ConfigError(text, spec.protocol_sources.get(""))
 
 
-def mobility_handler(scenario: Scenario, *, may_rest: bool = False) -> MasslessMobilityHandler:
-    """Return what moves the nodes, and if it `may_rest` has no events while there is nothing to do for it.
+def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> MasslessMobilityHandler:
+    """Return the mobility handler; with `skips_idle`, it has no events while nothing moves.
 
     Raises ConfigError when a value is outside its range.
     """
@@ -102,9 +104,9 @@ def mobility_handler(scenario: Scenario, *, may_rest: bool = False) -> MasslessM
     flights = flights_of(scenario)
     if flights is None:
         configuration.update_rate = update_rate_s(scenario.nodes)
-        mobility = (RestingMobilityHandler if may_rest else MasslessMobilityHandler)(configuration)
+        mobility = (IdleSkippingMobilityHandler if skips_idle else MasslessMobilityHandler)(configuration)
     else:  # autopilots fly on every 10 ms, in both modes
-        mobility = FlownMobilityHandler(configuration, flights)
+        mobility = AutopilotMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility
@@ -131,7 +133,7 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
     stationary = _stands_still(spec)
-    numbers = {"telemetry_interval": UPDATE_S}  # of whom nothing is said, however often others are told
+    numbers = {"telemetry_interval": UPDATE_S}  # the default, whatever interval other nodes have
     mobility.configure_node(spec.id, stationary=stationary, **numbers)
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
         if (setting := spec.mobility.get(field)) is not None:
@@ -150,4 +152,27 @@ def _stands_still(spec: NodeSpec) -> bool:
         return True
     raise ConfigError.at(
         typename.source, f'prototype mode has no {typename.value}; expected "{MASSLESS}" or "{STATIONARY}"'
+    )
+
+
+_PS_PER_S = 1e12
+
+
+def record_node(node: Node[Any], recorder: NodeRecorder) -> None:
+    """Have a node recorded. To be called before its protocol is made: it may keep `tracked_variables`."""
+    encapsulator = node.protocol_encapsulator
+    handle_telemetry = encapsulator.handle_telemetry
+    current_time: Callable[[], float] = encapsulator.provider.current_time
+
+    def now_ps() -> int:
+        return round(current_time() * _PS_PER_S)
+
+    def record_and_handle(telemetry: Telemetry) -> None:
+        recorder.position_told(now_ps(), *telemetry.current_position)
+        handle_telemetry(telemetry)
+
+    # An attribute of the instance hides the method of the class; other nodes keep the method.
+    setattr(encapsulator, "handle_telemetry", record_and_handle)  # noqa: B010
+    watch_tracked_variables(
+        encapsulator.provider, lambda name, value: recorder.variable_set(now_ps(), name, value)
     )

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from time import perf_counter, process_time
 from typing import Any, ClassVar
 
-from gradysim.encapsulator.garbage_collection import garbage_left_alone
-from gradysim.encapsulator.global_random import global_random_of
+from gradysim.encapsulator.run_context import gc_paused, global_random_seeded
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
 from gradysim.scenario.lint import Finding, RunLint
@@ -121,7 +120,7 @@ class ScenarioRun(ABC):
     @contextmanager
     def _building(self) -> Iterator[None]:
         """Set up what the constructors of protocols need; without searches for garbage, as there is none."""
-        with garbage_left_alone(), self._protocol_environment():
+        with gc_paused(), self._protocol_environment():
             yield
 
     @contextmanager
@@ -133,7 +132,7 @@ class ScenarioRun(ABC):
     @contextmanager
     def _protocol_environment(self) -> Iterator[None]:
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
-        with siblings, global_random_of(self._scenario.seed):
+        with siblings, global_random_seeded(self._scenario.seed):
             yield
 
     @abstractmethod

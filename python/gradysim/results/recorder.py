@@ -6,8 +6,7 @@ from collections.abc import Iterable, Sized
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from gradysim.protocol.number import as_float
-from gradysim.protocol.plain_value import key_text
+from gradysim.protocol.plain_value import as_float, key_text
 
 Times: TypeAlias = "array[int]"
 """64-bit integers: picoseconds of simulated time."""

@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from gradysim.protocol.number import as_float
-from gradysim.protocol.plain_value import key_text
+from gradysim.protocol.plain_value import as_float, key_text
 from gradysim.results.confidence_interval import mean_of
 from gradysim.results.quantity import Scalar, recorded
 

@@ -1,22 +1,21 @@
-"""Scenarios in .ini files: OMNeT++'s grammar, INET's names, and errors that say where and what was expected.
+"""Scenarios in .ini files: the grammar of OMNeT++, the names of INET, and errors with place and expectation.
 
-`load_scenarios` takes a file through the sub-packages, each of which imports only those above it:
+`load_scenarios` reads a file in these steps:
 
-    errors                what all others say of a mistake
-    file                  the text as sections and entries
-    value                 the text of one value
-    keys, protocol        what may be set, and what the nodes run
-    matching              which entry is in force for what
-    runs, node, obstacle  the parts of a Scenario
-    doubts                what is valid and probably not meant
+    ini                          the text as sections and entries
+    runs, value                  iterations, and the text of one value
+    lookup, groups               the entries in force, and the groups of nodes
+    unknown_keys                 keys that match nothing
+    protocols, parameters        the classes of the nodes and their parameters
+    nodes, interfaces, network   the parts of a Scenario
+    lint                         settings that are valid but probably not intended
 
-`load` reads one `scenario` after the other, `networks` the part of each, `network`, that runs may share.
+`errors` has the exceptions, `schema` and `keys` the keys that a file may have.
 """
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.load import load_scenarios
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.settings import Setting

@@ -10,7 +10,7 @@ which is meant (channel 36: 5180 MHz).
 
 from dataclasses import replace
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.functions import Value
 from gradysim.scenario.parameter_types import ParameterType, Scalar, choice, integer
@@ -29,7 +29,9 @@ def _channel_of_2_4_ghz() -> ParameterType:
         try:
             channel = int(index.convert(value))
         except BadValue as error:
-            raise BadValue(error.problem, error.suggestion or _hint_at_5_ghz(value)) from None
+            raise BadValue(
+                error.problem, error.hint or _hint_at_5_ghz(value), suggestion=error.suggestion
+            ) from None
         return 2.484e9 if channel == 13 else 2.412e9 + 5e6 * channel
 
     def show(carrier_hz: Scalar) -> str:
@@ -38,9 +40,8 @@ def _channel_of_2_4_ghz() -> ParameterType:
         channel = (float(carrier_hz) - 2.412e9) / 5e6
         return f"{channel:g}" if channel.is_integer() else "none"
 
-    return ParameterType(
-        "a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert, unit="0 to 13", show=show
-    )
+    expected = "a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13"
+    return ParameterType(expected, convert, unit="0 to 13", show=show)
 
 
 def _hint_at_5_ghz(value: Value) -> str:

@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from gradysim.encapsulator.random_stream import Purpose, Words, philox4x32
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.functions import QUOTED, Value, check_count
 from gradysim.scenario.units import Dimension, Number, Quantity
 
@@ -256,7 +256,7 @@ def draw(name: str, given: Sequence[Value], stream: ParameterStream) -> Quantity
         if not math.isfinite(number):
             raise OverflowError
     except BadValue as error:
-        raise BadValue(f"`{name}`: {error.problem}", error.suggestion, expected=error.expected) from None
+        raise error.with_problem(f"`{name}`: {error.problem}") from None
     except (OverflowError, ZeroDivisionError):
         raise BadValue(f"`{name}`: it has drawn a number that is too large") from None
     return Quantity(number, values[first].unit)
@@ -275,8 +275,8 @@ def _converted(value: Quantity, first: Quantity) -> Quantity:
     if first.unit is None or not value.has_dimension_of(first):
         # For `normal(10dBm, 3dB)`: what spreads a level by 3 dB is written like the level itself.
         is_ratio = value.unit is not None and value.unit.dimension is Dimension.LEVEL
-        hint = f"; did you mean `{Quantity(value.number, first.unit)}`?" if is_level and is_ratio else ""
-        raise BadValue(f"`{first}` and `{value}` measure different things", hint)
+        meant = str(Quantity(value.number, first.unit)) if is_level and is_ratio else ""
+        raise BadValue(f"`{first}` and `{value}` measure different things", suggestion=meant)
     if is_level or (value.unit is not None and value.unit.logarithmic):
         raise BadValue(f"`{first}` and `{value}` have different units, and one is a logarithm")
     return Quantity(0, first.unit).plus(value)

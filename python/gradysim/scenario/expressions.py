@@ -23,8 +23,7 @@ from fractions import Fraction
 from functools import lru_cache
 
 from gradysim.scenario.distributions import DISTRIBUTIONS, ParameterStream, distribution_in, draw
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import BadValue, nearest
 from gradysim.scenario.functions import (
     FUNCTIONS,
     OPERATORS,
@@ -271,7 +270,9 @@ class _Parser:
         if token == INDEX:
             return _index_above(lambda parameter: 0)
         if kind == "word" and token not in _PYTHON_OPERATORS:
-            raise BadValue(f"`{token}` is not a value (strings must be quoted)", self._hint_at(token))
+            raise BadValue(
+                f"`{token}` is not a value (strings must be quoted)", suggestion=self._meant_by(token)
+            )
         if kind:
             raise self._not_understood(token)
         is_percentage = self._text.rstrip().endswith("%")
@@ -286,8 +287,9 @@ class _Parser:
         if name == INDEX:
             raise BadValue(f"`{name}` is not a function", f"; did you mean `{name}`, without parentheses?")
         if name not in _FUNCTION_NAMES:
-            hint = did_you_mean(name, _FUNCTION_NAMES) or f"; there are {', '.join(sorted(_FUNCTION_NAMES))}"
-            raise BadValue(f"there is no function `{name}`", hint)
+            meant = nearest(name, _FUNCTION_NAMES)
+            hint = "" if meant else f"; there are {', '.join(sorted(_FUNCTION_NAMES))}"
+            raise BadValue(f"there is no function `{name}`", hint, suggestion=meant)
         place = self._draws
         self._draws += name in DISTRIBUTIONS  # counted from the left, whether or not they draw
         with self._deeper():
@@ -338,21 +340,25 @@ class _Parser:
         self._position += 1
         return Quantity(amount, unit_named(token))
 
-    def _hint_at(self, word: str) -> str:
-        """What may be meant by a word that is not a value."""
+    def _meant_by(self, word: str) -> str:
+        """What may be meant by a word that is not a value, or ""."""
         if word.lower() in ("true", "false", "inf", "nan"):
-            return f"; did you mean `{word.lower()}`?"
+            return word.lower()
         if word in INDEX_FUNCTIONS:
-            return f"; did you mean `{INDEX_FUNCTIONS[word]}`?"
+            return INDEX_FUNCTIONS[word]
         unit = "".join(token for _, token in self._tokens[max(0, self._position - 3) : self._position])
-        return f"; did you mean `{_SPEEDS[unit]}`?" if unit in _SPEEDS else ""
+        return _SPEEDS.get(unit, "")
 
     def _not_understood(self, token: str) -> BadValue:
         """The error about a token that has no meaning where it stands. Most come from another grammar."""
         name = ""
         if len(token) == 1 and not token.isascii():  # it may look like another one, or be invisible
             name = f" (U+{ord(token):04X}, {unicodedata.name(token, 'without a name').lower()})"
-        return BadValue(f"`{token}`{name} is not understood there", self._syntax_hint(token))
+        meant = {**_PYTHON_OPERATORS, "=": "==", "&": "&&", "|": "||"}.get(token, "")
+        if token == "$" and (variable := re.search(r"\$(\w+)", self._text, re.ASCII)):
+            meant = f"${{{variable[1]}}}"
+        problem = f"`{token}`{name} is not understood there"
+        return BadValue(problem, self._syntax_hint(token), suggestion=meant)
 
     def _syntax_hint(self, token: str) -> str:
         text = self._text
@@ -360,10 +366,6 @@ class _Parser:
             return "; a micro is `u`, as in `us`"
         if token == "/" and "//" in text:
             return "; a comment begins with `#`"
-        if token == "$" and (name := re.search(r"\$(\w+)", text, re.ASCII)):
-            return f"; did you mean `${{{name[1]}}}`?"
-        if meant := {**_PYTHON_OPERATORS, "=": "==", "&": "&&", "|": "||"}.get(token):
-            return f"; did you mean `{meant}`?"
         if token == "." and ".." in text:
             return "; a range of values is written `${1..5}ms`"
         if token == "," and re.search(r"\d,\d", text):
@@ -395,7 +397,7 @@ def _selected(nodes: Sequence[Node]) -> Node:
         try:
             place = item_index(index(parameter), len(items))
         except BadValue as error:
-            raise BadValue(f"`{SELECT}`: {error.problem}", error.suggestion) from None
+            raise error.with_problem(f"`{SELECT}`: {error.problem}") from None
         return items[place](parameter)
 
     return node

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.units import Number, Quantity, is_finite
 
@@ -131,7 +131,7 @@ def call(name: str, values: Sequence[Value]) -> Value:
     try:
         return apply(*values)
     except BadValue as error:
-        raise BadValue(f"`{name}`: {error.problem}", error.suggestion) from None
+        raise error.with_problem(f"`{name}`: {error.problem}") from None
 
 
 def integer(value: Value) -> int:

@@ -20,12 +20,9 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt
-from gradysim.scenario.errors.sibling_files import file_meant
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source, did_you_mean, nearest, nearest_file
 from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
-from gradysim.scenario.matching.lookup import Lookup
+from gradysim.scenario.lookup import Lookup
 from gradysim.scenario.obstacles import (
     Corner,
     ObstacleSpec,
@@ -97,7 +94,8 @@ def _parse(file: Path) -> Mapping[str, Any]:
     try:
         content = json.loads(file.read_text(encoding="utf-8-sig"), parse_int=_integer)
     except OSError as error:
-        hint = file_meant(file, (".geojson", ".json"))
+        match = nearest_file(file, (".geojson", ".json"))
+        hint = f"; did you mean `{match}`?" if match else ""
         raise _BadGeojsonError(f"cannot read it: {error.strerror or error}{hint}") from error
     except UnicodeDecodeError as error:
         raise _BadGeojsonError("it is not UTF-8 text") from error
@@ -191,7 +189,7 @@ def _refuse_misspelt(properties: Mapping[str, Any]) -> None:
     """Refuse a property with nearly the name of a missing one."""
     missing = [name for name in _PROPERTIES if properties.get(name) is None]
     for name in properties:
-        if name not in _PROPERTIES and (meant := misspelt(name, missing)):
+        if name not in _PROPERTIES and (meant := nearest(name, missing, strict=True)):
             raise _BadGeojsonError(f"nothing reads its property `{name}`; did you mean `{meant}`?")
 
 

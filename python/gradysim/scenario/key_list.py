@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
-from gradysim.scenario.errors.nearest import misspelt
+from gradysim.scenario.errors import nearest
 from gradysim.scenario.keys import (
     GROUP_SIZE,
     GROUP_SIZE_OF_NODES,
@@ -81,7 +81,7 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 def key_meant(sections: Iterable[KeySection], pattern: str) -> str:
     """The end of a message about a pattern that matches none, "; did you mean ...?"; "" if it is no slip."""
     keys = [row.key.partition(" ")[0].split(".") for section in sections for row in section.rows]
-    meant = misspelt(pattern, (".".join(key[-length:]) for length in (1, 2) for key in keys))
+    meant = nearest(pattern, (".".join(key[-length:]) for length in (1, 2) for key in keys), strict=True)
     return f"; did you mean `{meant}`?" if meant else ""
 
 

@@ -8,8 +8,7 @@ the tables at the end.
 import re
 from dataclasses import dataclass, replace
 
-from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
-from gradysim.protocol.messages.interface_index import MOST_INTERFACES
+from gradysim.protocol.defaults import MOST_INTERFACES, TRANSMISSION_RANGE_M
 from gradysim.scenario.bands import CHANNEL_OF_802154, channel_by_default, first_channel_of_band
 from gradysim.scenario.parameter_types import (
     ParameterType,

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import BadValue, Source
 from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
-from gradysim.scenario.file.reader import Entry, Section
+from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY, has_radios
-from gradysim.scenario.matching.lookup import is_ignored, is_option
-from gradysim.scenario.matching.pattern_index import PatternIndex
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.lookup import is_ignored, is_option
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import annotations_of, unit_of
+from gradysim.scenario.pattern_index import PatternIndex
 from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.runs import UnreadVariables
 from gradysim.scenario.scenario import Scenario

@@ -1,20 +1,15 @@
 """Reads a configuration of a file as scenarios, one for each run."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT, ArgumentNames
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry, read_ini, read_overrides
-from gradysim.scenario.file.sections import Ranked, search_order, what_to_run_instead
-from gradysim.scenario.matching.key_check import check_option
-from gradysim.scenario.matching.lookup import is_option, network_name, options_in_force
-from gradysim.scenario.network import Network
-from gradysim.scenario.networks import Networks
+from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector, Source
+from gradysim.scenario.ini import Entry, Ranked, read_ini, read_overrides, search_order, what_to_run_instead
+from gradysim.scenario.lookup import is_option, network_name, options_in_force
+from gradysim.scenario.network import Network, Networks
 from gradysim.scenario.options import NETWORK, OPTIONS
 from gradysim.scenario.runs import (
     check_seeds_of_runs,
@@ -34,6 +29,10 @@ from gradysim.scenario.sweep import (
     substituted,
     with_labels,
 )
+from gradysim.scenario.unknown_keys import check_option
+
+_MOST_FAILED = 20
+"""Combinations of iteration variables with errors, after which reading stops."""
 
 
 def load_scenarios(
@@ -50,29 +49,28 @@ def load_scenarios(
     Args:
         file: The .ini file.
         config: Name of the configuration in it.
-        runs: Numbers of the runs that are wanted, or a text such as "0,2,5..9"; None for all.
-        overrides: "KEY=VALUE" texts that come before all of the file; of several that match, the first.
-        seed: Seed of run 0, to which run N adds N, each 0 to 2^63 - 1; None for the file's seed-set.
-        names: What messages call these arguments.
+        runs: Numbers of the wanted runs, or a string such as "0,2,5..9"; None for all.
+        overrides: "KEY=VALUE" strings that precede the whole file; of several that match, the first is used.
+        seed: Seed of run 0; run N adds N. Each is 0 to 2^63 - 1. None for the seed-set of the file.
+        names: Names of these arguments in messages.
 
     Returns:
         One scenario per run, by run number.
 
     Raises:
-        ConfigError: Anything is wrong; nothing has been run.
-        TypeError: `config` is no text, `overrides` are no list of texts, `runs` no numbers, or `seed` is no
-            whole number.
+        ConfigError: Anything is wrong. Several errors are a ConfigErrors, whose `errors` are sorted by line.
+        TypeError: An argument has the wrong type.
     """
     checked = CheckedScenarios(file, config, runs, overrides, seed, names)
     return [checked.placed(scenario) for scenario in checked.scenarios]
 
 
 class CheckedScenarios:
-    """The runs of a configuration, all of it checked, of which only what is asked for is worked out.
+    """The checked runs of a configuration.
 
     Attributes:
-        scenarios: One per run, by run number. Of those that differ in their seeds alone, nodes may stand
-            where they do in the first of them; `placed` puts them where they belong.
+        scenarios: One per run, by run number. Those that differ only in their seeds may have the nodes of the
+            first of them; `placed` returns them with their own nodes.
     """
 
     def __init__(
@@ -96,35 +94,54 @@ class CheckedScenarios:
         ranked = [Ranked(0, entry) for entry in read_overrides(file, overrides, names.overrides)]
         for rank, section in enumerate(sections, start=1):
             ranked += [Ranked(rank, entry) for entry in section.entries]
+        errors = ErrorCollector()
         for _, entry in ranked:
             if is_option(entry):
-                check_option(entry)
-
-        network_of_file = network_name(next((entry for _, entry in ranked if entry.key == NETWORK), None))
-        ranked, variables = name_iterations(ranked)
-        lines = tuple(entry for _, entry in ranked)
-        as_written = options_in_force(lines)
-        numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
-        if seed is not None:
-            check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
+                with errors.collecting():
+                    check_option(entry)
+        try:
+            network_of_file = network_name(next((entry for _, entry in ranked if entry.key == NETWORK), None))
+            ranked, variables = name_iterations(ranked)
+            lines = tuple(entry for _, entry in ranked)
+            as_written = options_in_force(lines)
+            numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
+            if seed is not None:
+                check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
+        except ConfigError as error:  # without runs there is nothing else to check
+            errors.add(error)
+            raise errors.combined() from None
 
         instead = what_to_run_instead(ini, config, sections, names.config)
         networks = self._networks = Networks(ranked, file.parent, instead, source)
         self._elsewhere: dict[int, dict[str, str]] = {}  # variables of runs with a network of another seed
         in_force = entries_of_the_hash(ranked)
         hashes: dict[tuple[str, ...], str] = {}  # by the values of the iterations: no more of a run is in it
-        made = []
+        made: list[Callable[..., Scenario]] = []
+        failed: set[tuple[str, ...]] = set()
         for number, repetition, iterations in numbered:
-            values = run_variables(file, network_of_file, config, number, repetition, iterations)
-            of_file = seed_of_file(as_written, number, values)
-            seed_of_run = of_file if seed is None else seed + number
             key = tuple(iterations.values())
-            if key not in hashes:
-                hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
-                hashes[key] = settings_hash(substituted(in_force, hashed))
-            values = with_labels(values, seed_of_run, as_written)
-            options = {name: substitute(entry, values) for name, entry in as_written.items()}
-            network, is_its_own = networks.checked(values, seed_of_run)
+            if key in failed:
+                continue
+            if len(failed) == _MOST_FAILED:
+                break
+            values = run_variables(file, network_of_file, config, number, repetition, iterations)
+            limit_s = 1.0
+            try:
+                of_file = seed_of_file(as_written, number, values)
+                seed_of_run = of_file if seed is None else seed + number
+                if key not in hashes:
+                    hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
+                    hashes[key] = settings_hash(substituted(in_force, hashed))
+                values = with_labels(values, seed_of_run, as_written)
+                options = {name: substitute(entry, values) for name, entry in as_written.items()}
+                with errors.collecting():
+                    limit_s = _sim_time_limit_s(options, config, source)
+                description = _description(options)
+                network, is_its_own = networks.checked(values, seed_of_run)
+            except ConfigError as error:
+                errors.add(error)
+                failed.add(key)
+                continue
             if not is_its_own:
                 self._elsewhere[number] = values
             made.append(
@@ -134,8 +151,8 @@ class CheckedScenarios:
                     config=config,
                     run_number=number,
                     seed=seed_of_run,
-                    description=_description(options),
-                    sim_time_limit_s=_sim_time_limit_s(options, config, source),
+                    description=description,
+                    sim_time_limit_s=limit_s,
                     **_fields(network),
                     sections=sections,
                     repetition=repetition,
@@ -146,7 +163,8 @@ class CheckedScenarios:
                     lines=lines,
                 )
             )
-        if len(numbered) < run_count:  # the others may have nodes that these have not, and read other lines
+        errors.raise_all()
+        if len(numbered) < run_count:  # the other runs may have more nodes, and read other lines
             self.scenarios = [make() for make in made]
             return
         networks.check_lines_of_other_runs()
@@ -162,7 +180,7 @@ class CheckedScenarios:
 
 
 def _fields(network: Network) -> dict[str, Any]:
-    """Those that a scenario has of its network."""
+    """Return the fields of a scenario that come from its network."""
     return {
         "nodes": network.nodes,
         "medium": network.medium,
@@ -176,9 +194,7 @@ def _fields(network: Network) -> dict[str, Any]:
 def _sim_time_limit_s(options: Mapping[str, Entry], config: str, source: Source) -> float:
     limit = options.get("sim-time-limit")
     if limit is None:
-        raise ConfigError(
-            f"`{config}` does not say how long to simulate; expected `sim-time-limit = 1h`", source
-        )
+        raise ConfigError(f"`{config}` has no time limit", source, expected="`sim-time-limit = 1h`")
     return float(read_scalar(limit, OPTIONS["sim-time-limit"]))
 
 

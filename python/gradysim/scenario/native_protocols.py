@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, ClassVar, NoReturn
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import BadValue, nearest
 
 if TYPE_CHECKING:
     from gradysim import _netsim
@@ -112,8 +111,8 @@ def native_protocol(name: str) -> type[NativeProtocol]:
         problem = f"native protocols need the compiled part of gradysim, which cannot be imported ({error})"
         raise BadValue(problem) from error
     if name not in table:
-        hint = "; did you mean `protocol.class`?" if ":" in name else did_you_mean(name, table)
-        raise BadValue(f"there is no native protocol `{name}`", hint)
+        meant = "protocol.class" if ":" in name else nearest(name, table)
+        raise BadValue(f"there is no native protocol `{name}`", suggestion=meant)
     return table[name]
 
 

@@ -1,42 +1,44 @@
-"""What the lines of one run say of its network: the part of a scenario that runs have in common."""
+"""The network of a run: nodes, medium and obstacles. Runs that do not differ in them share one."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
+from pathlib import Path
+from typing import NamedTuple
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.sections import Ranked
+from gradysim.scenario.distributions import distribution_in
+from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.geojson import read_obstacle_files
+from gradysim.scenario.groups import Group, find_groups
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.interfaces import interface_counts
 from gradysim.scenario.keys import NETWORK_KEYS
-from gradysim.scenario.matching.groups import find_groups
-from gradysim.scenario.matching.key_check import (
+from gradysim.scenario.lookup import Lookup, is_ignored, is_option, read_struct
+from gradysim.scenario.native_protocols import file_of_native
+from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.nodes import build_nodes, load_protocols
+from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
+from gradysim.scenario.protocols import ProtocolLoader
+from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
+from gradysim.scenario.scenario import CommunicationMediumSpec
+from gradysim.scenario.schema import Key
+from gradysim.scenario.settings import Setting, SettingReader
+from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
+from gradysim.scenario.unknown_keys import (
     NoSuchNodeError,
     ProtocolAndInterfaces,
     check_names,
     check_parameters,
 )
-from gradysim.scenario.matching.lookup import Lookup
-from gradysim.scenario.matching.struct_reader import read_struct
-from gradysim.scenario.native_protocols import file_of_native
-from gradysim.scenario.node.interfaces import interface_counts
-from gradysim.scenario.node.node_spec import NodeSpec
-from gradysim.scenario.node.nodes import build_nodes, load_protocols
-from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
-from gradysim.scenario.protocols import ProtocolLoader
-from gradysim.scenario.runs import FileHashes
-from gradysim.scenario.scenario import CommunicationMediumSpec
-from gradysim.scenario.schema import Key
-from gradysim.scenario.settings import Setting, SettingReader
 
 
 @dataclass(frozen=True)
 class Network:
-    """Fields of a scenario under their names there, and what is needed to compare runs.
+    """Fields of a scenario that describe its network, and what is needed to compare runs.
 
     Attributes:
-        lines_of_other_runs: Those about nodes that this run has not, and others may have.
-        lookup: Which lines are in force.
+        lines_of_other_runs: Lines about nodes that this run does not have, and other runs may have.
+        lookup: The lines in force.
     """
 
     nodes: tuple[NodeSpec, ...]
@@ -57,54 +59,64 @@ def read_network(
     instead: str,
     source: Source,
 ) -> Network:
-    """Read the network of a run. Raises ConfigError for anything that is wrong.
+    """Read the network of a run.
 
     Args:
-        ranked: The entries of the run, with its values in the place of variables.
+        ranked: The entries of the run, with its values instead of variables.
         settings: Reads their values.
         loader: Loads protocols.
-        hashes: Of the files that values name.
-        instead: What messages about nodes that are not there end in.
+        hashes: Hashes of the files that values name.
+        instead: The end of messages about nodes that do not exist.
         source: The place of the configuration.
+
+    Raises:
+        ConfigError: Anything is wrong; all errors are reported together.
     """
+    errors = ErrorCollector()
     lookup = Lookup(ranked)
     groups = find_groups(lookup, settings)
-    try:
-        lines_of_other_runs = check_names(lookup, groups)
-    except NoSuchNodeError as error:
-        raise NoSuchNodeError(error.message + instead, error.source) from None
-    protocols = load_protocols(lookup, groups, settings, loader)
+    lines_of_other_runs = check_names(lookup, groups, errors)
+    errors.errors = [_with_hint(error, instead) for error in errors.errors]
+    protocols = load_protocols(lookup, groups, settings, loader, errors)
     if not protocols:
-        for group in groups:  # each is given by the number of its nodes, and that is 0
-            if group.size_found is not None:
-                text = f"that is 0, and there are no nodes; expected one at least{instead}"
-                raise ConfigError.at(group.size_found.entry.source, text)
-        raise ConfigError(f"there are no nodes; expected some, such as `*.numUavs = 2`{instead}", source)
-    counts = interface_counts(lookup, groups, settings)
+        errors.raise_all()
+        raise _no_nodes(groups, instead, source)
+    counts: dict[str, int] = {}
+    obstacle_keys = 0
+    with errors.collecting():
+        counts = interface_counts(lookup, groups, settings)
+        obstacle_keys = obstacle_count(lookup, settings)
+    if not counts:
+        errors.raise_all()
     kinds = {name: ProtocolAndInterfaces(protocol.cls, counts[name]) for name, protocol in protocols.items()}
-    check_parameters(lookup, groups, kinds, obstacle_count(lookup, settings))
+    check_parameters(lookup, groups, kinds, obstacle_keys, errors)
 
     found = {
         key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None
     }
-    communication = read_struct("communication_medium", found, settings, _path_of)
-    reference = read_struct("reference", found, settings, _path_of)
+    communication = read_struct("communication_medium", found, settings, _path_of, errors)
+    reference = read_struct("reference", found, settings, _path_of, errors)
     latitude, longitude, altitude = (
         float(reference[field].value) if field in reference else 0.0
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
     )
-    nodes = build_nodes(lookup, groups, protocols, counts, settings)
-    is_placed = {"latitude_deg", "longitude_deg"} <= reference.keys()
-    obstacles = read_obstacles(lookup, settings)
-    obstacle_files = read_obstacle_files(
-        lookup, settings, (latitude, longitude, altitude) if is_placed else None
-    )
+    nodes = build_nodes(lookup, groups, protocols, counts, settings, errors)
+    medium = read_struct("medium", found, settings, _path_of, errors)
+    obstacles: tuple[ObstacleSpec, ...] = ()
+    obstacle_files: dict[Path, tuple[ObstacleSpec, ...]] = {}
+    with errors.collecting():
+        is_placed = {"latitude_deg", "longitude_deg"} <= reference.keys()
+        obstacles = read_obstacles(lookup, settings)
+        obstacle_files = read_obstacle_files(
+            lookup, settings, (latitude, longitude, altitude) if is_placed else None
+        )
+    errors.raise_all()
     chosen = set(protocols.values())
     files = [file for protocol in chosen for file in protocol.files]
     files += [*obstacle_files, *settings.files()]
     return Network(
         nodes=nodes,
-        medium=read_struct("medium", found, settings, _path_of),
+        medium=medium,
         communication_medium=CommunicationMediumSpec(
             **{field: float(setting.value) for field, setting in communication.items()}
         ),
@@ -116,6 +128,116 @@ def read_network(
     )
 
 
+def _with_hint(error: ConfigError, hint: str) -> ConfigError:
+    if not isinstance(error, NoSuchNodeError):
+        return error
+    return NoSuchNodeError(
+        error.problem,
+        error.source,
+        expected=error.expected,
+        suggestion=error.suggestion,
+        hint=error.hint + hint,
+    )
+
+
+def _no_nodes(groups: Sequence[Group], instead: str, source: Source) -> ConfigError:
+    for group in groups:  # each has a number of nodes, and it is 0
+        if group.size_found is not None:
+            size = group.size_found.entry.source
+            return ConfigError.at(size, "there are no nodes", expected="at least one", hint=instead)
+    return ConfigError("there are no nodes", source, expected="some, such as `*.numUavs = 2`", hint=instead)
+
+
 def _path_of(key: Key) -> str:
-    """Of a parameter of the network."""
+    """Return the path of a parameter of the network."""
     return key.path
+
+
+class _Read(NamedTuple):
+    """A network with what it was made from."""
+
+    texts: list[str]
+    seed: int
+    network: Network
+    settings: SettingReader
+
+
+class Networks:
+    """Reads the networks of runs, one after another."""
+
+    def __init__(self, ranked: Sequence[Ranked], folder: Path, instead: str, source: Source) -> None:
+        """Prepare for the first run.
+
+        Args:
+            ranked: The entries of the configuration, with variables.
+            folder: The directory of the .ini file.
+            instead: The end of messages about nodes that do not exist.
+            source: The place of the configuration.
+        """
+        self._ranked = ranked
+        self._instead = instead
+        self._source = source
+        self._loader, self._hashes = ProtocolLoader(), FileHashes(folder)
+        parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
+        self._varying = [entry for entry in parameters if depends_on_run(entry)]
+        self._always_draws = any(distribution_in(entry.text) for entry in parameters)
+        self._last: _Read | None = None
+        self._of_other_runs: list[Sequence[Source]] = []
+        self._read: set[Source] = set()
+
+    def of_run(self, variables: Mapping[str, str], seed: int) -> Network:
+        """Return the network of a run: that of the previous run if the same lines make it.
+
+        Raises ConfigError for anything that is wrong.
+        """
+        network, is_its_own = self.checked(variables, seed)
+        return network if is_its_own else self._read_network(self._texts(variables), variables, seed)
+
+    def checked(self, variables: Mapping[str, str], seed: int) -> tuple[Network, bool]:
+        """Return the network of a run, or one with another seed that is valid if and only if this one is.
+
+        Also returns whether it is that of the run. Raises ConfigError for anything that is wrong.
+        """
+        texts, last = self._texts(variables), self._last
+        if last is None or texts != last.texts:
+            return self._read_network(texts, variables, seed), True
+        if seed == last.seed or not (self._always_draws or any(map(distribution_in, texts))):
+            return last.network, True
+        if last.settings.is_right_for_all_seeds():
+            return last.network, False
+        return self._read_network(texts, variables, seed), True
+
+    def _texts(self, variables: Mapping[str, str]) -> list[str]:
+        """Return the values that differ between networks, before any are drawn."""
+        return [substitute(entry, variables).text for entry in self._varying]
+
+    def _read_network(self, texts: list[str], variables: Mapping[str, str], seed: int) -> Network:
+        settings = SettingReader(seed)
+        entries = substituted(self._ranked, variables)
+        network = read_network(entries, settings, self._loader, self._hashes, self._instead, self._source)
+        self._of_other_runs.append(network.lines_of_other_runs)
+        self._read |= settings.lines_read()
+        self._last = _Read(texts, seed, network, settings)
+        return network
+
+    def check_lines_of_other_runs(self) -> None:
+        """Raise ConfigError for the lines that all runs leave to other runs."""
+        errors = ErrorCollector()
+        first, *others = self._of_other_runs
+        for line in first:
+            if all(line in lines for lines in others):
+                problem, expected = f"`{line.key}` matches no node in any run", "a node that some run has"
+                errors.add(NoSuchNodeError(problem, line, expected=expected))
+        errors.raise_all()
+
+    def unread(
+        self, lines: Sequence[Entry], variables: Sequence[IterationVariable]
+    ) -> tuple[UnreadVariables, ...]:
+        """Return the variables, in these lines of the configuration, that no run has read."""
+        assert self._last is not None
+        network, settings = self._last.network, self._last.settings
+        nodes, parameters = [spec.name for spec in network.nodes], settings.parameters_read()
+        return tuple(
+            UnreadVariables(line, names, line_instead(line, network.lookup, nodes, parameters))
+            for line, names in unread_variables(lines, variables, self._read).items()
+        )

@@ -2,9 +2,8 @@
 
 from collections.abc import Iterable, Sequence
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
 ALL = "all"
@@ -12,7 +11,7 @@ ALL = "all"
 
 
 def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
-    """Return the nodes of these names, each once, in the order of ids; none for names that it has not.
+    """Return the nodes with these names, each once, in the order of ids. Unknown names are ignored.
 
     `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `ALL`.
     """
@@ -21,14 +20,14 @@ def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
 
 
 def check_node_names(scenarios: Sequence[Scenario], names: Iterable[str], option: str) -> None:
-    """Raise ConfigError for the first name that none of these runs of a configuration has.
+    """Raise ConfigError for the first name that exists in none of these runs of a configuration.
 
-    `option` is what the names were given to, `--pcap`.
+    `option` is the option that has the names, `--pcap`.
     """
     networks = list({id(scenario.nodes): scenario for scenario in scenarios}.values())
     for name in names:
         if not any(_nodes_of(scenario, name) for scenario in networks):
-            raise ConfigError(f"{option} {name}: {_no_such_node(scenarios, name)}")
+            raise _no_such_node(scenarios, name, option)
 
 
 def _nodes_of(scenario: Scenario, name: str) -> Sequence[NodeSpec]:
@@ -36,18 +35,18 @@ def _nodes_of(scenario: Scenario, name: str) -> Sequence[NodeSpec]:
     return scenario.nodes if name == ALL and not found else found
 
 
-def _no_such_node(scenarios: Sequence[Scenario], name: str) -> str:
+def _no_such_node(scenarios: Sequence[Scenario], name: str, option: str) -> ConfigError:
     nodes = {node.name: node for scenario in scenarios for node in scenario.nodes}
     if not nodes:
-        return "no such node; the scenario has none"
+        return ConfigError(f"{option} {name}: no such node; the scenario has none")
     groups = list(dict.fromkeys(node.group for node in nodes.values()))
-    suggestion = did_you_mean(name, [*groups, *nodes, ALL])
     where = ""
     if len(scenarios) > 1:
         where = " in any of the runs"
     elif scenarios[0].run_count > 1:  # others may have it
         where = f" in run {scenarios[0].run_number}"
-    return (
-        f"no such node{where}; expected a node such as {next(iter(nodes))},"
-        f" a group ({', '.join(groups)}) or {ALL}{suggestion}"
+    return ConfigError(
+        f"{option} {name}: no such node{where}",
+        expected=f"a node such as {next(iter(nodes))}, a group ({', '.join(groups)}) or {ALL}",
+        suggestion=nearest(name, [*groups, *nodes, ALL]),
     )

@@ -6,10 +6,9 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.matching.lookup import Lookup
+from gradysim.scenario.lookup import Lookup
 from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 

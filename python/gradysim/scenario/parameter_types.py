@@ -10,8 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt
+from gradysim.scenario.errors import BadValue, nearest
 from gradysim.scenario.functions import Value, text_of
 from gradysim.scenario.units import UNITS, Dimension, Quantity, db_from_ratio, ratio_from_db
 
@@ -243,9 +242,9 @@ def choice(*names: str, otherwise: str = "") -> ParameterType:
     def convert(value: Value) -> str:
         name = _string_of(value)
         if name not in names:
-            means_another = otherwise and name and misspelt(name, names) is None
-            hint = f"; {otherwise}" if means_another else did_you_mean(name, names)
-            raise BadValue(f"`{name}` is not known", hint)
+            if otherwise and name and not nearest(name, names, strict=True):
+                raise BadValue(f"`{name}` is not known", f"; {otherwise}")
+            raise BadValue(f"`{name}` is not known", suggestion=nearest(name, names))
         return name
 
     listed = ", ".join(map(_quoted, names))

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import cache, lru_cache, partial, wraps
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.functions import Value
 from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.parameter_types import (
@@ -137,7 +137,7 @@ def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> P
         try:
             return any_integer.convert(value if unit is None else _without_unit(value, unit))
         except BadValue as error:
-            if isinstance(value, Quantity) and not error.suggestion and not is_native:
+            if isinstance(value, Quantity) and not (error.suggestion or error.hint) and not is_native:
                 hint = f"; for other numbers write `{name}: float = {default}` in the class"
                 raise BadValue(error.problem, hint) from None
             raise

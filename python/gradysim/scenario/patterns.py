@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 
 _NUMBER_RANGE = re.compile(r"(?:\[(\d*)\.\.(\d*)\])|(?:\{(\d*)\.\.(\d*)\})", re.ASCII)
 

@@ -8,10 +8,8 @@ import traceback
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean, misspelt
-from gradysim.scenario.errors.sibling_files import file_meant
+from gradysim.protocol.interface import IProtocol, is_protocol_class
+from gradysim.scenario.errors import BadValue, nearest, nearest_file
 from gradysim.scenario.imported_files import imported_files, root_of_module
 from gradysim.scenario.native_protocols import is_native_name
 from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
@@ -36,8 +34,8 @@ class ProtocolLoader:
         """
         place, colon, class_name = reference.rpartition(":")
         if not (colon and place and class_name.isidentifier()):
-            hint = _class_meant(reference, folder)
-            raise BadValue(f"`{reference}` does not name a class", hint, expected=_REFERENCE)
+            meant = _class_meant(reference, folder)
+            raise BadValue(f"`{reference}` does not name a class", expected=_REFERENCE, suggestion=meant)
         if not _is_file(place):
             return _protocol_in(_import_module(place, folder, class_name), class_name, place)
         protocol = _protocol_in(self._load_file(place, folder), class_name, place)
@@ -67,8 +65,8 @@ class ProtocolLoader:
         except OSError as error:
             raise BadValue(f"{file}: {error.strerror}") from error
         if not is_file:
-            hint = file_meant(file, (".py",), place)
-            raise BadValue(f"there is no file {file}", hint, expected=_REFERENCE)
+            meant = nearest_file(file, (".py",), place)
+            raise BadValue(f"there is no file {file}", expected=_REFERENCE, suggestion=meant)
         try:
             return self._modules.load(file)
         except KeyboardInterrupt:
@@ -94,8 +92,9 @@ def _import_module(name: str, folder: Path, class_name: str) -> ModuleType:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
         file = f"{name.replace('.', '/')}.py"
-        hint = f"; did you mean `{file}:{class_name}`?" if (folder / file).is_file() else ""
-        raise BadValue(f"this Python finds no module `{error.name}`", hint, expected=_REFERENCE) from error
+        meant = f"{file}:{class_name}" if (folder / file).is_file() else ""
+        text = f"this Python finds no module `{error.name}`"
+        raise BadValue(text, expected=_REFERENCE, suggestion=meant) from error
     except KeyboardInterrupt:
         raise
     except BaseException as error:
@@ -104,11 +103,12 @@ def _import_module(name: str, folder: Path, class_name: str) -> ModuleType:
 
 def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     cls = getattr(module, name, None)
-    protocols = [key for key, value in vars(module).items() if _is_protocol(value)]
+    protocols = [key for key, value in vars(module).items() if is_protocol_class(value)]
     others = f"; there are {', '.join(protocols)}" if protocols else ""
     if cls is None:
-        raise BadValue(f"{place} has no class `{name}`", did_you_mean(name, protocols) or others)
-    if not _is_protocol(cls):
+        meant = nearest(name, protocols)
+        raise BadValue(f"{place} has no class `{name}`", "" if meant else others, suggestion=meant)
+    if not is_protocol_class(cls):
         why = "is not a protocol: it does not derive from IProtocol"
         if cls is IProtocol:
             why = "is not a protocol but the interface that protocols derive from"
@@ -117,7 +117,7 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
     if inspect.isabstract(protocol):
         missing = sorted(protocol.__abstractmethods__)
         own = [key for key in dir(protocol) if not key.startswith("_") and key not in dir(IProtocol)]
-        alike = [meant for method in missing if (meant := misspelt(method, own))]
+        alike = [meant for method in missing if (meant := nearest(method, own, strict=True))]
         hint = f"; it has {_calls(alike)}" if alike else ""
         raise BadValue(f"`{name}` in {place} is not complete, it lacks {_calls(missing)}", hint)
     check_contract(protocol)
@@ -125,21 +125,17 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
 
 
 def _class_meant(reference: str, folder: Path) -> str:
-    """Return a hint for the name of a native protocol, and for a dot instead of the colon."""
+    """Return what a reference without a colon may mean: another key, or a file and a class; or ""."""
     if is_native_name(reference):
-        return "; did you mean `protocol.typename`?"
+        return "protocol.typename"
     module, _, class_name = reference.rpartition(".")
     file = f"{module.replace('.', '/')}.py"
     is_meant = module and class_name.isidentifier() and class_name != "py" and os.path.isfile(folder / file)
-    return f"; did you mean `{file}:{class_name}`?" if is_meant else ""
+    return f"{file}:{class_name}" if is_meant else ""
 
 
 def _calls(methods: list[str]) -> str:
     return ", ".join(f"{method}()" for method in methods)
-
-
-def _is_protocol(value: object) -> bool:
-    return isinstance(value, type) and issubclass(value, IProtocol) and value is not IProtocol
 
 
 def _error_text(error: BaseException, folder: Path | None = None) -> str:

@@ -11,13 +11,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
-from gradysim.scenario.errors.argument_names import OF_SCRIPT
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.file.sections import Ranked
+from gradysim.scenario.errors import OF_SCRIPT, ConfigError, Source
+from gradysim.scenario.ini import Entry, Ranked
 from gradysim.scenario.keys import NETWORK_MODULES
-from gradysim.scenario.matching.lookup import Lookup, is_ignored, is_option
+from gradysim.scenario.lookup import Lookup, is_ignored, is_option
 from gradysim.scenario.options import LARGEST_SEED, NETWORK, OPTIONS
 from gradysim.scenario.settings import read_scalar
 from gradysim.scenario.sweep import (

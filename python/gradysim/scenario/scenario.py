@@ -1,4 +1,4 @@
-"""What a configuration says, run by run: the plain data that both modes are built from."""
+"""Scenarios as plain data, one for each run. Both modes are built from them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -6,9 +6,9 @@ from pathlib import Path
 
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
-from gradysim.scenario.file.reader import Entry, Section
-from gradysim.scenario.matching.lookup import is_ignored, options_in_force
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.ini import Entry, Section
+from gradysim.scenario.lookup import is_ignored, options_in_force
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.options import LONGEST_RUN_S
 from gradysim.scenario.runs import UnreadVariables, checked_seed
@@ -23,7 +23,7 @@ class CommunicationMediumSpec:
     Attributes:
         transmission_range_m: Distance up to which a message arrives, >= 0.
         delay_s: Time from sending to arrival, >= 0.
-        failure_rate: Part of the messages that is lost, 0 to 1.
+        failure_rate: Ratio of lost messages, 0 to 1.
     """
 
     transmission_range_m: float = TRANSMISSION_RANGE_M
@@ -38,30 +38,27 @@ class Scenario:
     Attributes:
         file: The .ini file.
         config: Name of the configuration.
-        run_number: From 0, over all combinations of values that the configuration iterates over, and their
-            repetitions.
-        seed: Of all random streams of the run, 0 to 2^63 - 1. Those of values that the file draws are
-            included: they are drawn when it is read, so that `replace(scenario, seed=...)` leaves them.
-        description: What the configuration says of itself, or "".
+        run_number: From 0, over all combinations of iteration variables and their repetitions.
+        seed: Seed of all random streams of the run, 0 to 2^63 - 1. Values that the file draws are drawn when
+            it is read, so `replace(scenario, seed=...)` does not change them.
+        description: The description of the configuration, or "".
         sim_time_limit_s: Simulated time at which the run ends, > 0 and at most 9,200,000.
         nodes: In the order of their ids.
         medium: Fields of MediumConfig that were set; the others keep their defaults.
         communication_medium: Prototype mode's medium.
-        reference_coordinates: Latitude in degrees, longitude in degrees and altitude in metres of the origin.
-        obstacles: What stands between the nodes.
-        sections: The sections of the file that the configuration consists of, in the order of the search.
+        reference_coordinates: Latitude in degrees, longitude in degrees and altitude in meters of the origin.
+        obstacles: Obstacles between the nodes.
+        sections: The sections of the configuration, in search order.
         repetition: 0 to repeat-1.
-        iterations: Value of each iteration variable, `${x=1, 2}`, as a text.
-        settings_hash: Of all that the file and the overrides say of this run, a seed given with them apart.
-            It is the same for all repetitions, unless a variable is in lock-step with them.
-        file_hashes: {name, seen from the folder of the .ini file: hash} of the files that settings name:
-            protocols with what they import from their folder, obstacles, error rates.
-        run_count: How many runs the configuration has, this one and those that were not asked for included.
-        network: What paths of parameters and results begin with.
-        lines: The entries of the overrides and of these sections in their order, with names for the values
-            of this run.
-        unread_variables: Those that the configuration iterates over and that no run reads; none if not all
-            runs were asked for, as the others may.
+        iterations: Value of each iteration variable, `${x=1, 2}`, as a string.
+        settings_hash: Hash of the settings of this run in the file and the overrides, without the argument
+            `seed`. All repetitions have the same hash, unless a variable is in lock-step with them.
+        file_hashes: {name relative to the directory of the .ini file: hash} of the files that settings name:
+            protocols with the files that they import from their directory, obstacles, error rates.
+        run_count: Number of runs of the configuration, including those that were not requested.
+        network: The first name of paths of parameters and results.
+        lines: The entries of the overrides and of the sections in their order, with variables.
+        unread_variables: Iteration variables that no run reads; empty if not all runs were requested.
     """
 
     file: Path
@@ -86,7 +83,7 @@ class Scenario:
     unread_variables: tuple[UnreadVariables, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
-        """Check what scripts replace. Raises TypeError and ValueError, which name the field."""
+        """Check values that scripts may replace. Raises TypeError and ValueError, which name the field."""
         object.__setattr__(self, "seed", checked_seed(self.seed))
         limit_s = checked_number(
             "sim_time_limit_s",
@@ -104,7 +101,7 @@ class Scenario:
 
     @property
     def variables(self) -> dict[str, str]:
-        """Value of each variable that `${...}` may name in this run, the predefined ones included."""
+        """Value of each variable of this run, including the predefined ones."""
         values = run_variables(
             self.file, self.network, self.config, self.run_number, self.repetition, self.iterations
         )
@@ -112,13 +109,13 @@ class Scenario:
 
     @property
     def entries(self) -> tuple[Entry, ...]:
-        """The lines with the values of this run."""
+        """The lines with the values of this run instead of variables."""
         variables = self.variables
         return tuple(line if is_ignored(line) else substitute(line, variables) for line in self.lines)
 
 
 def require_scenario(value: object) -> None:
-    """Raise TypeError if `value` is anything else, such as a file or the list of all runs."""
+    """Raise TypeError if `value` is not a Scenario but, for example, the list of all runs."""
     if not isinstance(value, Scenario):
         raise TypeError(
             f"expected a Scenario, one of the list that load_scenarios returns, got {value!r:.80}"

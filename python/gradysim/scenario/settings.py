@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gradysim.scenario.distributions import distribution_in
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
-from gradysim.scenario.errors.says_in_full import says_in_full
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import BadValue, Source, is_fully_qualified
 from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
-from gradysim.scenario.file.reader import Entry
 from gradysim.scenario.functions import Value, text_of
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.parameter_types import ParameterType, Scalar
 
 _LIKE_AN_EXPRESSION = re.compile(r'"|\?|\w\s*\(')
@@ -113,10 +111,9 @@ def read_scalar(
         if parameter is not None:
             seed = f" with seed {parameter.seed}" if parameter.has_drawn else ""
             this += f"{f'that is {text_of(written)} ' if written is not None else ''}for {path}{seed}: "
-        elif path and not says_in_full(entry.key, path.partition(".")[2]):
+        elif path and not is_fully_qualified(entry.key, path.partition(".")[2]):
             this += f"for {path}: "
-        text = f"{this}{error.problem}; expected {error.expected or kind.expected}{error.suggestion}"
-        raise ConfigError.at(entry.source, text) from error
+        raise error.at(entry.source, prefix=this, expected=kind.expected) from error
 
 
 def _value_of(entry: Entry, kind: ParameterType, parameter: ParameterContext | None) -> Value:

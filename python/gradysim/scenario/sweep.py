@@ -13,14 +13,11 @@ from itertools import product
 from pathlib import Path
 
 from gradysim.scenario.distributions import distribution_in
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
-from gradysim.scenario.errors.nearest import did_you_mean
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import BadValue, ConfigError, Source, nearest
 from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.file.reader import Entry
-from gradysim.scenario.file.sections import Ranked
 from gradysim.scenario.functions import is_quoted, text_of, unquoted
-from gradysim.scenario.matching.lookup import is_ignored
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.lookup import is_ignored
 from gradysim.scenario.options import OPTIONS
 from gradysim.scenario.settings import read_scalar
 
@@ -227,28 +224,27 @@ def _check_names(
     for _, entry in named:
         for name in [] if is_ignored(entry) else _VARIABLE.findall(entry.text):
             if name not in variables and name not in PREDEFINED:
-                raise ConfigError.at(entry.source, _unknown(name, known, left_out))
+                raise _unknown(entry.source, name, known, left_out)
     for variable in variables.values():
         leader = variable.follows
         if leader in PREDEFINED and leader != REPETITION:
             expected = f"expected `{REPETITION}` or one that has"
             raise ConfigError.at(variable.source, f"`{leader}` has no list of values; {expected}")
         if leader and leader not in (*variables, REPETITION):
-            raise ConfigError.at(variable.source, _unknown(leader, known, left_out))
+            raise _unknown(variable.source, leader, known, left_out)
 
 
-def _unknown(name: str, known: Sequence[str], left_out: Sequence[Entry]) -> str:
+def _unknown(source: Source, name: str, known: Sequence[str], left_out: Sequence[Entry]) -> ConfigError:
     for entry in left_out:
         if re.search(rf"\$\{{\s*{name}\s*=", entry.text):
-            return (
-                f"`{name}` has its values at {entry.source}, which another value of `{entry.key}` overrides;"
-                f" expected a value here that does without it, or `${{{name}=...}}` there"
-            )
+            problem = f"`{name}` has its values at {entry.source}"
+            problem += f", which another value of `{entry.key}` overrides"
+            expected = f"a value here that does without it, or `${{{name}=...}}` there"
+            return ConfigError.at(source, problem, expected=expected)
     listed = ", ".join(f"`${{{other}}}`" for other in known)
-    return (
-        f"there is no variable `{name}`; expected one of {listed}, or values such as `${{{name}=1, 2, 5}}`"
-        f"{did_you_mean(name, known)}"
-    )
+    expected = f"one of {listed}, or values such as `${{{name}=1, 2, 5}}`"
+    problem = f"there is no variable `{name}`"
+    return ConfigError.at(source, problem, expected=expected, suggestion=nearest(name, known))
 
 
 def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | None) -> list[IterationVariable]:
@@ -262,9 +258,12 @@ def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | Non
         if wanted and name in named[:place]:
             raise ConfigError.at(wanted.source, f"`{name}` stands there twice; expected each once")
         if wanted and name != _THE_OTHERS and name not in by_name:
-            expected = f"expected some of {', '.join(by_name)}, {_THE_OTHERS} for the others"
-            hint = did_you_mean(name, by_name)
-            raise ConfigError.at(wanted.source, f"there is no variable `{name}`; {expected}{hint}")
+            raise ConfigError.at(
+                wanted.source,
+                f"there is no variable `{name}`",
+                expected=f"some of {', '.join(by_name)}, {_THE_OTHERS} for the others",
+                suggestion=nearest(name, by_name),
+            )
     if _THE_OTHERS not in named:
         named.append(_THE_OTHERS)
     others = [name for name in by_name if name not in named]
@@ -360,8 +359,8 @@ class Constraint:
                 return value
             raise BadValue(f"`{text_of(value)}` is neither true nor false")
         except BadValue as error:
-            expected = f"expected comparisons such as `$x < $y && $y != 3`{error.suggestion}"
-            raise ConfigError.at(self.source, f"{error.problem} in `{text}`; {expected}") from error
+            error = error.with_problem(f"{error.problem} in `{text}`")
+            raise error.at(self.source, expected="comparisons such as `$x < $y && $y != 3`") from error
 
 
 def text_of_iterations(values: Mapping[str, object]) -> str:

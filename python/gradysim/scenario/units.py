@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 
-from gradysim.scenario.errors.config_error import BadValue
-from gradysim.scenario.errors.nearest import did_you_mean
+from gradysim.scenario.errors import BadValue, nearest
 
 
 class Dimension(Enum):
@@ -102,7 +101,7 @@ or a rounded result."""
 def unit_named(name: str) -> Unit:
     """Return the unit of that name. BadValue, with the nearest name, if there is none."""
     if name not in UNITS:
-        raise BadValue(f"there is no unit `{name}`", did_you_mean(name, UNITS))
+        raise BadValue(f"there is no unit `{name}`", suggestion=nearest(name, UNITS))
     return UNITS[name]
 
 

@@ -1,29 +1,29 @@
-"""How a simulation in prototype mode runs."""
+"""Configuration of a simulation in prototype mode."""
 
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from gradysim.simulator.number_range import is_in_range
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.simulator.real_time import real_time_factor
 
 
 @dataclass
 class SimulationConfiguration:
-    """When a simulation ends, how fast it goes and what it tells.
+    """End, speed and log of a simulation.
 
     Attributes:
-        duration: Simulated seconds, >= 0; no event after it happens. None: until no event is left.
-        max_iterations: The simulation ends after so many events, >= 0. None: no limit.
-        real_time: True: as fast as the wall clock; a number > 0: so many times as fast; False or 0: at full
+        duration: Simulated seconds, >= 0. No later event runs. None: until no event is left.
+        max_iterations: Largest number of events, >= 0. None: no limit.
+        real_time: True: as fast as the wall clock. A number > 0: that many times as fast. False or 0: full
             speed.
         debug: Log from DEBUG on.
-        log_file: Append the log to this file too.
-        execution_logging: Log the course of the simulation; False: only warnings and errors are logged.
+        log_file: Append the log to this file, too.
+        execution_logging: False: log only warnings and errors.
         profile: Log at the end how often each kind of event happened and how long it took.
-        timing_report: In real time, write to timing_report.csv in the current directory how well each event
-            kept to the wall clock, and log a summary; nothing at full speed.
-        seed: All random numbers of the run follow from it; >= 0. None: one drawn from Python's global stream.
+        timing_report: In real time, write the delay of each event to timing_report.csv in the current
+            directory, and log a summary.
+        seed: Seed of all random numbers of the run, >= 0. None: drawn from Python's global stream.
     """
 
     duration: float | None = None
@@ -37,7 +37,7 @@ class SimulationConfiguration:
     seed: int | None = None
 
     def validate(self) -> None:
-        """Check all values; ValueError names the wrong one."""
+        """Check all values. ValueError names the invalid one."""
         if self.duration not in (None, math.inf) and not is_in_range(self.duration, 0):
             raise ValueError(f"duration must be >= 0 s or None, got {self.duration!r}")
         if self.max_iterations is not None and not _is_natural(self.max_iterations):

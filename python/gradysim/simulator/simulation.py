@@ -1,21 +1,43 @@
-"""Puts the nodes and handlers of a simulation together: where scripts of prototype mode begin."""
+"""Builds a simulation from nodes and handlers: where scripts of prototype mode begin."""
 
+import random
 from collections.abc import Callable
 from typing import Any
 
-from gradysim.protocol.checked_values import checked_point
+from gradysim.protocol.checked_values import checked_point, checked_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop as EventLoop  # Scripts of 0.8 import it, and Node, from here.
-from gradysim.simulator.full_speed import FullSpeed
-from gradysim.simulator.handler.given import label_of
 from gradysim.simulator.handler.interface import INodeHandler
+from gradysim.simulator.handler.registry import label_of
 from gradysim.simulator.node import Node as Node
-from gradysim.simulator.position_scheme import PositionScheme
-from gradysim.simulator.protocol_class import checked_protocol_class
+from gradysim.simulator.real_time import FullSpeed
 from gradysim.simulator.simulator import Simulator
+from gradysim.simulator.validation import checked_configuration, checked_protocol_class
+
+
+class PositionScheme:
+    """Functions that return the initial position of a node."""
+
+    @staticmethod
+    def random(
+        x_range: tuple[float, float] = (-10, 10),
+        y_range: tuple[float, float] = (-10, 10),
+        z_range: tuple[float, float] = (0, 10),
+    ) -> Position:
+        """Draw a point of a box (m) uniformly, from Python's global stream of random numbers.
+
+        Raises:
+            ValueError: A range is not (low, high) of finite numbers, low <= high.
+        """
+        box = [
+            checked_range(f"{axis}_range", given, ValueError)
+            for axis, given in zip("xyz", (x_range, y_range, z_range), strict=True)
+        ]
+        x, y, z = (random.uniform(lowest, highest) for lowest, highest in box)
+        return (x, y, z)
+
 
 __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
 
@@ -25,8 +47,8 @@ _ForceFastExecution = FullSpeed  # the published name
 class SimulationBuilder:
     """Collects handlers and nodes.
 
-    `build` may be called again for another simulation of the same, once the one before is over: both have the
-    handlers that were added, which know one simulation at a time.
+    `build` may be called again after the end of the simulation before. Both use the same handlers, which
+    serve one simulation at a time.
     """
 
     def __init__(self, configuration: SimulationConfiguration | None = None) -> None:
@@ -37,12 +59,12 @@ class SimulationBuilder:
         self._prepare_node: Callable[[Node[Any]], None] | None = None
 
     def prepare_nodes(self, prepare_node: Callable[[Node[Any]], None]) -> "SimulationBuilder":
-        """Have each node given to `Simulator.prepare_node` as it is made; returns the builder."""
+        """Call `Simulator.prepare_node` with each new node. Return the builder."""
         self._prepare_node = prepare_node
         return self
 
     def add_handler(self, handler: INodeHandler) -> "SimulationBuilder":
-        """Add a handler, instead of the one with the same label if there is one; returns the builder."""
+        """Add a handler. It replaces one with the same label. Return the builder."""
         self._handlers[label_of(handler)] = handler
         return self
 
@@ -61,7 +83,7 @@ class SimulationBuilder:
         return len(self._nodes) - 1
 
     def build(self) -> Simulator:
-        """Make the simulation: inject the event loop into the handlers, then make the nodes in order."""
+        """Make the simulation: inject the event loop into the handlers, then create the nodes in order."""
         simulator = Simulator(self._handlers, self._configuration)
         simulator.prepare_node = self._prepare_node
         for identifier, (protocol, position) in enumerate(self._nodes):

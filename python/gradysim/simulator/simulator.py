@@ -15,41 +15,36 @@ from gradysim.encapsulator.python import PythonEncapsulator
 from gradysim.protocol.checked_values import checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.simulator.asyncio_turns import AsyncioTurns, WakingEventLoop
 from gradysim.simulator.configuration import SimulationConfiguration
 from gradysim.simulator.event import EventLoop
-from gradysim.simulator.full_speed import is_full_speed
-from gradysim.simulator.handler.given import (
-    finalize_after_failure,
-    judge_nothing_more,
-    step_hooks,
-)
 from gradysim.simulator.handler.interface import IAsyncNodeHandler, INodeHandler
+from gradysim.simulator.handler.registry import (
+    finalize_after_failure,
+    step_hooks,
+    stop_judging,
+)
 from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
 from gradysim.simulator.node import Node
-from gradysim.simulator.pacing import Pacing
-from gradysim.simulator.profile import EventProfile
-from gradysim.simulator.protocol_class import checked_protocol_class
-from gradysim.simulator.real_time import RealTimePacer, real_time_factor
-from gradysim.simulator.timing_report import TimingReport
+from gradysim.simulator.pacing import AsyncioRunner, Pacing, WakingEventLoop
+from gradysim.simulator.profiling import EventProfile, TimingReport
+from gradysim.simulator.real_time import RealTimePacer, is_full_speed, real_time_factor
+from gradysim.simulator.validation import checked_protocol_class
 
 _logger = logging.getLogger(__name__)
 
-# Events run between two looks at whether the simulation is over.
+# Events between two checks of whether the simulation is over.
 _CHUNK = 1 << 20
 
 
 class Simulator:
     """One simulation, made by `gradysim.simulator.simulation.SimulationBuilder.build`.
 
-    `start_simulation` runs it to its end. `step_simulation` and `run_events` run a part of it; who stops
-    before the end calls `finalize`. An exception of a protocol or a handler ends the simulation and passes
-    through.
+    `start_simulation` runs it to its end. `step_simulation` and `run_events` run a part of it; call
+    `finalize` to stop before the end. An exception of a protocol or a handler ends the simulation.
 
     Attributes:
-        seed: What all random numbers of the run follow from.
-        prepare_node: Called with each node, if it is set, before its protocol is made; the encapsulator has
-            its provider by then.
+        seed: Seed of all random numbers of the run.
+        prepare_node: Called with each node, if it is set, after its provider and before its protocol is made.
     """
 
     seed: int
@@ -59,28 +54,30 @@ class Simulator:
         """Make a simulation without nodes.
 
         Args:
-            handlers: By their labels.
-            configuration: ValueError if one of its values is outside its range.
+            handlers: Handlers by label.
+            configuration: ValueError if one of its values is out of range.
         """
         configuration.validate()
         self._configuration = configuration
-        # Who seeded Python's stream gets the same run again without saying so here.
+        # A script that seeds Python's stream gets the same run again.
         self.seed = random.getrandbits(32) if configuration.seed is None else configuration.seed
         self._handlers = dict(handlers)
         asynchronous = [
             handler for handler in self._handlers.values() if isinstance(handler, IAsyncNodeHandler)
         ]
-        self._turns = AsyncioTurns() if asynchronous else None
-        self._event_loop = EventLoop() if self._turns is None else WakingEventLoop(self._turns)
+        self._asyncio_runner = AsyncioRunner() if asynchronous else None
+        self._event_loop = (
+            EventLoop() if self._asyncio_runner is None else WakingEventLoop(self._asyncio_runner)
+        )
         self._nodes: dict[int, Node[Any]] = {}
         self._iteration = 0
         self._initialized = False
         self._finalized = False
         self._start_wall_s = 0.0
         self._formatter = SimulationFormatter()
-        # Who drops a simulation half-way, or before it began, leaves nothing behind either.
+        # They clean up after a simulation that is dropped before its end.
         self._guards: list[weakref.finalize[[], Simulator]] = []
-        # Those to be finalized, and finished.
+        # Handlers to finalize, and nodes to finish.
         self._live_handlers: list[INodeHandler] = []
         self._live_nodes: list[Node[Any]] = []
         self._pacing: Pacing | None = None
@@ -88,12 +85,12 @@ class Simulator:
         self._profile = EventProfile() if configuration.profile else None
         self._step_hooks = step_hooks(self._handlers.values())
         self._until_s = math.inf if configuration.duration is None else configuration.duration
-        if self._turns is not None:
-            self._guards.append(weakref.finalize(self, self._turns.close))
+        if self._asyncio_runner is not None:
+            self._guards.append(weakref.finalize(self, self._asyncio_runner.close))
         for handler in self._handlers.values():
             handler.inject(self._event_loop)
-            if self._turns is not None and isinstance(handler, IAsyncNodeHandler):
-                handler.inject_async(self._turns.asyncio_loop, self._real_time_factor())
+            if self._asyncio_runner is not None and isinstance(handler, IAsyncNodeHandler):
+                handler.inject_async(self._asyncio_runner.asyncio_loop, self._real_time_factor())
 
     @property
     def current_time(self) -> float:
@@ -107,7 +104,7 @@ class Simulator:
 
     @property
     def nodes(self) -> tuple[Node[Any], ...]:
-        """All nodes, in the order of their making."""
+        """All nodes, in the order of creation."""
         return tuple(self._nodes.values())
 
     def create_node(self, position: Position, protocol: type[IProtocol], identifier: int) -> Node[Any]:
@@ -141,19 +138,19 @@ class Simulator:
             raise KeyError(f"there is no node {identifier!r}, only {sorted(self._nodes)}") from None
 
     def scope_event(self, iteration: int, timestamp: float, context: str) -> None:
-        """Say in the log lines from now on that event `iteration`, at `timestamp` (s), is under way."""
+        """Show event `iteration` at `timestamp` (s) in the log lines from now on."""
         self._formatter.clock = lambda: timestamp
         self._formatter.scope_event(iteration, context)
 
     def step_simulation(self) -> bool:
-        """Run one event, the first time after initialising everything; False when it was the last one."""
+        """Run one event, and initialize before the first one. Return False when it was the last one."""
         return self.run_events(1)
 
     def run_events(self, count: int) -> bool:
-        """Run at most `count` events, the first time after initialising everything.
+        """Run at most `count` events, and initialize before the first one.
 
         Returns:
-            Whether the simulation goes on. When it does not, it has been finalized.
+            Whether the simulation continues. Otherwise it has been finalized.
         """
         if self._finalized:
             return False
@@ -167,9 +164,9 @@ class Simulator:
                 self._execute(count)
             done = self.is_simulation_done()
         except KeyboardInterrupt:
-            raise  # Nobody's failure: the caller may go on, or finalize.
+            raise  # not a failure: the caller may continue or finalize
         except BaseException:
-            self._finalized = True  # Without `finish`: nobody knows the state of things.
+            self._finalized = True  # without `finish`, since the state is unknown
             self._release()
             raise
         finally:
@@ -181,7 +178,7 @@ class Simulator:
     def start_simulation(self) -> None:
         """Run the simulation to its end.
 
-        When it is interrupted (KeyboardInterrupt) `finish` of the protocols is called before that passes on.
+        On KeyboardInterrupt, `finish` of the protocols is called before it is raised again.
         """
         try:
             while self.run_events(_CHUNK):
@@ -191,7 +188,7 @@ class Simulator:
             raise
 
     def is_simulation_done(self) -> bool:
-        """Whether nothing is left to run: no event, none within `duration`, or `max_iterations` have run."""
+        """Return whether no event is left within `duration`, or `max_iterations` events have run."""
         if self._finalized:
             return True
         if not self._initialized:
@@ -203,15 +200,15 @@ class Simulator:
         return next_time is None or next_time > self._until_s
 
     def finalize(self, *, complete: bool = True) -> None:
-        """End the simulation here: `finish` of the protocols, then `finalize` of the handlers, once each.
+        """End the simulation: call `finish` of the protocols, then `finalize` of the handlers.
 
-        No-op if that has happened, or the simulation ended with an exception. If `duration` ended it, the
-        time is `duration` then. Unless it is `complete`, assertions judge nothing more.
+        No-op if the simulation has ended. If `duration` ended it, the time becomes `duration`. Assertions of
+        a simulation that is not `complete` are not checked.
         """
         if self._finalized:
             return
         if not complete:
-            judge_nothing_more(self._live_handlers)
+            stop_judging(self._live_handlers)
         next_time = self._event_loop.next_time()
         if self._initialized and next_time is not None and next_time > self._until_s:
             self._event_loop.advance_to(self._until_s)
@@ -232,8 +229,7 @@ class Simulator:
             self._live_handlers.pop(0).finalize()
         self._log_end()
 
-    # The names that scripts of 0.8, where there are no public ones, take for the time and the end of a
-    # simulation that they run step by step: environments of reinforcement learning, plots of trajectories.
+    # Private names of 0.8 that scripts use, such as environments of reinforcement learning.
     @property
     def _current_timestamp(self) -> float:
         return self.current_time
@@ -267,9 +263,9 @@ class Simulator:
         self._pacing = self._make_pacing()
 
     def _make_pacing(self) -> Pacing | None:
-        """Make what waits between events; None if nothing does."""
+        """Return what waits between events; None at full speed without asyncio."""
         factor = self._real_time_factor()
-        if factor == 0 and self._turns is None:
+        if factor == 0 and self._asyncio_runner is None:
             return None
         if factor != 0 and self._configuration.timing_report:
             self._report = TimingReport(Path("timing_report.csv"), factor)
@@ -279,7 +275,7 @@ class Simulator:
             self._event_loop,
             self._until_s,
             pacer=RealTimePacer(factor) if factor != 0 else None,
-            turns=self._turns,
+            asyncio_runner=self._asyncio_runner,
             report=self._report,
             held_up_s=lambda: sum(getattr(handler, "held_up_s", 0.0) for handler in handlers),
         )
@@ -298,8 +294,8 @@ class Simulator:
         iterations: Iterable[int] = range(first, last)
         if self._pacing is not None:
             iterations = self._pacing.before_each(iterations)
-        # zip asks for the number before it asks for the event. So pacing waits before an event is taken, and
-        # when the numbers end no event is taken that would not run.
+        # zip takes the number before the event. So pacing waits before an event is taken, and when the
+        # numbers end, no event is taken.
         for iteration, event in zip(iterations, loop.take_events(self._until_s), strict=False):
             formatter.iteration = iteration
             formatter.context = event[1]
@@ -313,7 +309,7 @@ class Simulator:
         formatter.iteration = None
 
     def _execute_next(self) -> None:
-        """Do what `_execute` does for one event, faster: environments of learning step through all events."""
+        """Run one event, faster than `_execute`: learning environments step through all events."""
         iteration = self._iteration
         limit = self._configuration.max_iterations
         if limit is not None and iteration >= limit:
@@ -345,7 +341,7 @@ class Simulator:
         )
 
     def _release(self) -> None:
-        """Leave nothing behind. Handlers left to finalize mean a failure before, which must not be hidden."""
+        """Clean up. Handlers are left to finalize only after a failure, which must not be hidden."""
         finalize_after_failure(self._live_handlers)
         self._formatter.clear_iteration()
         self._formatter.thread = None

@@ -1,5 +1,8 @@
-"""Autopilots beside a simulation: their processes, and their vehicles flown over MAVLink.
+"""Nodes flown by autopilots: processes, MAVLink connections, flights, and a mobility handler.
 
-Knows no simulator: who lets nodes be flown by autopilots, in whatever mode, builds on this. Needs the extra
-`sitl`, which is imported where it is used, and an autopilot, which the user brings.
+It needs the extra `sitl`, which is imported when it is used, and an autopilot, which the user installs.
 """
+
+
+class SitlError(Exception):
+    """An autopilot cannot start, has ended, or refuses a step. Names the vehicle, the step and its reply."""

@@ -1,18 +1,18 @@
-"""ArduCopter's program for SITL: where it is, how it is started, how its options are called; its limits."""
+"""The ArduCopter program for SITL: its path, options, parameters, limits and ports."""
 
 import os
+import random
 import shutil
+import socket
 from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
 
 from gradysim.protocol.position import Position
-from gradysim.sitl.error import SitlError
+from gradysim.sitl import SitlError
 
 ENVIRONMENT_VARIABLE = "GRADYSIM_ARDUPILOT"
-"""Names the program, or a checkout of ArduPilot, where no path is given."""
-
-LOWEST_SPEED_MPS = 0.2
-"""Ground speed of flights to a place: ArduCopter accepts a lower one, and flies on at the one before."""
+"""Environment variable with the path of the program or of an ArduPilot checkout."""
 
 _IN_A_CHECKOUT = Path("build/sitl/bin/arducopter")
 
@@ -20,59 +20,53 @@ PARAMETERS: Mapping[str, float] = {
     # A quadcopter in X.
     "FRAME_CLASS": 1,
     "FRAME_TYPE": 1,
-    # It may stand on the ground for long, and has neither remote control nor ground station to lose.
+    # It may stand on the ground for long, without remote control or ground station.
     "DISARM_DELAY": 0,
     "FS_THR_ENABLE": 0,
     "FS_GCS_ENABLE": 0,
-    # One way to talk to it; the others would listen on all interfaces.
+    # Only one connection is used. The others would listen on all interfaces.
     "SERIAL1_PROTOCOL": -1,
     "SERIAL2_PROTOCOL": -1,
-    # The simulated battery has a monitor; the log would fill the disk.
+    # Monitor the simulated battery. Write no log, which would fill the disk.
     "BATT_MONITOR": 4,
     "LOG_BITMASK": 0,
-    # The checks before arming ask for calibrated sensors: as many as there are. The compass's offsets are the
-    # simulated ones.
+    # The checks before arming need calibrated sensors. The compass offsets are the simulated ones.
     **{f"COMPASS_OFS{n}_{axis}": v for n in ("", 2, 3) for axis, v in zip("XYZ", (5, 13, -18), strict=True)},
     **{f"INS_ACC{n}OFFS_{axis}": 0.001 for n in ("", 2) for axis in "XYZ"},
     **{f"INS_ACC{n}SCAL_{axis}": 1.001 for n in ("", 2) for axis in "XYZ"},
     **{f"RC{n}_{end}": v for n in range(1, 5) for end, v in (("MIN", 1000), ("MAX", 2000))},
     **{f"RC{n}_TRIM": v for n, v in ((1, 1500), (2, 1500), (3, 1000), (4, 1500))},
 }
-"""What differs from ArduCopter's defaults. Version 3 ends at a name that it does not know."""
+"""Parameters that differ from the defaults. ArduCopter 3 exits at a name that it does not know."""
 
 _AT_ONCE = "1000"
-"""A pace that it never reaches: who waits for physics is not to wait for the wall's clock besides."""
+"""Speed-up that is never reached, so that it waits only for the physics, not for wall time."""
 
 _SYSTEM_ID_OF_OLD = "SYSID_THISMAV"
-
-
-def is_too_slow(speed_mps: float) -> bool:
-    """Whether ArduCopter ignores a ground speed; one that is `LOWEST_SPEED_MPS` but for rounding it obeys."""
-    return speed_mps < LOWEST_SPEED_MPS * (1 - 1e-9)
 
 
 def find_arducopter(path: str | os.PathLike[str] | None) -> Path:
     """Find the program.
 
     Args:
-        path: The program itself, or a checkout of ArduPilot in which it was built; None for what
-            `ENVIRONMENT_VARIABLE` names, or else an `arducopter` among the commands.
+        path: The program itself, or a checkout of ArduPilot in which it was built; None for the
+            path in `ENVIRONMENT_VARIABLE`, or else the command `arducopter`.
 
     Raises:
-        SitlError: It is not there, or cannot be executed.
+        SitlError: The program does not exist or is not executable.
     """
     given = path or os.environ.get(ENVIRONMENT_VARIABLE) or shutil.which("arducopter")
     if not given:
         raise SitlError(
-            "no autopilot: give the path of an arducopter program for SITL, or of an ArduPilot checkout in "
-            "which it was built, as mobility.autopilotPath (in a script ardupilot_path) or in the "
+            "no autopilot: set mobility.autopilotPath (in a script ardupilot_path) to the path of an "
+            "arducopter program for SITL or of an ArduPilot checkout in which it was built, or set the "
             f"environment variable {ENVIRONMENT_VARIABLE}"
         )
     place = Path(given).expanduser().absolute()
     program = place / _IN_A_CHECKOUT if place.is_dir() else place
     if not program.is_file():
         built = " (./waf configure --board sitl && ./waf copter builds it)" if place.is_dir() else ""
-        raise SitlError(f"no autopilot at {program}: there is no such file{built}")
+        raise SitlError(f"no autopilot at {program}: this file does not exist{built}")
     if not os.access(program, os.X_OK):
         raise SitlError(f"the autopilot {program} is not executable")
     return program
@@ -89,18 +83,18 @@ def options(
     help_text: str,
     physics_port: int | None = None,
 ) -> list[str]:
-    """Return the options with which one vehicle is started.
+    """Return the command-line options for one vehicle.
 
     Args:
-        home: (latitude deg, longitude deg, altitude m); it looks North.
-        speedup: Seconds of its clock for each wall second.
-        parameters: A file with its parameters, seen from its working directory.
-        instance: Shifts the ports that it opens besides, by ten each.
-        system_id: Its MAVLink id, 1 to 255.
-        port: Of 127.0.0.1, where it connects to for MAVLink.
-        help_text: What the program answers to --help: versions differ.
-        physics_port: Of 127.0.0.1, UDP, where somebody else's physics listen; None for ArduPilot's own, at
-            the pace of `speedup`.
+        home: (latitude deg, longitude deg, altitude m). The vehicle faces North.
+        speedup: Seconds of its clock per second of wall time.
+        parameters: Parameter file, relative to its working directory.
+        instance: Instance number. It shifts the ports that it opens by ten each.
+        system_id: MAVLink system id, 1 to 255.
+        port: TCP port of 127.0.0.1 that it connects to for MAVLink.
+        help_text: Output of the program for --help, since versions differ.
+        physics_port: UDP port of 127.0.0.1 for external physics; None for ArduPilot's own, at the rate of
+            `speedup`.
     """
     is_ours = physics_port is not None
     latitude, longitude, altitude = home
@@ -119,10 +113,48 @@ def options(
 
 
 def parameter_file(*, system_id: int, help_text: str, more: Mapping[str, float]) -> str:
-    """Return the text of a file of parameters for one vehicle; see `options`. `more` come last."""
+    """Return the content of a parameter file for one vehicle, see `options`. `more` comes last."""
     ids = {} if _takes_system_id(help_text) else {_SYSTEM_ID_OF_OLD: system_id}
     return "".join(f"{name} {value:.9g}\n" for name, value in {**PARAMETERS, **ids, **more}.items())
 
 
 def _takes_system_id(help_text: str) -> bool:
     return "--sysid" in help_text
+
+
+_FIRST_PORTS = ((socket.SOCK_DGRAM, 5501), (socket.SOCK_DGRAM, 9003), (socket.SOCK_STREAM, 5760))
+"""Ports that instance 0 may open: remote control and external physics (UDP), first serial port (TCP)."""
+
+_PORTS_PER_INSTANCE = 10
+_INSTANCES = 256
+"""ArduCopter 4.1 and older take larger numbers modulo 256."""
+
+_TRIES = 100
+
+
+def free_instance(taken: set[int]) -> int:
+    """Return an instance number, not in `taken`, whose ports are free.
+
+    It is drawn from the system's random numbers, not from the simulation's seed, so simulations that start
+    at the same time rarely conflict.
+
+    Raises:
+        SitlError: No free number was found.
+    """
+    generator = random.SystemRandom()
+    for _ in range(_TRIES):
+        instance = generator.randrange(_INSTANCES)
+        if instance not in taken and _is_free(instance):
+            return instance
+    raise SitlError(f"no free ports for another autopilot, after {_TRIES} tries")
+
+
+def _is_free(instance: int) -> bool:
+    with ExitStack() as stack:
+        try:
+            for kind, first in _FIRST_PORTS:
+                probe = stack.enter_context(socket.socket(socket.AF_INET, kind))
+                probe.bind(("0.0.0.0", first + _PORTS_PER_INSTANCE * instance))
+        except OSError:
+            return False
+    return True

@@ -1,11 +1,11 @@
-"""The ways by which bytes come from a vehicle and go to it: TCP and UDP, with asyncio."""
+"""Connections to a vehicle (TCP and UDP, with asyncio), and from there to a ground station."""
 
 import asyncio
 from collections.abc import Callable
 from typing import Any, cast
 
-from gradysim.sitl.error import SitlError
-from gradysim.sitl.link import MavlinkLink
+from gradysim.sitl import SitlError
+from gradysim.sitl.mavlink import MavlinkLink
 
 _GONE = "the connection was closed by the other side"
 _CLOSED = "the connection was closed"
@@ -13,11 +13,11 @@ _RETRY_S = 0.2
 
 
 class StreamConnection(asyncio.Protocol):
-    """Joins a link with a TCP connection.
+    """TCP connection of a link.
 
     Attributes:
-        made: Whether somebody has connected.
-        explain: Says what ended a connection that broke, if somebody knows better than this end of it.
+        made: Set when the connection exists.
+        explain: Returns why a connection has ended, if the caller knows more than the socket.
     """
 
     def __init__(self, link: MavlinkLink, explain: Callable[[], str] | None = None) -> None:
@@ -28,14 +28,14 @@ class StreamConnection(asyncio.Protocol):
         self._transport: asyncio.Transport | None = None
 
     def accept(self) -> asyncio.Protocol:
-        """Return what a server gives the next one who connects: this, once. Who comes later is refused."""
+        """Return the protocol for a new client of a server: this one first, then one that refuses."""
         if self._is_taken:
             return _Refusal()
         self._is_taken = True
         return self
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Take the connection, unless the link was given up after it had been accepted."""
+        """Use the connection, unless the link was lost in the meantime."""
         assert isinstance(transport, asyncio.Transport)
         if self._link.lost is not None:
             transport.abort()
@@ -45,24 +45,24 @@ class StreamConnection(asyncio.Protocol):
         self.made.set()
 
     def data_received(self, data: bytes) -> None:
-        """Pass bytes on."""
+        """Pass bytes to the link."""
         self._link.feed(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Say so: no bytes to read is how the death of an autopilot shows first."""
+        """Report that the link is lost. This is the first sign that an autopilot has ended."""
         if self._link.lost is None:
             reason = _GONE if exc is None else f"the connection broke: {exc}"
             self._link.lose(reason if self.explain is None else self.explain())
 
     def close(self) -> None:
-        """Close the connection, even one that is about to be made, and the link with it."""
+        """Close the connection, even if it is not made yet, and the link."""
         self._link.lose(_CLOSED)
         if self._transport is not None:
             self._transport.abort()
 
 
 class _Refusal(asyncio.Protocol):
-    """Of a connection that nobody waits for."""
+    """Protocol that closes unexpected connections."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Close it."""
@@ -71,7 +71,7 @@ class _Refusal(asyncio.Protocol):
 
 
 class DatagramConnection(asyncio.DatagramProtocol):
-    """Joins a link with a UDP port. Datagrams go to its one peer, or to where the last one came from."""
+    """UDP port of a link. Datagrams go to its only peer, or to the sender of the latest one."""
 
     def __init__(self, link: MavlinkLink, *, has_one_peer: bool) -> None:
         self._link = link
@@ -80,19 +80,19 @@ class DatagramConnection(asyncio.DatagramProtocol):
         self._transport: asyncio.DatagramTransport | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Take the port."""
+        """Use the port."""
         # Before Python 3.12 it is not an instance of that class.
         self._transport = cast(asyncio.DatagramTransport, transport)
         self._link.send_bytes = self._send
 
     def datagram_received(self, data: bytes, addr: Any) -> None:
-        """Pass bytes on."""
+        """Pass bytes to the link."""
         if not self._has_one_peer:
             self._peer = addr
         self._link.feed(data)
 
     def close(self) -> None:
-        """Close the port, and the link with it."""
+        """Close the port and the link."""
         self._link.lose(_CLOSED)
         if self._transport is not None:
             self._transport.abort()
@@ -109,7 +109,7 @@ def parse_address(text: str) -> tuple[str, str, int]:
     """Return (kind, host, port) of "tcp:HOST:PORT", "udpin:HOST:PORT" or "udpout:HOST:PORT".
 
     Raises:
-        ValueError: It is none of these.
+        ValueError: The text has another form.
     """
     kind, _, rest = text.partition(":")
     host, _, port = rest.rpartition(":")
@@ -121,17 +121,16 @@ def parse_address(text: str) -> tuple[str, str, int]:
 
 
 async def connect(link: MavlinkLink, address: str, timeout_s: float) -> Connection:
-    """Connect a link with a vehicle that is there already.
+    """Connect a link to a running vehicle.
 
     Args:
-        link: Without a connection so far.
-        address: "tcp:HOST:PORT" to connect to, "udpin:HOST:PORT" to listen on, "udpout:HOST:PORT" to speak
-            to first.
-        timeout_s: Wall time for connecting.
+        link: A link without a connection.
+        address: "tcp:HOST:PORT" to connect to, "udpin:HOST:PORT" to listen on, "udpout:HOST:PORT" to send to.
+        timeout_s: Limit of wall time.
 
     Raises:
-        ValueError: The address is none.
-        SitlError: There is nobody.
+        ValueError: The address is not valid.
+        SitlError: The vehicle does not answer.
     """
     kind, host, port = parse_address(address)
     loop = asyncio.get_running_loop()
@@ -155,7 +154,7 @@ async def connect(link: MavlinkLink, address: str, timeout_s: float) -> Connecti
 
 
 async def _connect_stream(link: MavlinkLink, host: str, port: int) -> StreamConnection:
-    """Connect, as soon as somebody listens."""
+    """Connect. Try again while the port is closed."""
     loop = asyncio.get_running_loop()
     while True:
         try:
@@ -164,3 +163,47 @@ async def _connect_stream(link: MavlinkLink, host: str, port: int) -> StreamConn
             await asyncio.sleep(_RETRY_S)
         else:
             return connection
+
+
+PORT = 14550
+"""UDP port on which ground station programs listen for vehicles."""
+
+
+class GroundStationPort(asyncio.DatagramProtocol):
+    """Connection of one vehicle to a ground station, from a port of its own."""
+
+    def __init__(self, link: MavlinkLink) -> None:
+        self._link = link
+        self._transport: asyncio.DatagramTransport | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Start to forward messages of the vehicle."""
+        # Before Python 3.12 it is not an instance of that class.
+        self._transport = cast(asyncio.DatagramTransport, transport)
+        self._link.on_bytes = self._transport.sendto
+
+    def datagram_received(self, data: bytes, addr: Any) -> None:
+        """Forward a message of the ground station to the vehicle."""
+        if self._link.lost is None:
+            self._link.send_bytes(data)
+
+    def error_received(self, exc: Exception) -> None:
+        """Ignore errors. The ground station may start later."""
+        return
+
+    def close(self) -> None:
+        """Close the port."""
+        if self._transport is not None:
+            self._transport.abort()
+
+
+async def open_ground_station(link: MavlinkLink, host: str, port: int = PORT) -> GroundStationPort:
+    """Connect a vehicle with the ground station at a host. Raise SitlError if the host does not exist."""
+    loop = asyncio.get_running_loop()
+    try:
+        _, opened = await loop.create_datagram_endpoint(
+            lambda: GroundStationPort(link), remote_addr=(host, port)
+        )
+    except OSError as error:
+        raise SitlError(f"{link.name}: no way to the ground station {host}:{port}: {error}") from error
+    return opened

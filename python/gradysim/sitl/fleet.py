@@ -1,4 +1,4 @@
-"""Simulated autopilots of one simulation: started with what they need, and gone with it."""
+"""The autopilot processes of one simulation."""
 
 import asyncio
 import os
@@ -9,52 +9,57 @@ import weakref
 from collections.abc import Mapping
 from pathlib import Path
 
+from gradysim.protocol.defaults import AUTOPILOT_USER
 from gradysim.protocol.position import Position
-from gradysim.sitl.arducopter import find_arducopter, options, parameter_file
+from gradysim.sitl import SitlError
+from gradysim.sitl.arducopter import find_arducopter, free_instance, options, parameter_file
 from gradysim.sitl.connection import StreamConnection
-from gradysim.sitl.error import SitlError
-from gradysim.sitl.folder import FleetFolder
-from gradysim.sitl.instance import free_instance
-from gradysim.sitl.link import MavlinkLink
-from gradysim.sitl.process import GRACE_S, AutopilotProcess, stop_all
-from gradysim.sitl.unprivileged import DEFAULT_USER, command_as, user_for
+from gradysim.sitl.mavlink import MavlinkLink
+from gradysim.sitl.process import (
+    GRACE_S,
+    AutopilotProcess,
+    FleetDirectory,
+    command_as,
+    stop_all,
+    user_for,
+)
 
 _HELP_S = 10.0
-"""Wall time in which a program answers to --help."""
+"""Limit of wall time for --help."""
 
 
 class Fleet:
-    """Starts autopilots, each with a folder of its own, and ends them.
+    """Starts autopilots, each with its own directory, and ends them.
 
-    `close` ends all and removes their files. Should it never be called, that happens when the fleet is
-    dropped, or Python ends; if Python is killed, when the next fleet starts.
+    `close` ends all and removes their files. Without it, this happens when the fleet is garbage collected or
+    Python ends. If Python is killed, the next fleet removes the files.
     """
 
     def __init__(
         self,
         program: str | os.PathLike[str] | None,
         *,
-        user: str | None = DEFAULT_USER,
+        user: str | None = AUTOPILOT_USER,
         console_folder: str | os.PathLike[str] | None = None,
         grace_s: float = GRACE_S,
     ) -> None:
-        """Find the program and prepare a folder.
+        """Find the program and create a directory.
 
         Args:
             program: See `find_arducopter`.
-            user: Whom autopilots that root starts belong to; None for root.
-            console_folder: Keeps what each autopilot prints, `autopilot_<id>.log`; None to throw it away.
-            grace_s: Wall time in which autopilots may end by themselves; one that waits for physics cannot.
+            user: User of autopilots that root starts; None for root.
+            console_folder: Directory for the output of autopilots, `autopilot_<id>.log`; None to discard it.
+            grace_s: Wall time between SIGTERM and SIGKILL. One that waits for physics ignores SIGTERM.
 
         Raises:
-            SitlError: The program cannot be run so.
+            SitlError: The program or the user does not exist.
         """
         self._found = find_arducopter(program)
         self._user = user_for(user)
         self._consoles = None if console_folder is None else Path(console_folder).expanduser().absolute()
         if self._consoles is not None:
             self._consoles.mkdir(parents=True, exist_ok=True)
-        files = FleetFolder()
+        files = FleetDirectory()
         self._folder = files.path
         self._processes: list[AutopilotProcess] = []
         self._end = weakref.finalize(self, _end, self._processes, files, grace_s)
@@ -72,21 +77,21 @@ class Fleet:
         timeout_s: float,
         parameters: Mapping[str, float] | None = None,
     ) -> StreamConnection:
-        """Start an autopilot and join it with a link; the link is lost when the autopilot ends.
+        """Start an autopilot and connect it to a link. The link is lost when the autopilot ends.
 
         Args:
-            link: Without a connection so far.
-            identifier: Names its files; its MAVLink system id is one more, up to 255 and then from 1 again.
-            home: Where it stands: (latitude deg, longitude deg, altitude m).
-            speedup: Seconds of its clock for each wall second.
-            timeout_s: Wall time until it connects.
-            parameters: More of ArduCopter's, by name.
+            link: A link without a connection.
+            identifier: Number in its file names. Its MAVLink system id is one more, modulo 255.
+            home: Position on the ground (latitude deg, longitude deg, altitude m).
+            speedup: Seconds of its clock per second of wall time.
+            timeout_s: Limit of wall time until it connects.
+            parameters: Further ArduCopter parameters by name.
 
         Raises:
-            SitlError: It does not start, or does not connect.
+            SitlError: It does not start or connect.
         """
         connection = StreamConnection(link)
-        # The autopilot comes to us: nobody else can get in between, and no port has to be guessed.
+        # The autopilot connects to us, so its port need not be known and no other program can interfere.
         server = await asyncio.get_running_loop().create_server(connection.accept, "127.0.0.1", 0)
         try:
             process = self.start(
@@ -97,8 +102,8 @@ class Fleet:
                 speedup=speedup,
                 parameters=parameters,
             )
-            connection.explain = process.obituary
-            link.last_words = process.last_words
+            connection.explain = process.exit_report
+            link.last_output = process.last_output
             await _connected(connection, process, timeout_s)
         except BaseException:
             connection.close()
@@ -118,16 +123,16 @@ class Fleet:
         physics_port: int | None = None,
         parameters: Mapping[str, float] | None = None,
     ) -> AutopilotProcess:
-        """Start an autopilot that connects to us.
+        """Start an autopilot that connects to `mavlink_port`.
 
         Args:
-            name: Of the vehicle, for people.
-            identifier: As for `launch`; so are `home`, `speedup` and `parameters`.
-            home: Where it stands.
-            mavlink_port: TCP port of 127.0.0.1 that listens already.
-            speedup: Not used with physics of ours.
-            physics_port: UDP port of 127.0.0.1 where physics of ours listen; None for ArduPilot's own.
-            parameters: More of ArduCopter's, by name.
+            name: Name of the vehicle in messages.
+            identifier: As for `launch`, like `home`, `speedup` and `parameters`.
+            home: Position on the ground.
+            mavlink_port: TCP port of 127.0.0.1 that is open for connections.
+            speedup: Ignored with external physics.
+            physics_port: UDP port of 127.0.0.1 for external physics; None for ArduPilot's own.
+            parameters: Further ArduCopter parameters by name.
 
         Raises:
             SitlError: It does not start.
@@ -146,7 +151,7 @@ class Fleet:
         arguments = options(
             home=home,
             speedup=speedup,
-            parameters=Path(file.name),  # A list to it if there is a comma, as the folder's path may have.
+            parameters=Path(file.name),  # A relative path, because a comma in the path would make it a list.
             instance=instance,
             port=mavlink_port,
             physics_port=physics_port,
@@ -160,11 +165,11 @@ class Fleet:
         return process
 
     def close(self) -> None:
-        """End all autopilots and remove their files; no-op if that has happened."""
+        """End all autopilots and remove their files. Do nothing if that has been done."""
         self._end()
 
     def _reachable(self, program: Path) -> Path:
-        """Return a program that the user can read, whatever folder the given one is in."""
+        """Return a program that the user can read: a copy if the user is not this one."""
         if self._user is None:
             return program
         self._folder.chmod(0o711)
@@ -178,32 +183,32 @@ class Fleet:
             shutil.chown(path, self._user)
 
     def _help_text(self, name: str) -> str:
-        """Return what the program answers to --help; it is asked once. `name` is of a vehicle, for people."""
+        """Return the output of the program for --help. `name` is that of a vehicle, for messages."""
         if self._help is None:
             console = self._folder / "help.log"
             command = command_as(self._user, [str(self._program), "--help"])
             process = AutopilotProcess(name, command, self._folder, console)
-            self._processes.append(process)  # It ends with the others if Ctrl-C comes meanwhile.
+            self._processes.append(process)  # On Ctrl-C it ends with the others.
             if not process.wait_until(time.monotonic() + _HELP_S):
                 process.send(signal.SIGKILL)
                 process.wait_until(time.monotonic() + GRACE_S)
-                raise SitlError(f"{name}: start: {self._found} did not answer to --help in {_HELP_S:g} s")
+                raise SitlError(f"{name}: start: {self._found} did not answer --help within {_HELP_S:g} s")
             self._help = console.read_text(errors="replace")
         return self._help
 
 
 async def _connected(connection: StreamConnection, process: AutopilotProcess, timeout_s: float) -> None:
-    """Wait for the connection, and no longer than the process lives."""
+    """Wait for the connection while the process runs."""
     loop = asyncio.get_running_loop()
     deadline = loop.time() + timeout_s
     while not connection.made.is_set():
         if not process.is_running:
-            raise SitlError(f"{process.name}: start: {process.obituary()}")
+            raise SitlError(f"{process.name}: start: {process.exit_report()}")
         if loop.time() > deadline:
-            raise SitlError(f"{process.name}: start: it did not connect in {timeout_s:g} s")
+            raise SitlError(f"{process.name}: start: it did not connect within {timeout_s:g} s")
         await asyncio.sleep(0.02)
 
 
-def _end(processes: list[AutopilotProcess], files: FleetFolder, grace_s: float) -> None:
+def _end(processes: list[AutopilotProcess], files: FleetDirectory, grace_s: float) -> None:
     stop_all(processes, grace_s)
     files.remove()

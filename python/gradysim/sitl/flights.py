@@ -1,50 +1,136 @@
-"""All vehicles of a simulation that autopilots fly on simulated time: as fast as they go, and repeatable."""
+"""All vehicles of a simulation that autopilots fly on simulated time: as fast as possible, and repeatable."""
 
 import asyncio
 import logging
+import math
 import os
-from collections.abc import Callable, Collection, Coroutine, Iterable
+from collections.abc import Callable, Collection, Coroutine, Iterable, Mapping
 from typing import Any
 
 from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.position import Position
+from gradysim.sitl.autopilot_node import AutopilotNode, check_start, ground_temperature, wind_mps
 from gradysim.sitl.fleet import Fleet
-from gradysim.sitl.flown_node import FlownNode, check_start
-from gradysim.sitl.lock_step_flight import LockStepFlight
-from gradysim.sitl.lock_step_group import LockStepGroup
+from gradysim.sitl.frame import autopilots_place, home_of
+from gradysim.sitl.lock_step import RATE_HZ, LockStepAutopilot, LockStepGroup, VehicleClockLoop
+from gradysim.sitl.mavlink import MavlinkLink, Message
 from gradysim.sitl.pilot import Pilot
-from gradysim.sitl.vehicle_clock import VehicleClockLoop
+from gradysim.sitl.quadcopter import HOVER_THRUST, THRUST_EXPO, Quadcopter
+from gradysim.sitl.vehicle import Vehicle, prepare
+
+_POSITIONS_HZ = 5.0
+"""Rate of position messages. It decides how precisely an arrival is detected."""
+
+_SETTLED_M, _SETTLED_MPS = 0.2, 0.1
+"""Largest position error and speed of a vehicle that hovers at its start."""
+
+_PARAMETERS: Mapping[str, float] = {
+    "SIM_RATE_HZ": RATE_HZ,
+    "MOT_THST_EXPO": THRUST_EXPO,
+    "MOT_THST_HOVER": HOVER_THRUST,
+}
+"""ArduCopter parameters that match the simulated vehicle."""
+
+
+class LockStepFlight:
+    """Flight of one node: its autopilot, vehicle and pilot.
+
+    Attributes:
+        name: Name in messages.
+        autopilot: Its autopilot.
+        vehicle: The vehicle, for commands with confirmation.
+        pilot: Takes commands after `prepare`.
+    """
+
+    def __init__(
+        self, node: AutopilotNode, reference: Position, on_text: Callable[[str, str], None] | None
+    ) -> None:
+        """Open the ports. `reference` and `on_text` are those of `Flights`."""
+        self.name = node.name
+        self._node = node
+        self._home = home_of(reference, node.start)
+        self._on_text = on_text
+        self._link = MavlinkLink(node.name)
+        self._link.on_message = self._note
+        self.autopilot = LockStepAutopilot(self._link, Quadcopter(wind_mps(node.name, node.parameters)))
+        self.vehicle = Vehicle(self._link)
+        self.pilot = Pilot(self.vehicle, self._place_of, node.start, node.speed_mps)
+
+    @property
+    def position(self) -> Position:
+        """Position of the node (x, y, z) in metres."""
+        north, east, down = self.autopilot.body.position_m
+        x, y, _ = self._node.start
+        return (x + north, y + east, 0.0 - down)
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether the vehicle hovers at its start."""
+        off_m = math.dist(self.position, self._node.start)
+        return off_m <= _SETTLED_M and math.hypot(*self.autopilot.body.velocity_mps) <= _SETTLED_MPS
+
+    def start(self, fleet: Fleet, timeout_s: float) -> None:
+        """Start the autopilot and wait until it waits for its first step."""
+        process = fleet.start(
+            self._node.name,
+            self._node.id,
+            self._home,
+            mavlink_port=self.autopilot.mavlink_port,
+            physics_port=self.autopilot.port,
+            parameters={**_PARAMETERS, **ground_temperature(self._home[2]), **self._node.parameters},
+        )
+        self.autopilot.meet(process, timeout_s)
+
+    async def prepare(self, timeout_s: float) -> None:
+        """Take off and fly to the start. Raise SitlError if a step fails or exceeds `timeout_s`."""
+        await prepare(
+            self.vehicle,
+            self._place_of(self._node.start),
+            position_hz=_POSITIONS_HZ,
+            speed_mps=self._node.speed_mps,
+            timeout_s=timeout_s,
+            parameters=self._node.parameters,
+        )
+
+    def _place_of(self, point: Position) -> Position:
+        x, y, _ = self._node.start
+        return autopilots_place(self._home, (point[0] - x, point[1] - y, point[2]))
+
+    def _note(self, message: Message) -> None:
+        if self._on_text is not None and message.get_type() == "STATUSTEXT":
+            self._on_text(self._node.name, message.text)
+
 
 _logger = logging.getLogger(__name__)
 
 _TURN_S = 0.05
-"""Longest time between two turns of the clock's loop, of which there is one after each message."""
+"""Longest time between two turns of the asyncio loop. There is also one after each message."""
 
 _SETTLED_AFTER_S = 10.0
-"""How long vehicles may take to hover quietly at their starts."""
+"""Time after which vehicles should hover at their starts."""
 
 
 class Flights:
-    """All flown nodes of one simulation."""
+    """All nodes of a simulation that autopilots fly."""
 
     def __init__(
         self,
-        nodes: Iterable[FlownNode],
+        nodes: Iterable[AutopilotNode],
         reference: Position,
         *,
         on_text: Callable[[str, str], None] | None = None,
         console_folder: str | os.PathLike[str] | None = None,
         timeout_s: float = 120.0,
     ) -> None:
-        """Prepare; nothing is started yet.
+        """Create the flights without starting them.
 
         Args:
-            nodes: In the order of their ids.
+            nodes: The nodes, in the order of their ids.
             reference: (latitude deg, longitude deg, altitude m) of the origin.
-            on_text: Called with a node's name and what its autopilot says. It must not refer to an object
-                that closes these when nobody refers to that any more: these would, for ever.
-            console_folder: Keeps what each autopilot prints; None to throw it away.
-            timeout_s: For each step before the simulation begins, wall time and that of the vehicle.
+            on_text: Called with the name of a node and each text of its autopilot. It must not refer to an
+                object that closes the flights when it is garbage collected, or this never happens.
+            console_folder: Directory for the output of each autopilot; None to discard it.
+            timeout_s: Limit for each step before the start, in wall time and in vehicle time.
         """
         self._nodes = tuple(nodes)
         self._ids = frozenset(node.id for node in self._nodes)
@@ -62,9 +148,9 @@ class Flights:
         self._next_turn_s = 0.0
 
     def begin(self) -> None:
-        """Start all autopilots, take off and fly to the starts, together; simulated time is 0 then.
+        """Start all autopilots, take off and fly to the starts. Simulated time is 0 then.
 
-        If that fails, or is interrupted, they are ended.
+        All autopilots are ended if this fails or is interrupted.
 
         Raises:
             SitlError: An autopilot cannot be started, or a step failed.
@@ -95,36 +181,36 @@ class Flights:
 
     @property
     def ids(self) -> Collection[int]:
-        """Of the nodes."""
+        """Ids of the nodes."""
         return self._ids
 
     def advance_to(self, time_s: float) -> None:
         """Fly until `time_s` of simulated time.
 
         Raises:
-            SitlError: An autopilot is gone, hangs or does not obey any more.
+            SitlError: An autopilot has ended, hangs, or ignores commands.
         """
         self._advance(self._begin_s + time_s)
 
     def position(self, node_id: int) -> Position:
-        """Return where a node is, (x, y, z) in metres."""
+        """Return the position of a node (x, y, z) in metres."""
         return self._flights[node_id].position
 
     def pilot(self, node_id: int) -> Pilot:
-        """Return who takes the orders for a node; they reach its autopilot before its next step."""
+        """Return the pilot of a node. Commands reach the autopilot before its next step."""
         return self._flights[node_id].pilot
 
     def battery_percent(self, node_id: int) -> float | None:
-        """Return what is left of the battery, as far as the autopilot knows."""
+        """Return the remaining battery in percent, or None if the autopilot does not know it."""
         return self._flights[node_id].vehicle.battery_percent
 
     def close(self) -> None:
-        """End all autopilots; no-op if that has happened."""
+        """End all autopilots. Do nothing if they have ended."""
         if self._loop is not None:
             self._loop.cancel_all()
         for task in self._tasks:
             if not task.cancelled():
-                task.exception()  # Only the first of several failures was passed on.
+                task.exception()  # Only the first of several failures was raised.
         if self._group is not None:
             self._group.close()
         for flight in self._flights.values():
@@ -133,15 +219,17 @@ class Flights:
             fleet.close()
 
     def _settle(self) -> None:
-        """Wait until all hover at their starts, or for as long as that may take in the wind."""
+        """Wait until all vehicles hover at their starts, up to a limit."""
         limit_s = self._time_s + _SETTLED_AFTER_S
         while self._time_s < limit_s and not all(each.is_settled for each in self._flights.values()):
             self._advance(self._time_s + _TURN_S)
         for flight in self._flights.values():
             if not flight.is_settled:
-                _logger.warning("%s: it does not hover quietly at its start: too strong a wind?", flight.name)
+                _logger.warning(
+                    "%s: the vehicle does not hover at its start: is the wind too strong?", flight.name
+                )
 
-    def _fleet_of(self, node: FlownNode) -> Fleet:
+    def _fleet_of(self, node: AutopilotNode) -> Fleet:
         key = (node.program, node.user)
         if key not in self._fleets:
             self._fleets[key] = Fleet(
@@ -158,7 +246,7 @@ class Flights:
     def _advance(self, time_s: float) -> None:
         """Fly until `time_s` of the vehicles' clock."""
         assert self._group is not None
-        if any(flight.pilot.has_news for flight in self._flights.values()):
+        if any(flight.pilot.has_new_speed for flight in self._flights.values()):
             self._turn()
         while self._time_s < time_s:
             next_s = min(time_s, self._time_s + UPDATE_S)
@@ -168,7 +256,7 @@ class Flights:
                 self._turn()
 
     def _turn(self) -> None:
-        """Let all steps go on that can; raise what went wrong in one."""
+        """Run the asyncio loop once and raise the exception of a failed task."""
         assert self._loop is not None
         self._next_turn_s = self._time_s + _TURN_S
         self._loop.turn(self._time_s)

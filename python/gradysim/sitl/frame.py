@@ -1,4 +1,4 @@
-"""From the simulation's frame to the Earth: the way back from `geo_to_cartesian`."""
+"""Conversion from the simulation's frame to geographic coordinates: the inverse of `geo_to_cartesian`."""
 
 import math
 
@@ -8,13 +8,13 @@ _SMALLEST_DEG = 1e-7
 """Resolution of MAVLink's latitudes and longitudes, 1.1 cm."""
 
 _ARDUPILOTS_EARTH_M = 6_378_100.0
-"""Radius with which ArduPilot makes angles of metres, and metres of angles."""
+"""Radius of the Earth in ArduPilot."""
 
 
 def cartesian_to_geo(ref_coord: Position, position: Position) -> Position:
-    """Return the geographic place of a point: `geo_to_cartesian(ref_coord, ...)` of it is the point again.
+    """Return the geographic position of a point, the inverse of `geo_to_cartesian(ref_coord, ...)`.
 
-    The inverse of the haversine formula, once along the meridian and once along the parallel of the origin
+    It inverts the haversine formula along the meridian and along the parallel of the origin
     (R. W. Sinnott, Virtues of the Haversine, Sky and Telescope 68, 1984).
 
     Args:
@@ -25,7 +25,7 @@ def cartesian_to_geo(ref_coord: Position, position: Position) -> Position:
         (latitude deg, longitude deg, altitude m).
 
     Raises:
-        ValueError: The point is further North, South or East than the Earth has room.
+        ValueError: There is no such point on Earth.
     """
     latitude, longitude, altitude = ref_coord
     north, east, up = position
@@ -40,15 +40,15 @@ def cartesian_to_geo(ref_coord: Position, position: Position) -> Position:
 
 
 def home_of(ref_coord: Position, position: Position) -> Position:
-    """Return where a vehicle stands on the ground, at the reference's altitude, below a point."""
+    """Return the position on the ground below a point, at the altitude of the reference."""
     latitude, longitude, altitude = cartesian_to_geo(ref_coord, (position[0], position[1], 0.0))
     return (*off_null_island(latitude, longitude), altitude)
 
 
 def off_null_island(latitude: float, longitude: float) -> tuple[float, float]:
-    """Return the place, or one 1 cm North of latitude and longitude 0.
+    """Return the position, moved 1 cm North if it is latitude and longitude 0.
 
-    These mean "no place given" to ArduPilot: it starts in Australia then, and does not fly there.
+    To ArduPilot (0, 0) means "not given": it starts in Australia then, and does not fly there.
     """
     if max(abs(latitude), abs(longitude)) <= _SMALLEST_DEG / 2:
         return (_SMALLEST_DEG, 0.0)
@@ -58,7 +58,7 @@ def off_null_island(latitude: float, longitude: float) -> tuple[float, float]:
 def check_same_hemisphere(home: Position, longitude: float) -> None:
     """Raise ValueError if the date line is between home and a longitude.
 
-    ArduPilot takes the difference of two longitudes as it is, and flies away for ever.
+    ArduPilot does not wrap the difference of two longitudes, so it would fly the long way round.
     """
     if abs(longitude - home[1]) > 180.0:
         raise ValueError(
@@ -67,7 +67,7 @@ def check_same_hemisphere(home: Position, longitude: float) -> None:
 
 
 def autopilots_place(home: Position, offset: Position) -> Position:
-    """Return what an autopilot takes for the place at an offset from its home: its Earth is flat.
+    """Return the position at an offset from home as ArduPilot computes it, with a flat Earth.
 
     Args:
         home: (latitude deg, longitude deg, altitude m).
@@ -77,7 +77,7 @@ def autopilots_place(home: Position, offset: Position) -> Position:
         (latitude deg, longitude deg, height above home m).
 
     Raises:
-        ValueError: It is across the date line.
+        ValueError: The position is across the date line.
     """
     latitude, longitude, _ = home
     north, east, up = offset

@@ -1,51 +1,54 @@
-"""One autopilot in lock-step: it waits for our physics at each of its steps, so its clock is ours.
+"""Autopilots in lock-step: they wait for our physics at each step, so their clock is ours.
 
-ArduPilot's interface for simulators of the vehicle (`--model JSON`, ArduCopter 4.1 and newer): by UDP it
-sends what its motors do and blocks; it goes on when it is told, as a line of JSON, what its sensors are to
-feel, and at what time.
+This uses ArduPilot's interface for external physics (`--model JSON`, ArduCopter 4.1 and newer). The autopilot
+sends its servo outputs by UDP and blocks. It continues with a line of JSON: sensor values and time.
 """
 
+import asyncio
 import select
+import selectors
 import socket
 import struct
 import time
-from typing import Any, NoReturn
+from collections.abc import Sequence
+from typing import Any, NoReturn, cast
 
-from gradysim.sitl.error import SitlError
-from gradysim.sitl.link import MavlinkLink
+from gradysim.encapsulator.nested_loop import outer_loop_stands
+from gradysim.sitl import SitlError
+from gradysim.sitl.mavlink import MavlinkLink
 from gradysim.sitl.process import AutopilotProcess
 from gradysim.sitl.quadcopter import Quadcopter
 
 RATE_HZ = 400
-"""Steps in a second of the vehicle: those of ArduCopter's main loop. It starts with 1200 until it knows."""
+"""Steps per second, those of ArduCopter's main loop. It starts with 1200 until it reads its parameters."""
 
 _SERVOS = struct.Struct("<HHI16H")
 _SERVOS_MAGIC = 18458
 _DATAGRAM = 256
 
 PATIENCE_S = 0.25
-"""Of wall time, between two looks at whether autopilots live."""
+"""Wall time between two checks that autopilots run."""
 
 _HIGHEST_RATE_HZ = 100_000
 
 
 class LockStepAutopilot:
-    """Joins a link with an autopilot on simulated time. It works between `answer` and the next `take_wish`.
+    """Connects a link with an autopilot on simulated time. It computes between `answer` and `take_servos`.
 
     Attributes:
         link: Its messages.
         body: Its vehicle.
-        time_s: What its clock shows, from 0.
-        port: Of UDP, where it sends to.
-        is_at_work: Whether it has been answered, and has not got to its next step.
+        time_s: Time of its clock, from 0.
+        port: UDP port that it sends to.
+        is_at_work: Whether it computes its next step.
     """
 
     def __init__(self, link: MavlinkLink, body: Quadcopter) -> None:
-        """Open the ports; the autopilot is to be started with them."""
+        """Open the ports. Start the autopilot with them."""
         self.link = link
         self.body = body
         self.time_s = 0.0
-        self._steps_from = (0.0, 0)  # since when they have been of one length, and how many there were
+        self._steps_from = (0.0, 0)  # start of the present step length, and steps since then
         self._rate_hz = 0
         self._throttles = (0.0, 0.0, 0.0, 0.0)
         self.is_at_work = False
@@ -62,18 +65,18 @@ class LockStepAutopilot:
 
     @property
     def mavlink_port(self) -> int:
-        """Of TCP, where the autopilot connects to, before `meet`."""
+        """TCP port that the autopilot connects to. Valid before `meet`."""
         assert self._server is not None
         return int(self._server.getsockname()[1])
 
     def meet(self, process: AutopilotProcess, timeout_s: float) -> None:
-        """Wait for an autopilot that was started, until it waits for its first step.
+        """Wait until a started autopilot waits for its first step.
 
         Raises:
-            SitlError: It ends, or does not connect in `timeout_s` of wall time.
+            SitlError: It ends, or does not connect within `timeout_s` of wall time.
         """
         self._process = process
-        self.link.last_words = process.last_words
+        self.link.last_output = process.last_output
         server, self._server = self._server, None
         assert server is not None
         deadline_s = time.monotonic() + timeout_s
@@ -85,20 +88,20 @@ class LockStepAutopilot:
         self.link.send_bytes = self._send
         news = select.poll()
         news.register(self, select.POLLIN)
-        while not self.take_wish():
+        while not self.take_servos():
             if not news.poll(PATIENCE_S * 1000):
                 self.check(deadline_s, f"start: it did not ask for physics in {timeout_s:g} s")
 
     def fileno(self) -> int:
-        """Return what to wait for until `take_wish` has something to take."""
+        """Return the file descriptor that is readable when `take_servos` has data."""
         return self._physics.fileno()
 
     def is_behind(self, time_s: float) -> bool:
-        """Whether one more step takes it nearer to a time."""
+        """Whether one more step brings it closer to a time."""
         return self.time_s + 0.5 / self._rate_hz <= time_s
 
     def answer(self) -> None:
-        """Fly one step, and let the autopilot go on with what its sensors feel then."""
+        """Integrate one step and send the new sensor values."""
         body = self.body
         body.step(self._throttles, 1.0 / self._rate_hz)
         self._count_step()
@@ -115,8 +118,8 @@ class LockStepAutopilot:
         self.is_at_work = True
         self._physics.sendto(text.encode(), self._address)
 
-    def take_wish(self) -> bool:
-        """Take what the motors are to do in the next step; whether the autopilot has got so far."""
+    def take_servos(self) -> bool:
+        """Read the servo outputs for the next step. Return False if the autopilot still computes."""
         while True:
             try:
                 data, sender = self._physics.recvfrom(_DATAGRAM)
@@ -125,7 +128,7 @@ class LockStepAutopilot:
             if len(data) != _SERVOS.size:
                 continue
             magic, rate_hz, frame, *pulses_us = _SERVOS.unpack(data)
-            # One that had to wait for us says the same again: answered twice, its clock would be off.
+            # An autopilot that waits long repeats its frame. A second answer would shift its clock.
             if magic == _SERVOS_MAGIC and frame != self._frame and 0 < rate_hz <= _HIGHEST_RATE_HZ:
                 break
         self.is_at_work = False
@@ -138,12 +141,12 @@ class LockStepAutopilot:
         return True
 
     def listen(self) -> bool:
-        """Take what came by MAVLink; whether there was something.
+        """Read MAVLink messages. Return whether there were any.
 
-        While the autopilot waits for its next step that is all that it has had to say.
+        The autopilot waits for its next step, so all its messages have arrived.
 
         Raises:
-            SitlError: It is gone.
+            SitlError: The autopilot has ended.
         """
         assert self._mavlink is not None
         try:
@@ -153,29 +156,29 @@ class LockStepAutopilot:
         except OSError:
             data = b""
         if not data:
-            self._give_up(self._obituary())
+            self._fail(self._exit_report())
         self.link.feed(data)
         return True
 
     def check(self, deadline_s: float, trouble: str) -> None:
-        """Raise SitlError if the autopilot has ended, or for `trouble` after a time of `time.monotonic`."""
+        """Raise SitlError if the autopilot has ended, or `time.monotonic` is after `deadline_s`."""
         assert self._process is not None
         if not self._process.is_running:
-            guess = "" if self._frame is not None else "; is it ArduCopter 4.1 or newer?"
-            self._give_up(self._obituary() + guess)
+            hint = "" if self._frame is not None else "; is it ArduCopter 4.1 or newer?"
+            self._fail(self._exit_report() + hint)
         if time.monotonic() > deadline_s:
-            printed = self.link.last_words()
-            self._give_up(f"{trouble}; it printed last: {printed}" if printed else trouble)
+            printed = self.link.last_output()
+            self._fail(f"{trouble}; it printed last: {printed}" if printed else trouble)
 
     def close(self) -> None:
-        """Leave the autopilot, which cannot go on; no-op if that has happened."""
+        """Close the connections. Do nothing if they are closed."""
         self.link.lose("the connection was closed")
         for part in (self._physics, self._server, self._mavlink):
             if part is not None:
                 part.close()
 
     def _count_step(self) -> None:
-        """Let the clock go on; as a multiple of a step, so that rounding does not add up."""
+        """Advance the clock, as a multiple of a step, so that rounding errors do not add up."""
         begin_s, steps = self._steps_from
         self._steps_from = (begin_s, steps + 1)
         self.time_s = begin_s + (steps + 1) / self._rate_hz
@@ -187,22 +190,117 @@ class LockStepAutopilot:
         except BlockingIOError:
             sent = 0
         except OSError:
-            self._give_up(self._obituary())
-        if sent < len(data):  # It reads nothing before its next step: who waits now waits for ever.
-            self._give_up("it was given more orders than it can take before its next step")
+            self._fail(self._exit_report())
+        if sent < len(data):  # It reads nothing before its next step, so waiting would never end.
+            self._fail("it got more commands than it can receive before its next step")
 
-    def _obituary(self) -> str:
+    def _exit_report(self) -> str:
         assert self._process is not None
-        return self._process.obituary()
+        return self._process.exit_report()
 
-    def _give_up(self, why: str) -> NoReturn:
+    def _fail(self, why: str) -> NoReturn:
         self.link.lose(why)
         raise SitlError(f"{self.link.name}: {why}")
 
 
 def _accepted(server: socket.socket) -> socket.socket | None:
-    """Return the next connection; None if there is none for a while."""
+    """Return the next connection, or None after the timeout."""
     try:
         return server.accept()[0]
     except TimeoutError:
         return None
+
+
+_SILENCE_S = 10.0
+"""Wall time without a step after which an autopilot has failed. It repeats its frame every second."""
+
+
+class LockStepGroup:
+    """Autopilots in lock-step that run at the same time, each as fast as it can."""
+
+    def __init__(self, autopilots: Sequence[LockStepAutopilot]) -> None:
+        self._autopilots = autopilots
+        self._selector = selectors.DefaultSelector()
+        for autopilot in autopilots:
+            self._selector.register(autopilot, selectors.EVENT_READ)
+
+    def fly_to(self, time_s: float) -> bool:
+        """Run all autopilots to the step nearest to `time_s`. Return whether there were messages.
+
+        Messages are handled when all have arrived, in their order, so the result does not depend on which one
+        is fastest.
+
+        Raises:
+            SitlError: An autopilot has ended, or hangs.
+        """
+        behind = [each for each in self._autopilots if each.is_at_work or each.is_behind(time_s)]
+        for autopilot in behind:
+            if not autopilot.is_at_work:  # it may be at work after Ctrl-C
+                autopilot.answer()
+        last_sign_s = time.monotonic()
+        while behind:
+            has_gone_on = False
+            for key, _ in self._selector.select(PATIENCE_S):
+                autopilot = cast(LockStepAutopilot, key.fileobj)
+                if autopilot.take_servos():  # not a repeated frame
+                    has_gone_on = True
+                    if autopilot.is_behind(time_s):
+                        autopilot.answer()
+                    else:
+                        behind.remove(autopilot)
+            if has_gone_on:
+                last_sign_s = time.monotonic()
+                continue
+            for autopilot in behind:
+                autopilot.check(last_sign_s + _SILENCE_S, f"no sign of life in {_SILENCE_S:g} s of wall time")
+        said = [autopilot.listen() for autopilot in self._autopilots]
+        return any(said)
+
+    def close(self) -> None:
+        """Stop watching the autopilots."""
+        self._selector.close()
+
+
+_ROUNDS = 12
+"""Rounds of callbacks per turn: enough from a message to the next command."""
+
+
+class VehicleClockLoop(asyncio.SelectorEventLoop):
+    """An asyncio loop on the time of vehicles in lock-step. It passes only when they fly.
+
+    So the steps of a `Vehicle` and their timeouts work the same on simulated time as on wall time, and are
+    repeatable. The loop never sleeps. Close it with `cancel_all`.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._now_s = 0.0
+        self._rounds_left = 0
+
+    def time(self) -> float:
+        """Return the time of the vehicles in seconds."""
+        return self._now_s
+
+    def turn(self, now_s: float) -> None:
+        """Set the time to `now_s` and run the callbacks that are ready or due."""
+        self._now_s = now_s
+        self._rounds_left = _ROUNDS
+        self.call_soon(self._run_round)
+        with outer_loop_stands():
+            self.run_forever()
+
+    def cancel_all(self) -> None:
+        """Cancel all tasks, let them finish, and close the loop. Do nothing if it is closed."""
+        if self.is_closed():
+            return
+        for task in asyncio.all_tasks(self):
+            task.cancel()
+        self.turn(self._now_s)
+        self.close()
+
+    def _run_round(self) -> None:
+        self._rounds_left -= 1
+        if self._rounds_left == 0:
+            self.stop()
+        else:
+            self.call_soon(self._run_round)

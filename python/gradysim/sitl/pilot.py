@@ -1,12 +1,12 @@
-"""Has one vehicle do what is wanted of it last.
+"""Carries out the latest command for one vehicle.
 
-ArduCopter neither takes off nor lands for a target: on the ground it ignores one in the air, and what stands
-on the ground with a target there flies, as it believes, until after some minutes it does not know any more
-where it is. So the way to a target on the ground ends with a velocity downwards, by which it notices that it
-has landed, and a way from the ground begins with one upwards:
+ArduCopter neither takes off nor lands for a target. On the ground it ignores a target in the air. With a
+target on the ground it believes that it still flies after landing, and loses its position after some minutes.
+So a flight to a target on the ground ends with a downward velocity, which makes it detect the landing. A
+flight from the ground starts with an upward velocity:
 
     RISING --in the air, and clear of the ground--> FLYING --low over a target on the ground--> STANDING
-       ^--------- it has landed somewhere else ---------+
+       ^------------ landed somewhere else -------------+
 """
 
 import asyncio
@@ -14,34 +14,34 @@ import math
 from collections.abc import Callable
 from enum import Enum, auto
 
+from gradysim.protocol.defaults import LOWEST_AUTOPILOT_SPEED_MPS, is_too_slow_for_autopilot
 from gradysim.protocol.position import Position, geo_to_cartesian
-from gradysim.sitl.arducopter import LOWEST_SPEED_MPS, is_too_slow
-from gradysim.sitl.link import Message
+from gradysim.sitl.mavlink import Message
 from gradysim.sitl.vehicle import Vehicle
 
 _RENEWAL_S = 1.0
-"""Of the autopilot's time: it drops a velocity that is 3 s old."""
+"""Period at which a velocity is sent again, in the autopilot's time. It drops one that is 3 s old."""
 
 _ON_GROUND_M = 0.1
-"""Up to this height a target is on the ground."""
+"""Highest target that counts as on the ground."""
 
 _APPROACH_M = 0.5
-"""So high it flies to a target on the ground: to be dragged over the ground is more than its senses bear."""
+"""Height of the flight to a target on the ground. Sliding over the ground would confuse its sensors."""
 
 _OVER_M = 0.3
-"""From so near to that it goes straight down."""
+"""Horizontal distance at which it starts to descend."""
 
 _NEAR_M = 1.0
-"""One that has landed so near to it has arrived, too."""
+"""Horizontal distance at which a vehicle that has landed has arrived."""
 
 _CLEAR_M = 0.5
-"""One that takes off flies on from this height."""
+"""Height at which a take-off ends."""
 
 _UPWARDS_MPS, _DOWNWARDS_MPS = (0.0, 0.0, 1.0), (0.0, 0.0, -0.5)
 
 
 class _Phase(Enum):
-    """Of the way to a target."""
+    """Phase of a flight to a target."""
 
     RISING = auto()
     FLYING = auto()
@@ -49,10 +49,10 @@ class _Phase(Enum):
 
 
 class Pilot:
-    """Remembers what is wanted, and has the vehicle do it. The newest order counts.
+    """Carries out the latest command.
 
     Attributes:
-        vehicle: What it flies.
+        vehicle: The vehicle.
     """
 
     def __init__(
@@ -63,15 +63,15 @@ class Pilot:
         speed_mps: float,
         pace: float = 1.0,
     ) -> None:
-        """Take a vehicle that holds its position, or will before the first order.
+        """Create a pilot for a vehicle that holds its position before the first command.
 
         Args:
-            vehicle: What it is to fly.
+            vehicle: The vehicle.
             place_of: Returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in
-                metres; ValueError if there is no such place.
-            start: (x, y, z) in metres: the position that the vehicle holds.
-            speed_mps: Ground speed, >= `LOWEST_SPEED_MPS`.
-            pace: Seconds of the autopilot's time for each second of the asyncio loop's.
+                metres. Raises ValueError if there is no such place.
+            start: Position (x, y, z) that the vehicle holds, in metres.
+            speed_mps: Ground speed, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
+            pace: Seconds of the autopilot's time per second of the asyncio loop.
         """
         self.vehicle = vehicle
         self._place_of = place_of
@@ -85,13 +85,11 @@ class Pilot:
         self._speed_is_new.set()
 
     def go_to(self, target: Position) -> None:
-        """Fly to a point (x, y, z) in metres; for z < 0 to the ground at x and y, and stand there.
-
-        A target below the ground would be met where the way to it meets the ground.
+        """Fly to a point (x, y, z) in metres. For z < 0 land at x and y.
 
         Raises:
             ValueError: There is no such place on Earth.
-            SitlError: The vehicle is gone, as for all orders.
+            SitlError: The link to the vehicle is lost.
         """
         x, y, z = target
         place = self._place_of((x, y, max(0.0, z)))
@@ -106,21 +104,23 @@ class Pilot:
             self._fly()
 
     def set_velocity(self, velocity_mps: Position) -> None:
-        """Hold a velocity (North, East, up)."""
+        """Fly with a velocity (North, East, up)."""
         self._place = None
         self._hold(velocity_mps)
 
     def set_speed(self, speed_mps: float) -> None:
-        """Fly at this ground speed from now on; the autopilot has to confirm it, in `attend`.
+        """Set the ground speed. `attend` sends it and waits for the confirmation.
 
         Args:
-            speed_mps: 0, to stand, or >= `LOWEST_SPEED_MPS`.
+            speed_mps: 0 to stop, or >= `LOWEST_AUTOPILOT_SPEED_MPS`.
 
         Raises:
-            ValueError: It is between them.
+            ValueError: Any other speed.
         """
-        if speed_mps != 0 and is_too_slow(speed_mps):
-            raise ValueError(f"an autopilot flies at {LOWEST_SPEED_MPS:g} m/s or faster, or stands at 0")
+        if speed_mps != 0 and is_too_slow_for_autopilot(speed_mps):
+            raise ValueError(
+                f"an autopilot flies at {LOWEST_AUTOPILOT_SPEED_MPS:g} m/s or faster, or stands at 0"
+            )
         before, self._speed_mps = self._speed_mps, speed_mps
         if speed_mps == 0:
             self._stop()
@@ -130,32 +130,31 @@ class Pilot:
             self.go_to(self._target)
 
     def _stop(self) -> None:
-        """Stand: by a velocity, as ArduCopter refuses a speed of 0."""
-        if self._place is None or self._phase is not _Phase.STANDING:  # that it does
+        """Stop by a velocity of 0, because ArduCopter refuses a speed of 0."""
+        if self._place is None or self._phase is not _Phase.STANDING:  # it stands already
             self.set_velocity((0.0, 0.0, 0.0))
 
     @property
-    def has_news(self) -> bool:
-        """Whether a speed waits for its turn to be told to the autopilot."""
+    def has_new_speed(self) -> bool:
+        """Whether a new speed has to be sent."""
         return self._speed_is_new.is_set()
 
     async def attend(self) -> None:
-        """Do what takes time, for ever: have speeds confirmed, renew velocities, take off and land.
+        """Send speeds, renew velocities, take off and land, until cancelled.
 
-        SitlError if that fails.
+        Raises:
+            SitlError: One of these fails.
         """
-        await asyncio.gather(
-            self._have_speeds_confirmed(), self._renew_velocities(), self._take_off_and_land()
-        )
+        await asyncio.gather(self._send_speeds(), self._renew_velocities(), self._take_off_and_land())
 
     async def watch(self) -> None:
-        """Wait for ever. SitlError as soon as the vehicle is gone or does not obey any more."""
+        """Raise SitlError when the link is lost, or the vehicle is disarmed or leaves mode GUIDED."""
         vehicle = self.vehicle
         vehicle.check_flight()
         await vehicle.link.wait_for(lambda message: not (vehicle.is_armed and vehicle.is_guided), None)
         vehicle.check_flight()
 
-    async def _have_speeds_confirmed(self) -> None:
+    async def _send_speeds(self) -> None:
         while True:
             await self._speed_is_new.wait()
             self._speed_is_new.clear()
@@ -170,7 +169,7 @@ class Pilot:
 
     async def _take_off_and_land(self) -> None:
         while True:
-            await self.vehicle.link.wait_for(_tells_of_its_place, None)
+            await self.vehicle.link.wait_for(_has_position, None)
             if self._place is None or self.vehicle.position is None:
                 continue
             over_m, height_m = _apart_m(self._place, self.vehicle.position)
@@ -197,7 +196,7 @@ class Pilot:
         self._phase = _Phase.FLYING
         if self._velocity is not None:
             self._velocity = None
-            self._speed_is_new.set()  # ArduCopter forgets it while it holds a velocity.
+            self._speed_is_new.set()  # ArduCopter forgets it during a velocity command.
         latitude, longitude, height_m = self._place
         self.vehicle.go_to(latitude, longitude, _APPROACH_M if _is_on_ground(self._place) else height_m)
 
@@ -210,7 +209,7 @@ class Pilot:
         self.vehicle.set_velocity(*velocity_mps)
 
 
-def _tells_of_its_place(message: Message) -> bool:
+def _has_position(message: Message) -> bool:
     return message.get_type() in ("GLOBAL_POSITION_INT", "EXTENDED_SYS_STATE")
 
 
@@ -219,6 +218,6 @@ def _is_on_ground(place: Position) -> bool:
 
 
 def _apart_m(place: Position, position: Position) -> tuple[float, float]:
-    """Return how far a vehicle is from a place, along the ground, and its height above home, in m."""
+    """Return the horizontal distance of a vehicle from a place and its height above home, in m."""
     north_m, east_m, _ = geo_to_cartesian(place, position)
     return math.hypot(north_m, east_m), position[2]

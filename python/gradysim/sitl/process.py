@@ -1,34 +1,40 @@
-"""The process of one autopilot: its folder, what it prints, its end."""
+"""The process of one autopilot: its user, its directory, its output and its end."""
 
+import contextlib
+import fcntl
 import os
+import pwd
+import shutil
 import signal
 import subprocess
+import tempfile
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import BinaryIO
 
-from gradysim.sitl.error import SitlError
+from gradysim.sitl import SitlError
 
 GRACE_S = 2.0
-"""Between SIGTERM, which an autopilot may be unable to follow, and SIGKILL."""
+"""Time between SIGTERM, which an autopilot may ignore, and SIGKILL."""
 
 _LAST_LINES = 5
 
 
 class AutopilotProcess:
-    """A running program in a session of its own, which Ctrl-C at the terminal does not reach."""
+    """A running program in its own session, so that Ctrl-C in the terminal does not reach it."""
 
     def __init__(self, name: str, command: Sequence[str], folder: Path, console: Path) -> None:
-        """Start it.
+        """Start the program.
 
         Args:
-            name: The vehicle's, for people.
-            command: The program, by its path, and its arguments; no shell sees them.
-            folder: Its working directory.
-            console: The file that takes what it prints.
+            name: Name of the vehicle in messages.
+            command: Path of the program and its arguments, used without a shell.
+            folder: Working directory.
+            console: File for its output.
 
         Raises:
-            SitlError: It cannot be started.
+            SitlError: The program cannot be started.
         """
         self.name = name
         self._console = console
@@ -47,18 +53,18 @@ class AutopilotProcess:
 
     @property
     def pid(self) -> int:
-        """Its process id, which is also that of its process group."""
+        """Id of the process and of its process group."""
         return self._process.pid
 
     @property
     def is_running(self) -> bool:
-        """Whether it has not ended."""
+        """Whether the process runs."""
         return self._process.poll() is None
 
-    def obituary(self) -> str:
-        """Say how it ended, and what it printed last."""
+    def exit_report(self) -> str:
+        """Return how the process ended, with its last output."""
         try:
-            status = self._process.wait(timeout=1.0)  # Its connection may break a moment before.
+            status = self._process.wait(timeout=1.0)  # Its connection may break shortly before.
         except subprocess.TimeoutExpired:
             how = "the autopilot closed its connection, but still runs"
         else:
@@ -66,22 +72,22 @@ class AutopilotProcess:
             is_signal = signalled in set(signal.Signals)
             how = "the autopilot died of " + signal.Signals(signalled).name if is_signal else ""
             how = how or f"the autopilot ended with status {status}"
-        printed = self.last_words()
+        printed = self.last_output()
         return f"{how}; it printed last: {printed}" if printed else f"{how}, and printed nothing"
 
-    def last_words(self) -> str:
-        """Return the last lines that it printed, in one."""
+    def last_output(self) -> str:
+        """Return the last lines of output, joined into one."""
         return " | ".join(self._console.read_text(errors="replace").splitlines()[-_LAST_LINES:])
 
     def send(self, number: signal.Signals) -> None:
-        """Send a signal to it and to what it started; no-op if all have ended."""
+        """Send a signal to the process group. Do nothing if all its processes have ended."""
         try:
             os.killpg(self._process.pid, number)
         except (ProcessLookupError, PermissionError):
             return
 
     def wait_until(self, deadline_s: float) -> bool:
-        """Wait for its end, at most until a time of `time.monotonic`; whether it came."""
+        """Wait for the end, until `deadline_s` of `time.monotonic`. Return whether the process has ended."""
         try:
             self._process.wait(timeout=max(0.0, deadline_s - time.monotonic()))
         except subprocess.TimeoutExpired:
@@ -90,12 +96,93 @@ class AutopilotProcess:
 
 
 def stop_all(processes: Iterable[AutopilotProcess], grace_s: float = GRACE_S) -> None:
-    """End processes: SIGTERM to all, and SIGKILL to what is left of them after `grace_s` wall seconds."""
+    """End processes: SIGTERM to all, then SIGKILL after `grace_s` seconds of wall time."""
     running = [process for process in processes if process.is_running]
     for process in running:
         process.send(signal.SIGTERM)
     deadline_s = time.monotonic() + grace_s
     for process in running:
         process.wait_until(deadline_s)
-        process.send(signal.SIGKILL)  # What a wrapper started may outlive it.
+        process.send(signal.SIGKILL)  # A child of a wrapper may outlive it.
         process.wait_until(time.monotonic() + GRACE_S)
+
+
+def user_for(wanted: str | None) -> str | None:
+    """Return the user for a program: the wanted one if this process runs as root, otherwise None.
+
+    Raises:
+        SitlError: The user or a required command does not exist.
+    """
+    if wanted is None or os.geteuid() != 0:
+        return None
+    try:
+        pwd.getpwnam(wanted)
+    except KeyError:
+        raise SitlError(f"the user {wanted!r} for autopilots does not exist") from None
+    for tool in ("setpriv", "timeout"):
+        if shutil.which(tool) is None:
+            raise SitlError(f"root needs the command {tool} to run autopilots as {wanted!r}")
+    return wanted
+
+
+def command_as(user: str | None, command: Sequence[str]) -> list[str]:
+    """Return a command that runs `command` as a user (None: the same user) and kills it with its parent.
+
+    An autopilot that rejects a parameter ignores even the end of its connection. So the kernel kills it, if
+    there is `setpriv`.
+
+    ArduPilot ends when it cannot signal its parent, which a process of another user cannot do if the parent
+    belongs to root. So `setpriv` drops root's rights, and `timeout`, without a limit, is a parent of the same
+    user that forwards signals.
+    """
+    mortal = ["setpriv", "--pdeathsig=KILL"]
+    if user is None:
+        return [*(mortal if shutil.which("setpriv") else []), *command]
+    group = str(pwd.getpwnam(user).pw_gid)
+    rights = [f"--reuid={user}", f"--regid={group}", "--clear-groups", "--no-new-privs"]
+    return [*mortal, *rights, "timeout", "0", *mortal, *command]
+
+
+_PREFIX = "gradysim-sitl-"
+_LOCK = "owner.lock"
+
+
+class FleetDirectory:
+    """Temporary directory of a fleet. It is removed with the fleet, or after a SIGKILL by the next fleet.
+
+    A lock on a file in the directory shows that its owner is alive: the kernel releases it however that
+    process ends. Process ids are not enough, since they are reused and differ between containers.
+
+    Attributes:
+        path: The directory.
+    """
+
+    def __init__(self) -> None:
+        """Remove the directories of dead owners and create a new one."""
+        _remove_abandoned(Path(tempfile.gettempdir()))
+        self.path = Path(tempfile.mkdtemp(prefix=_PREFIX))
+        # Lock the file before it gets its name. So a file that can be locked has a dead owner.
+        unnamed = self.path / f"{_LOCK}.new"
+        self._lock: BinaryIO = unnamed.open("wb")
+        fcntl.flock(self._lock, fcntl.LOCK_EX)
+        unnamed.rename(self.path / _LOCK)
+
+    def remove(self) -> None:
+        """Remove the directory and its files. Do nothing if it was removed already."""
+        shutil.rmtree(self.path, ignore_errors=True)
+        self._lock.close()
+
+
+def _remove_abandoned(parent: Path) -> None:
+    """Remove the directories of this user whose owners are dead."""
+    for folder in parent.glob(f"{_PREFIX}*"):
+        with contextlib.suppress(OSError):
+            if folder.lstat().st_uid == os.geteuid() and not folder.is_symlink():
+                _remove_if_abandoned(folder)
+
+
+def _remove_if_abandoned(folder: Path) -> None:
+    """Raise OSError if the owner is alive, or the file to lock is missing."""
+    with (folder / _LOCK).open("rb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        shutil.rmtree(folder, ignore_errors=True)

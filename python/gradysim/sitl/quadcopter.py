@@ -1,9 +1,8 @@
-"""A quadcopter as a rigid body: what an autopilot's motors do to it.
+"""Physics of a quadcopter as a rigid body.
 
-Frames as in the autopilot's world: North, East, down of home for places and velocities; forward, right, down
-of the vehicle for rates and forces. The equations are those of any textbook on rigid bodies (R. W. Beard and
-T. W. McLain, Small Unmanned Aircraft, 2012, chapter 3), with a drag that grows with the speed through the
-air, and the simplest integration that keeps its energy in check: semi-implicit Euler.
+Positions and velocities are North, East and down of home. Rates and forces are forward, right and down of the
+vehicle. The equations are those of rigid bodies (R. W. Beard and T. W. McLain, Small Unmanned Aircraft, 2012,
+chapter 3), with a drag proportional to the airspeed. The integration is semi-implicit Euler.
 """
 
 import math
@@ -17,43 +16,43 @@ GRAVITY_MPS2 = 9.80665
 MASS_KG = 2.0
 INERTIA_KGM2: Vector = (0.03, 0.03, 0.05)
 ARM_M = 0.25
-"""From the centre to each motor; an X, so each is as far in front or behind as it is to the side."""
+"""Distance from the centre to each motor. The frame is an X."""
 
 HOVER_THRUST = 0.35
-"""Share of the greatest thrust at which it hovers: ArduCopter's own default (MOT_THST_HOVER)."""
+"""Share of the maximum thrust at which it hovers: ArduCopter's default (MOT_THST_HOVER)."""
 
 THRUST_EXPO = 0.65
-"""How much of the thrust goes with the square of the throttle: ArduCopter's own default (MOT_THST_EXPO)."""
+"""Share of the thrust that grows with the square of the throttle: ArduCopter's default (MOT_THST_EXPO)."""
 
 TORQUE_M = 0.02
-"""Torque of a propeller about its axis, for each newton of its thrust; N m / N."""
+"""Torque of a propeller about its axis per newton of thrust; N m / N."""
 
 DRAG_KGPS = 0.3
-"""Force against each metre per second through the air."""
+"""Drag force per metre per second of airspeed."""
 
 ROTATION_DRAG_NMS = 0.05
-"""Torque against each radian per second."""
+"""Drag torque per radian per second."""
 
 FRICTION = 0.5
-"""Of its feet on the ground: force against its motion, for each newton of its weight."""
+"""Friction coefficient of the landing gear on the ground."""
 
-_GREATEST_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
+_MAX_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
 _LEVER_M = ARM_M * math.sqrt(0.5)
 
 
 class Quadcopter:
-    """One vehicle, on the ground at home, level and looking North, at first.
+    """One vehicle. It starts on the ground at home, level and facing North.
 
     Attributes:
-        position_m: North, East and down of home.
-        velocity_mps: The same of its velocity.
-        attitude: Quaternion (w, x, y, z) that turns the vehicle's frame into that of the world.
-        rates_radps: Of its rotation, about its own axes: roll, pitch, yaw.
-        specific_force_mps2: What an accelerometer in it measures, along its own axes: at rest (0, 0, -g).
+        position_m: Position North, East and down of home.
+        velocity_mps: Velocity, in the same frame.
+        attitude: Quaternion (w, x, y, z) from the vehicle's frame to that of the world.
+        rates_radps: Rotation rates about its own axes: roll, pitch, yaw.
+        specific_force_mps2: Reading of its accelerometer, along its own axes. At rest (0, 0, -g).
     """
 
     def __init__(self, wind_mps: Vector = (0.0, 0.0, 0.0)) -> None:
-        """`wind_mps` is the velocity of the air: North, East and down."""
+        """Create a vehicle. `wind_mps` is the velocity of the air: North, East and down."""
         self._wind_mps = wind_mps
         self.position_m: Vector = (0.0, 0.0, 0.0)
         self.velocity_mps: Vector = (0.0, 0.0, 0.0)
@@ -62,12 +61,12 @@ class Quadcopter:
         self.specific_force_mps2: Vector = (0.0, 0.0, -GRAVITY_MPS2)
 
     def step(self, throttles: Sequence[float], duration_s: float) -> None:
-        """Fly on for a moment.
+        """Integrate one step.
 
         Args:
-            throttles: Of the four motors, 0 to 1, in ArduPilot's order: front right, rear left (these turn
-                counterclockwise, seen from above), front left, rear right (clockwise).
-            duration_s: At most some milliseconds.
+            throttles: Throttles of the four motors, 0 to 1, in ArduPilot's order: front right, rear left
+                (counterclockwise, seen from above), front left, rear right (clockwise).
+            duration_s: Length of the step, a few milliseconds at most.
         """
         front_right, rear_left, front_left, rear_right = map(_thrust_n, throttles)
         torque = (
@@ -79,7 +78,7 @@ class Quadcopter:
         self._move(front_right + rear_left + front_left + rear_right, duration_s)
 
     def _turn(self, torque_nm: Vector, duration_s: float) -> None:
-        """Change the rates by Euler's equations, and the attitude by the new rates."""
+        """Update the rates by Euler's equations and the attitude by the new rates."""
         p, q, r = self.rates_radps
         ix, iy, iz = INERTIA_KGM2
         roll, pitch, yaw = torque_nm
@@ -101,7 +100,7 @@ class Quadcopter:
         self.attitude = (w / length, x / length, y / length, z / length)
 
     def _move(self, thrust_n: float, duration_s: float) -> None:
-        """Change the velocity by Newton's law, and the position by it; the ground holds it up."""
+        """Update the velocity by Newton's law and the position by the new velocity, with the ground."""
         forward, right, down = self._axes()
         north, east, sink = self.velocity_mps
         wind = self._wind_mps
@@ -155,4 +154,4 @@ class Quadcopter:
 
 
 def _thrust_n(throttle: float) -> float:
-    return _GREATEST_THRUST_N * throttle * ((1 - THRUST_EXPO) + THRUST_EXPO * throttle)
+    return _MAX_THRUST_N * throttle * ((1 - THRUST_EXPO) + THRUST_EXPO * throttle)

@@ -1,49 +1,48 @@
-"""A vehicle flown over MAVLink: steps that are done when the vehicle says so, or fail with what it said.
+"""A vehicle commanded over MAVLink. A step ends when the vehicle confirms it, or fails with its reply.
 
-Written for ArduCopter, in the frame of latitude, longitude and height above the place where it was armed.
-Times are those of the asyncio loop: the wall's, or the vehicles' own.
+It is written for ArduCopter. Positions are latitude, longitude and height above the place where the vehicle
+was armed. Times are those of the asyncio loop: wall time or simulated time.
 """
 
 import asyncio
 import math
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from functools import partial
 from typing import Any
 
-from gradysim.protocol.position import geo_to_cartesian, squared_distance
-from gradysim.sitl.dialect import COPTER_GUIDED, load_dialect
-from gradysim.sitl.error import SitlError
+from gradysim.protocol.position import Position, geo_to_cartesian, squared_distance
+from gradysim.sitl import SitlError
 from gradysim.sitl.frame import off_null_island
-from gradysim.sitl.link import MavlinkLink, Message
+from gradysim.sitl.mavlink import COPTER_GUIDED, MavlinkLink, Message, load_dialect
 
 _ANSWER_S = 1.0
-"""How long a command waits for its COMMAND_ACK before it is sent again."""
+"""Time after which a command without COMMAND_ACK is sent again."""
 
 _TRIES = 5
 
 _PAUSE_S = 0.2
-"""Between two tries of what the autopilot refused but may accept later."""
+"""Time between two attempts of a command that the autopilot may accept later."""
 
 _CONFIRM_S = 5.0
-"""How long an accepted change may take to show in a HEARTBEAT, of which there is one a second."""
+"""Time in which an accepted change must show in a HEARTBEAT. There is one per second."""
 
 _ARRIVED_M = 1.0
 
 _POSITION_ONLY = 0b110111111000
-"""`type_mask` of SET_POSITION_TARGET_*: of the setpoint only the position counts."""
+"""`type_mask` of SET_POSITION_TARGET_*: use only the position."""
 
 _VELOCITY_ONLY = 0b110111000111
-"""The same for the velocity."""
+"""Same for the velocity."""
 
 _GROUND_SPEED = 1
 """`param1` of MAV_CMD_DO_CHANGE_SPEED: ground speed."""
 
 
 class Vehicle:
-    """One vehicle. Each step raises SitlError, naming vehicle and step, if it is refused or takes too long.
+    """One vehicle. A step that is refused or takes too long raises SitlError with vehicle and step.
 
     Attributes:
-        name: For people.
+        name: Name in messages.
         link: Its messages.
     """
 
@@ -52,7 +51,7 @@ class Vehicle:
         self.link = link
         self._dialect = load_dialect()
         self._commands = asyncio.Lock()
-        self._is_of_old = False
+        self._is_old = False
 
     @property
     def position(self) -> tuple[float, float, float] | None:
@@ -62,7 +61,7 @@ class Vehicle:
 
     @property
     def battery_percent(self) -> float | None:
-        """What is left of the battery; None if the autopilot does not know."""
+        """Remaining battery in percent, or None if the autopilot does not know it."""
         message = self.link.latest.get("SYS_STATUS")
         if message is None or message.battery_remaining < 0:
             return None
@@ -70,24 +69,24 @@ class Vehicle:
 
     @property
     def is_armed(self) -> bool:
-        """Whether its motors were on in its last HEARTBEAT."""
+        """Whether the motors were on in the latest HEARTBEAT."""
         message = self.link.latest.get("HEARTBEAT")
         return message is not None and bool(message.base_mode & self._dialect.MAV_MODE_FLAG_SAFETY_ARMED)
 
     @property
     def is_guided(self) -> bool:
-        """Whether it obeyed orders by MAVLink in its last HEARTBEAT."""
+        """Whether the mode was GUIDED in the latest HEARTBEAT."""
         message = self.link.latest.get("HEARTBEAT")
         return message is not None and message.custom_mode == COPTER_GUIDED
 
     @property
     def is_in_air(self) -> bool:
-        """Whether it says that it flies; False if it does not say."""
+        """Whether it reports that it flies."""
         return bool(self._landed_state == self._dialect.MAV_LANDED_STATE_IN_AIR)
 
     @property
     def is_on_ground(self) -> bool:
-        """Whether it says that it has landed, or has not taken off yet; False if it does not say."""
+        """Whether it reports that it is on the ground."""
         return bool(self._landed_state == self._dialect.MAV_LANDED_STATE_ON_GROUND)
 
     @property
@@ -101,7 +100,7 @@ class Vehicle:
             await self._wait("heartbeat", _is("HEARTBEAT"), timeout_s)
 
     async def stream(self, position_hz: float) -> None:
-        """Have the autopilot send its position so often (Hz of its own clock), and what else is needed."""
+        """Request positions (Hz of the autopilot's clock) and the other messages that are needed."""
         dialect = self._dialect
         rates_hz = {
             dialect.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: position_hz,
@@ -110,18 +109,18 @@ class Vehicle:
             dialect.MAVLINK_MSG_ID_SYS_STATUS: 1.0,
         }
         for identifier, rate_hz in rates_hz.items():
-            # Refused once is no reason to end: that may be the answer to a ground station's own wish.
+            # A refusal may be the answer to a request of a ground station, so try again.
             await self._insist("telemetry", partial(self._ask_for, identifier, rate_hz), _CONFIRM_S)
-            if self._is_of_old:
+            if self._is_old:
                 self._request_stream(dialect.MAV_DATA_STREAM_POSITION, position_hz)
                 self._request_stream(dialect.MAV_DATA_STREAM_EXTENDED_STATUS, 1.0)
                 self._request_stream(dialect.MAV_DATA_STREAM_EXTRA3, 2.0)
                 return
 
     def restore_stream(self, position_hz: float) -> None:
-        """Ask again for positions, without waiting for an answer: somebody may have changed their rate."""
+        """Request positions again, without waiting for a reply, in case their rate was changed."""
         dialect = self._dialect
-        if self._is_of_old:
+        if self._is_old:
             self._request_stream(dialect.MAV_DATA_STREAM_POSITION, position_hz)
             return
         identifier, interval_us = dialect.MAVLINK_MSG_ID_GLOBAL_POSITION_INT, round(1e6 / position_hz)
@@ -133,7 +132,7 @@ class Vehicle:
         )
 
     async def find_position(self, timeout_s: float) -> None:
-        """Wait until the autopilot knows where it is, by GPS."""
+        """Wait until the autopilot knows its position by GPS."""
         needed = self._dialect.EKF_POS_HORIZ_ABS
 
         def knows(message: Message) -> bool:
@@ -142,13 +141,13 @@ class Vehicle:
         await self._wait("position estimate", knows, timeout_s)
 
     async def enter_guided(self, timeout_s: float) -> None:
-        """Switch to the mode in which it obeys."""
+        """Switch to mode GUIDED, in which the autopilot accepts commands."""
         dialect = self._dialect
         custom = dialect.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
 
         async def switch() -> Message:
             ack = await self._answer("mode GUIDED", dialect.MAV_CMD_DO_SET_MODE, custom, COPTER_GUIDED)
-            if ack.result == dialect.MAV_RESULT_UNSUPPORTED:  # ArduCopter 3: by message, which has no answer.
+            if ack.result == dialect.MAV_RESULT_UNSUPPORTED:  # ArduCopter 3: a message without reply.
                 self.link.send(dialect.MAVLink_set_mode_message(self.link.target[0], custom, COPTER_GUIDED))
                 return None
             return ack
@@ -165,7 +164,7 @@ class Vehicle:
         await self._confirm("arming", lambda: self.is_armed)
 
     async def take_off(self, height_m: float, timeout_s: float) -> None:
-        """Rise to a height above home; returns when it is there, or at once if it flies already."""
+        """Climb to a height above home and wait until it is reached. Return at once if it flies already."""
         if self.is_in_air:
             return
         command = self._dialect.MAV_CMD_NAV_TAKEOFF
@@ -177,7 +176,7 @@ class Vehicle:
         await self._fly("take-off", risen, timeout_s)
 
     def go_to(self, latitude: float, longitude: float, height_m: float) -> None:
-        """Have it fly straight to a place; replaces the target or velocity that it had. Has no answer."""
+        """Command a straight flight to a place. It replaces the previous target or velocity. No reply."""
         latitude, longitude = off_null_island(latitude, longitude)
         self.link.send(
             self._dialect.MAVLink_set_position_target_global_int_message(
@@ -193,7 +192,7 @@ class Vehicle:
         )
 
     async def arrive(self, latitude: float, longitude: float, height_m: float, timeout_s: float) -> None:
-        """Fly to a place; returns when it is within 1 m of it."""
+        """Fly to a place and wait until it is within 1 m."""
         place = (latitude, longitude, height_m)
 
         def is_there(message: Message) -> bool:
@@ -207,7 +206,7 @@ class Vehicle:
         await self._fly(f"flight to ({latitude:.7f}, {longitude:.7f}, {height_m:g} m)", is_there, timeout_s)
 
     def set_velocity(self, north_mps: float, east_mps: float, up_mps: float) -> None:
-        """Have it hold a velocity; it stops by itself 3 s of its own time after the last order. No answer."""
+        """Command a velocity. The vehicle stops 3 s (of its own time) after the last command. No reply."""
         self.link.send(
             self._dialect.MAVLink_set_position_target_local_ned_message(
                 0,
@@ -221,16 +220,16 @@ class Vehicle:
         )
 
     async def set_speed(self, speed_mps: float) -> None:
-        """Set the ground speed of its flight to the present target; climbing has its own.
+        """Set the ground speed of the flight to the present target. Climbing has its own speed.
 
-        Below `LOWEST_SPEED_MPS` it is confirmed, and ignored.
+        A speed below `LOWEST_AUTOPILOT_SPEED_MPS` is confirmed and ignored.
         """
         step = f"speed {speed_mps:g} m/s"
         command = self._dialect.MAV_CMD_DO_CHANGE_SPEED
         self._check(step, await self._answer(step, command, _GROUND_SPEED, speed_mps, -1))
 
     async def set_parameter(self, name: str, value: float) -> None:
-        """Set a parameter of the autopilot, which confirms it."""
+        """Set a parameter of the autopilot and wait for its confirmation."""
         dialect = self._dialect
 
         def confirmed(message: Message) -> bool:
@@ -249,11 +248,11 @@ class Vehicle:
             if await self.link.wait_for(confirmed, _ANSWER_S) is not None:
                 return
         raise self._failure(
-            f"parameter {name} = {value:g}", f"not confirmed after {_TRIES} tries: is there one of that name?"
+            f"parameter {name} = {value:g}", f"not confirmed after {_TRIES} tries: does this parameter exist?"
         )
 
-    def say_hello(self) -> None:
-        """Send the HEARTBEAT of a ground station, without which a real vehicle takes its link for lost."""
+    def send_heartbeat(self) -> None:
+        """Send the HEARTBEAT of a ground station. Without it a real vehicle considers its link lost."""
         dialect = self._dialect
         self.link.send(
             dialect.MAVLink_heartbeat_message(
@@ -262,7 +261,7 @@ class Vehicle:
         )
 
     def check_flight(self, step: str = "flight") -> None:
-        """Raise SitlError if by its last HEARTBEAT it does not obey: disarmed, or in another mode."""
+        """Raise SitlError if it is disarmed or in another mode by its latest HEARTBEAT."""
         if not self.is_armed:
             raise self._failure(step, "its motors were stopped")
         if not self.is_guided:
@@ -270,20 +269,20 @@ class Vehicle:
             raise self._failure(step, f"it left mode GUIDED for mode number {mode}")
 
     async def _ask_for(self, identifier: int, rate_hz: float) -> Message | None:
-        """Ask for a message; None, and `_is_of_old`, if it knows no such wish."""
+        """Request a message. Return None, and set `_is_old`, if the command is unsupported."""
         dialect = self._dialect
         command = dialect.MAV_CMD_SET_MESSAGE_INTERVAL
         ack = await self._answer("telemetry", command, identifier, round(1e6 / rate_hz))
-        self._is_of_old = bool(ack.result == dialect.MAV_RESULT_UNSUPPORTED)
-        return None if self._is_of_old else ack
+        self._is_old = bool(ack.result == dialect.MAV_RESULT_UNSUPPORTED)
+        return None if self._is_old else ack
 
     def _request_stream(self, stream: int, rate_hz: float) -> None:
-        """Ask by REQUEST_DATA_STREAM, which has no answer, for what ArduCopter 3 has no command for."""
+        """Request messages from ArduCopter 3, by REQUEST_DATA_STREAM. There is no reply."""
         rate = max(1, round(rate_hz))
         self.link.send(self._dialect.MAVLink_request_data_stream_message(*self.link.target, stream, rate, 1))
 
     async def _answer(self, step: str, command: int, *parameters: float) -> Message:
-        """Send a command until it is answered; return the COMMAND_ACK."""
+        """Send a command until it is acknowledged. Return the COMMAND_ACK."""
         dialect = self._dialect
         values = [*parameters, *([0.0] * (7 - len(parameters)))]
 
@@ -294,7 +293,7 @@ class Vehicle:
                 and bool(message.result != dialect.MAV_RESULT_IN_PROGRESS)
             )
 
-        async with self._commands:  # An answer names the command only, so one is under way at a time.
+        async with self._commands:  # COMMAND_ACK names only the command, so send one at a time.
             for attempt in range(_TRIES):
                 self.link.send(
                     dialect.MAVLink_command_long_message(*self.link.target, command, attempt, *values)
@@ -307,7 +306,7 @@ class Vehicle:
     async def _insist(
         self, step: str, attempt: Callable[[], Awaitable[Message | None]], timeout_s: float
     ) -> None:
-        """Repeat what may be refused for now, as arming before the checks are over."""
+        """Repeat a command that may be refused at first, such as arming before the checks are done."""
         loop = asyncio.get_running_loop()
         deadline = loop.time() + timeout_s
         while True:
@@ -342,7 +341,7 @@ class Vehicle:
     def _failure(self, step: str, why: str) -> SitlError:
         texts = list(dict.fromkeys(self.link.texts))[-3:]
         said = "; ".join(f'"{text}"' for text in texts) if texts else "nothing"
-        printed = "" if texts else self.link.last_words()
+        printed = "" if texts else self.link.last_output()
         said += f"; it printed last: {printed}" if printed else ""
         return SitlError(f"{self.name}: {step}: {why}; the autopilot said: {said}")
 
@@ -354,3 +353,43 @@ def position_of(message: Message) -> tuple[float, float, float]:
 
 def _is(kind: str) -> Callable[[Message], bool]:
     return lambda message: bool(message.get_type() == kind)
+
+
+_TAKE_OFF_M = 10.0
+
+
+async def prepare(
+    vehicle: Vehicle,
+    start: Position,
+    *,
+    position_hz: float,
+    speed_mps: float,
+    timeout_s: float,
+    parameters: Mapping[str, float],
+    check: Callable[[], None] = lambda: None,
+) -> None:
+    """Wait for a position, take off and fly to the start.
+
+    Args:
+        vehicle: Its link is connected.
+        start: (latitude deg, longitude deg, height above home m).
+        position_hz: Rate of position messages, by the autopilot's clock.
+        speed_mps: Ground speed, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
+        timeout_s: Limit for each step.
+        parameters: Parameters of the autopilot by name. It has to confirm each.
+        check: Called when its position is known, before it moves. May raise SitlError.
+
+    Raises:
+        SitlError: A step failed.
+    """
+    await vehicle.meet(timeout_s)
+    for name, value in parameters.items():
+        await vehicle.set_parameter(name, value)
+    await vehicle.stream(position_hz)
+    await vehicle.find_position(timeout_s)
+    check()
+    await vehicle.enter_guided(timeout_s)
+    await vehicle.arm(timeout_s)
+    await vehicle.take_off(_TAKE_OFF_M, timeout_s)
+    await vehicle.arrive(*start, timeout_s)
+    await vehicle.set_speed(speed_mps)

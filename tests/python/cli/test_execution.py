@@ -9,7 +9,7 @@ from gradysim.cli.execution import execute
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.results.result import RunResult
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 SCENARIO = SimpleNamespace(config="General", run_number=0, sim_time_limit_s=10.0, nodes=())
 

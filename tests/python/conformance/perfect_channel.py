@@ -9,9 +9,8 @@ import gradysim.prototype.run
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.results.result import RunResult
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.node.interface_spec import InterfaceSpec
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.errors import Source
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.settings import Setting
 

@@ -161,5 +161,5 @@ def test_what_a_run_does_not_take(mode: str) -> None:
     scenario = CASE.scenario(Climbing)
     with pytest.raises(TypeError, match="instance of a class like INodeHandler"):
         module.run(scenario, handlers=[AssertionHandler])
-    with pytest.raises(ValueError, match="two handlers are labelled 'assertion'"):
+    with pytest.raises(ValueError, match="two handlers are labeled 'assertion'"):
         module.run(scenario, handlers=[AssertionHandler([]), AssertionHandler([])])

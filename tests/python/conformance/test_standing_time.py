@@ -6,7 +6,7 @@ import pytest
 from perfect_channel import MODES, Case
 
 from gradysim.protocol.errors import TimerException
-from gradysim.simulator.handler import instant_count
+from gradysim.simulator import event
 from python.quiet_protocol import Quiet
 
 
@@ -27,7 +27,7 @@ class Restless(Quiet):
 @pytest.mark.parametrize("mode", MODES)
 def test_the_run_ends_and_names_node_timer_and_time(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
     # A million are seconds in prototype mode: there fewer are enough for the same words.
-    monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 1000)
+    monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 1000)
     with pytest.raises(TimerException) as error:
         Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]).run(mode, Restless)
     text = re.sub(r"0\.250* s", "0.25 s", str(error.value))

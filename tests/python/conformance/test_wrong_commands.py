@@ -1,4 +1,4 @@
-"""What cannot be carried out is the same exception in both modes, with the same text."""
+"""An invalid call raises the same exception in both modes, with the same text."""
 
 import math
 import re
@@ -24,11 +24,12 @@ from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     GotoGeoCoordsMobilityCommand,
     MobilityCommand,
+    MobilityCommandType,
     SetSpeedMobilityCommand,
     SetVelocityMobilityCommand,
 )
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import Source
 from gradysim.scenario.settings import Setting
 from python.quiet_protocol import Quiet
 
@@ -65,8 +66,8 @@ TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, wha
     (send(None), SEND, ["None", "CommunicationCommand"]),
     (send(GotoCoordsMobilityCommand(1, 2, 3)), SEND, ["GOTO_COORDS", "a CommunicationCommand"]),
     (send(BroadcastMessageCommand), SEND, ["class .*BroadcastMessageCommand", "a CommunicationCommand"]),
-    (send(BroadcastMessageCommand(cast("str", 5))), SEND, ["got 5", "text"]),
-    (send(BroadcastMessageCommand(cast("str", b"x"))), SEND, ["got b'x'", "text"]),
+    (send(BroadcastMessageCommand(cast("str", 5))), SEND, ["got 5", "str"]),
+    (send(BroadcastMessageCommand(cast("str", b"x"))), SEND, ["got b'x'", "str"]),
     (send(SendMessageCommand("a", 7)), SEND, ["7", NODES]),
     (send(SendMessageCommand("a", -1)), SEND, ["-1", NODES]),
     (send(SendMessageCommand("a", cast("int", "1"))), SEND, ["'1'", ID]),
@@ -105,6 +106,7 @@ TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, wha
     (steer(SetSpeedMobilityCommand(-1)), STEER, ["-1", AT_LEAST_0]),
     (steer(SetSpeedMobilityCommand(math.nan)), STEER, ["nan", AT_LEAST_0]),
     (steer(SetSpeedMobilityCommand(cast("float", "5"))), STEER, ["'5'", "number"]),
+    (steer(SetVelocityMobilityCommand(5, 0, 0)), STEER, [r"a velocity, \(5, 0, 0\)"]),
     (steer(SetVelocityMobilityCommand(1, 2, 3)), STEER, [r"a velocity, \(1, 2, 3\)", "a speed and a target"]),
     (steer(MobilityCommand(cast("Any", 9), 1)), STEER, ["9", r"GOTO_COORDS \(1\), .* or SET_SPEED \(3\)"]),
     (timer("a", -1), TIMER, ["-1", "not before now, 0.25 s"]),
@@ -157,7 +159,7 @@ def test_it_is_refused_with_the_value_and_what_was_expected(mode: str, number: i
 
 
 @pytest.mark.parametrize("mode", MODES)
-def test_a_node_that_stands_refuses_all_orders(mode: str) -> None:
+def test_a_stationary_node_refuses_mobility_commands(mode: str) -> None:
     class Ordered(Quiet):
         def initialize(self) -> None:
             self.provider.send_mobility_command(SetSpeedMobilityCommand(5))
@@ -167,33 +169,39 @@ def test_a_node_that_stands_refuses_all_orders(mode: str) -> None:
     nodes = tuple(replace(node, mobility=stands) for node in scenario.nodes)
     with pytest.raises(MasslessMobilityException) as raised:
         MODES[mode](replace(scenario, nodes=nodes))
-    assert str(raised.value) == (
-        f"node 0 is stationary, it cannot carry out {SetSpeedMobilityCommand(5)!r};"
-        " expected a mobility.typename that can move"
-    )
+    assert repr(SetSpeedMobilityCommand(5)) in str(raised.value)
 
 
-ARGUMENTS: list[tuple[Callable[[Any], object], str, str]] = [  # call, its method, what is wrong
-    (lambda provider: provider.schedule_timer("a"), "schedule_timer", "'timestamp'"),
-    (lambda provider: provider.schedule_timer("a", 1, 2), "schedule_timer", "positional"),
-    (lambda provider: provider.schedule_timer("a", timer="b"), "schedule_timer", "multiple values .*'timer'"),
-    (lambda provider: provider.cancel_timer(), "cancel_timer", "missing .*'timer'"),
-    (lambda provider: provider.current_time(5), "current_time", "positional"),
-    (lambda provider: provider.get_id(5), "get_id", "positional"),
-    (lambda provider: provider.send_communication_command(), "send_communication_command", "'command'"),
-    (lambda provider: provider.send_mobility_command(), "send_mobility_command", "missing .*'command'"),
-]
+ARGUMENTS: dict[str, Callable[[Any], object]] = {
+    "schedule_timer": lambda provider: provider.schedule_timer("a"),
+    "cancel_timer": lambda provider: provider.cancel_timer(),
+    "current_time": lambda provider: provider.current_time(5),
+    "get_id": lambda provider: provider.get_id(5),
+    "send_communication_command": lambda provider: provider.send_communication_command(),
+    "send_mobility_command": lambda provider: provider.send_mobility_command(),
+}
 
 
-@pytest.mark.parametrize("row", ARGUMENTS, ids=[f"{name} {wrong}" for _, name, wrong in ARGUMENTS])
+@pytest.mark.parametrize("name", ARGUMENTS)
 @pytest.mark.parametrize("mode", MODES)
-def test_wrong_arguments_are_told_in_one_line(mode: str, row: tuple[Deed, str, str]) -> None:
-    deed, name, wrong = row
-    failure = failure_of(mode, deed)
+def test_wrong_arguments_are_a_type_error_that_names_the_method(mode: str, name: str) -> None:
+    failure = failure_of(mode, ARGUMENTS[name])
     assert type(failure) is TypeError
-    assert re.search(rf"{name}\(.*{wrong}", str(failure))
-    assert "\n" not in str(failure)
+    assert f"{name}()" in str(failure)
     assert failure.__notes__ == ["in handle_timer of node 0 (Wrongdoer 0) at 0.25 s of simulated time"]
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_set_speed_with_zeros_sets_a_speed(mode: str) -> None:
+    class Flies(Quiet):
+        def initialize(self) -> None:
+            set_speed = MobilityCommandType.SET_SPEED
+            self.provider.send_mobility_command(MobilityCommand(set_speed, 5, 0, 0))
+            self.provider.send_mobility_command(MobilityCommand(set_speed, 2, 0, 0, 0, 0, 0))
+            self.provider.send_mobility_command(GotoCoordsMobilityCommand(100, 0, 0))
+
+    result = Case([(0.0, 0.0, 0.0)], duration_s=2.0).run(mode, Flies)
+    assert result.nodes[0].position == pytest.approx((4, 0, 0), abs=0.05)
 
 
 MISSIONS = {

@@ -1,10 +1,16 @@
 """What users rely on, and where the published package was wrong: plugins."""
 
-from typing import Any
+from importlib.metadata import version
+from typing import Any, cast
+from unittest.mock import MagicMock
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
+import gradysim
+from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.messages.communication import CommunicationCommand
+from gradysim.protocol.messages.mobility import MobilityCommand
+from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.follow_mobility import (
     MobilityFollowerConfiguration,
@@ -12,7 +18,11 @@ from gradysim.protocol.plugin.follow_mobility import (
     MobilityLeaderConfiguration,
     MobilityLeaderPlugin,
 )
+from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin
 from gradysim.protocol.plugin.random_mobility import RandomMobilityPlugin
+from gradysim.simulator.handler.communication import CommunicationHandler
+from gradysim.simulator.handler.mobility import MobilityHandler
+from gradysim.simulator.handler.timer import TimerHandler
 from python.dropin.user_code import Provider, simulation
 from python.quiet_protocol import Quiet
 
@@ -108,3 +118,72 @@ def test_a_seed_repeats_the_draws_of_every_node() -> None:
 
 def test_a_provider_of_ones_own_needs_only_the_published_methods() -> None:
     assert 0 <= Quiet.instantiate(Provider()).provider.random.random() < 1
+
+
+def test_a_random_trip_may_be_made_in_the_constructor() -> None:
+    class PingPong(Quiet):
+        def __init__(self) -> None:
+            self.trip = RandomMobilityPlugin(self)
+
+        def initialize(self) -> None:
+            self.trip.initiate_random_trip()
+            seen.append(self.trip.current_target)
+
+    def targets(seed: int) -> list[Any]:
+        seen.clear()
+        handlers = (TimerHandler(), CommunicationHandler(), MobilityHandler())
+        simulation(PingPong, PingPong, seed=seed, handlers=handlers).start_simulation()
+        return [*seen]
+
+    seen: list[Any] = []
+    first = targets(5)
+    assert first == targets(5)
+    assert first[0] != first[1]
+    assert first != targets(6)
+
+
+class Mock:
+    """A user's mock of a provider: it has only what its test needs."""
+
+    def __init__(self) -> None:
+        self.timers: list[tuple[str, float]] = []
+        self.sent: list[CommunicationCommand] = []
+
+    def send_communication_command(self, command: CommunicationCommand) -> None:
+        self.sent.append(command)
+
+    def send_mobility_command(self, command: MobilityCommand) -> None: ...
+
+    def schedule_timer(self, timer: str, timestamp: float) -> None:
+        self.timers.append((timer, timestamp))
+
+    def get_id(self) -> int:
+        return 3
+
+
+@pytest.mark.parametrize("provider", [Mock(), MagicMock(get_id=lambda: 3)], ids=["class", "MagicMock"])
+def test_plugins_work_on_a_mock_of_a_provider(provider: Any) -> None:
+    protocol = Quiet.instantiate(provider)
+    MobilityLeaderPlugin(protocol)
+    MobilityFollowerPlugin(protocol)
+    trip = RandomMobilityPlugin(protocol)
+    trip.initiate_random_trip()
+    MissionMobilityPlugin(protocol).start_mission([(0, 0, 0), (1, 0, 0)])
+    protocol.handle_telemetry(Telemetry((0, 0, 0)))
+    protocol.handle_timer("FollowMobilityPlugin__leader_broadcast_timer")
+    assert trip.trip_ongoing
+
+
+def test_the_leader_broadcasts_with_a_mock() -> None:
+    provider = Mock()
+    protocol = Quiet.instantiate(cast("IProvider", provider))
+    MobilityLeaderPlugin(protocol)
+    protocol.handle_telemetry(Telemetry((0, 0, 0)))
+    protocol.handle_timer("FollowMobilityPlugin__leader_broadcast_timer")
+    assert len(provider.sent) == 1
+    assert [name for name, _ in provider.timers] == ["FollowMobilityPlugin__leader_broadcast_timer"] * 2
+    assert all(0 < time_s < 0.06 for _, time_s in provider.timers)
+
+
+def test_the_package_has_a_version() -> None:
+    assert gradysim.__version__ == version("gradysim")

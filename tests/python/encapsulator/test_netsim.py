@@ -145,42 +145,21 @@ def test_an_unknown_destination_is_an_error():
 
 
 @pytest.mark.parametrize(
-    ("exception", "method", "arguments", "text"),
+    ("exception", "method", "arguments", "value"),
     [
-        (
-            TimerException,
-            "schedule_timer",
-            ("tick", "5"),
-            "cannot set timer 'tick' of node 0 for '5': expected an absolute time in seconds, not before now,"
-            " 0.0 s",
-        ),
-        (TimerException, "schedule_timer", (5, 1), "the name of a timer must be a str, got 5"),
-        (TimerException, "cancel_timer", (5,), "the name of a timer must be a str, got 5"),
-        (
-            CommunicationException,
-            "send_communication_command",
-            (CommunicationCommand(1.0, "hello"),),
-            "node 0 gave an unknown communication command: 1.0; expected SEND (0) or BROADCAST (1)",
-        ),
-        (
-            CommunicationException,
-            "send_communication_command",
-            ("hello",),
-            "node 0 can send a CommunicationCommand, got 'hello'",
-        ),
-        (
-            MasslessMobilityException,
-            "send_mobility_command",
-            ("hello",),
-            "node 0 can carry out a MobilityCommand, was given 'hello'",
-        ),
+        (TimerException, "schedule_timer", ("tick", "5"), "'5'"),
+        (TimerException, "schedule_timer", (5, 1), "5"),
+        (TimerException, "cancel_timer", (5,), "5"),
+        (CommunicationException, "send_communication_command", (CommunicationCommand(1.0, "hello"),), "1.0"),
+        (CommunicationException, "send_communication_command", ("hello",), "'hello'"),
+        (MasslessMobilityException, "send_mobility_command", ("hello",), "'hello'"),
     ],
 )
-def test_an_argument_of_the_wrong_type_is_told_as_it_was_given(exception, method, arguments, text):
+def test_an_argument_of_the_wrong_type_is_refused_with_its_value(exception, method, arguments, value):
     provider = Pair().encapsulators[0].provider
     with pytest.raises(exception) as failure:
         getattr(provider, method)(*arguments)
-    assert str(failure.value) == text
+    assert value in str(failure.value)
 
 
 def position_after(command, until_s=1.0):

@@ -1,11 +1,15 @@
 import copy
 import pickle
+from collections import UserDict, defaultdict
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.encapsulator.tracked_variables import TrackedVariables
+from gradysim.encapsulator.interop import InteropProvider
+from gradysim.encapsulator.python import PythonProvider
+from gradysim.encapsulator.tracked_variables import TrackedVariables, watch_tracked_variables
 
 
 @pytest.fixture
@@ -56,7 +60,7 @@ def test_removing_what_is_not_there_is_an_error(variables, changes, removal):
     assert changes == []
 
 
-def test_the_answers_are_those_of_a_dict(variables):
+def test_return_values_are_those_of_a_dict(variables):
     assert (variables.setdefault("a", 9), variables.pop("a"), variables.pop("a", 5), variables.popitem()) == (
         1,
         1,
@@ -98,7 +102,7 @@ operations = st.one_of(
 
 
 @given(st.lists(operations))
-def test_who_follows_the_reports_has_the_same_dict(steps):
+def test_the_reports_reproduce_the_dict(steps):
     followed = {}
 
     def follow(name, value):
@@ -113,6 +117,98 @@ def test_who_follows_the_reports_has_the_same_dict(steps):
     assert followed == dict(variables)
 
 
-def test_a_variable_is_no_attribute(variables):
+def test_a_variable_is_not_an_attribute(variables):
     with pytest.raises(AttributeError, match="no attribute 'c'"):
         variables.c = 3
+
+
+def plain():
+    return PythonProvider(SimpleNamespace(id=0))
+
+
+def watched():
+    provider = plain()
+    watch_tracked_variables(provider, lambda name, value: None)
+    return provider
+
+
+def interop():
+    return InteropProvider()
+
+
+all_providers = pytest.mark.parametrize("make", [plain, watched, interop])
+
+
+@all_providers
+@pytest.mark.parametrize("variables", [None, [], ["a"], [("a", 1)], "a", 3])
+def test_an_invalid_assignment_is_rejected(make, variables):
+    provider = make()
+    provider.tracked_variables["a"] = 1
+    with pytest.raises(TypeError, match="tracked_variables"):
+        provider.tracked_variables = variables
+    assert provider.tracked_variables == {"a": 1}
+
+
+@all_providers
+@pytest.mark.parametrize("kind", [dict, UserDict, lambda variables: defaultdict(int, variables)])
+def test_another_dictionary_may_be_assigned(make, kind):
+    provider = make()
+    provider.tracked_variables = kind({"a": 1})
+    assert dict(provider.tracked_variables) == {"a": 1}
+
+
+def test_other_attributes_are_not_checked():
+    provider = plain()
+    provider.mine = None
+    assert provider.mine is None
+
+
+class Node:
+    id = 0
+
+
+@pytest.fixture
+def provider(changes):
+    provider = PythonProvider(Node())
+    watch_tracked_variables(provider, lambda name, value: changes.append((name, value)))
+    return provider
+
+
+def test_each_assignment_is_reported(provider, changes):
+    provider.tracked_variables["heard"] = 0
+    provider.tracked_variables["heard"] += 1
+    assert changes == [("heard", 0), ("heard", 1)]
+    assert provider.tracked_variables == {"heard": 1}
+
+
+def test_an_assigned_dictionary_is_watched(provider, changes):
+    provider.tracked_variables["old"] = 1
+    provider.tracked_variables = {"new": 2}
+    provider.tracked_variables["new"] = 3
+    assert changes == [("old", 1), ("old", None), ("new", 2), ("new", 3)]
+
+
+def test_merged_items_are_reported_once(provider, changes):
+    provider.tracked_variables["old"] = 1
+    provider.tracked_variables |= {"new": 2}
+    assert changes == [("old", 1), ("new", 2)]
+
+
+def test_earlier_variables_are_reported_first(changes):
+    provider = PythonProvider(Node())
+    provider.tracked_variables["early"] = 5
+    watch_tracked_variables(provider, lambda name, value: changes.append((name, value)))
+    assert changes == [("early", 5)]
+    assert provider.tracked_variables == {"early": 5}
+
+
+def test_the_provider_keeps_its_class(provider):
+    assert isinstance(provider, PythonProvider)
+    assert type(provider).__name__ == "PythonProvider"
+
+
+def test_other_providers_keep_a_plain_attribute(provider, changes):
+    other = PythonProvider(Node())
+    other.tracked_variables["heard"] = 1
+    assert type(other) is PythonProvider
+    assert (type(other.tracked_variables), changes) == (dict, [])

@@ -7,7 +7,7 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.run import run
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from python.integrated.fading_link import link
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from gradysim.integrated.capture import CaptureError, capture_files, checked_captures, files_of_interfaces
 from gradysim.integrated.run import IntegratedRun, run
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 UNIT_DISK = '*.radioMedium.typename = "UnitDiskRadioMedium"'
 FAILING = 'class Tested(Talker):\n    def handle_packet(self, message): raise RuntimeError("spoilt")'

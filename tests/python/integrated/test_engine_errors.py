@@ -6,8 +6,7 @@ from gradysim import _netsim
 from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.network import check_scenario
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.settings import Setting
 
 WLAN = "*.uavs[*].wlan[*]"

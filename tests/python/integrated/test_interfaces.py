@@ -7,9 +7,9 @@ import pytest
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import run
+from gradysim.protocol.defaults import MOST_INTERFACES
 from gradysim.protocol.errors import CommunicationException
-from gradysim.protocol.messages.interface_index import MOST_INTERFACES
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 QUIET = "class Tested(Quiet): pass"
 TWO = "*.uavs[*].numWlanInterfaces = 2"

@@ -7,9 +7,8 @@ import pytest
 
 from gradysim.integrated.lint import Chosen, UnreadLines, lint_networks, unmet_choice
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import config_names
+from gradysim.scenario.errors import Source
+from gradysim.scenario.ini import config_names, read_ini
 from gradysim.scenario.lint import Finding
 
 CONFIGS = Path(__file__).parents[3] / "configs"

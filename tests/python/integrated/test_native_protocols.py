@@ -7,7 +7,7 @@ from gradysim.integrated.network import check_scenario
 from gradysim.integrated.run import IntegratedRun, run
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.native_protocols import native_protocols
 from gradysim.scenario.parameters import parameters_of

@@ -9,8 +9,7 @@ from gradysim.integrated.network import (
     node_config,
     set_fields,
 )
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.settings import Setting
 
 

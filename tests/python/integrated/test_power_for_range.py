@@ -9,7 +9,7 @@ from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
 from gradysim.integrated.run import run
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import engine_key
 from gradysim.scenario.scenario import Scenario
 from python.integrated.fading_link import link

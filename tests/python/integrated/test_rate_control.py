@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from gradysim.integrated.run import run
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.scenario import Scenario
 
 SENDER = """

@@ -5,7 +5,7 @@ import pytest
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.options import OPTIONS
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.patterns import Pattern
 
 PROTOCOLS = """
@@ -66,6 +66,12 @@ class Folder:
         """Run 0 of the base with some lines more."""
         self.write("test.ini", BASE + added)
         return load_scenarios(self.ini, config, "0", overrides)[0]
+
+    def mistake(self, added: str = "", config: str = "General", *overrides: str) -> ConfigError:
+        """Return the error of the base with some more lines."""
+        with pytest.raises(ConfigError) as caught:
+            self.load(added, config, *overrides)
+        return caught.value
 
     def error(self, added: str = "", config: str = "General", *overrides: str) -> str:
         """The text of the error, the folder left out."""

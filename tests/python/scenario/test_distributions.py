@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gradysim.encapsulator.random_stream import Purpose, philox4x32
 from gradysim.scenario.distributions import DISTRIBUTIONS, ParameterStream, distribution_in
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.expressions import ParameterContext, parse_value
 from gradysim.scenario.units import Quantity
 
@@ -294,15 +294,15 @@ def test_spaces_and_constants_change_no_draw() -> None:
 def test_wrong_draws_are_refused(text: str) -> None:
     with pytest.raises(BadValue) as error:
         drawn(text)
-    assert not error.value.suggestion
+    assert error.value.suggestion == error.value.hint == ""
 
 
 @pytest.mark.parametrize(
     ("text", "suggestion"),
     [
-        ("unifrom(0m, 1m)", "; did you mean `uniform`?"),
+        ("unifrom(0m, 1m)", "uniform"),
         ("exponential(1s, 2)", "; generators have no numbers here, each parameter has its own"),
-        ("normal(10dBm, 3dB)", "; did you mean `3dBm`?"),
+        ("normal(10dBm, 3dB)", "3dBm"),
         ("uniform(2m, 1m)", "; the smaller one comes first"),
         ("uniform(2m, 1mm)", "; the smaller one comes first"),
         ("intuniform(2, 1)", "; the smaller one comes first"),
@@ -313,7 +313,7 @@ def test_wrong_draws_are_refused(text: str) -> None:
 def test_wrong_draws_get_suggestions(text: str, suggestion: str) -> None:
     with pytest.raises(BadValue) as error:
         drawn(text)
-    assert error.value.suggestion == suggestion
+    assert (error.value.suggestion or error.value.hint) == suggestion
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.distributions import DISTRIBUTIONS, ParameterStream
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
 from gradysim.scenario.units import Quantity, unit_named
 
@@ -165,7 +165,7 @@ def test_a_value_knows_the_indices_in_the_path_of_its_parameter() -> None:
 def test_wrong_calls_for_indices_are_refused(text: str) -> None:
     with pytest.raises(BadValue) as error:
         parse_value(text, ParameterContext(1, "uavs[3].mobility.x"))
-    assert not error.value.suggestion
+    assert error.value.suggestion == error.value.hint == ""
 
 
 @pytest.mark.parametrize("sign", ["+", "*", "&&", "||", "<", "^", "?"])
@@ -229,36 +229,36 @@ def test_chains_of_any_length_end(sign: str) -> None:
 def test_wrong_expressions_are_refused(text: str) -> None:
     with pytest.raises(BadValue) as error:
         parse_value(text)
-    assert not error.value.suggestion
+    assert error.value.suggestion == error.value.hint == ""
 
 
 @pytest.mark.parametrize(
     ("text", "suggestion"),
     [
-        ("True", "; did you mean `true`?"),
-        ("10m/s", "; did you mean `mps`?"),
+        ("True", "true"),
+        ("10m/s", "mps"),
         ("index() * 3m", "; did you mean `index`, without parentheses?"),
-        ("36 km/h", "; did you mean `kmph`?"),
+        ("36 km/h", "kmph"),
         ("1ms 2ms", "; a list of values is written `${1ms, 2ms}`"),
         ("1h 5min 3h", "; a list of values is written `${1ms, 2ms}`"),
         ("7.5 % 2", "; for others there is `fmod(a, b)`"),
         ("7 % 2.5", "; for others there is `fmod(a, b)`"),
         ("50%", "; 50% is written `0.5`"),
-        ("true and false", "; did you mean `&&`?"),
-        ("1 < 2 and true", "; did you mean `&&`?"),
-        ("true or false", "; did you mean `||`?"),
-        ("not true", "; did you mean `!`?"),
-        ("1 = 2", "; did you mean `==`?"),
-        ("true & false", "; did you mean `&&`?"),
-        ("true | false", "; did you mean `||`?"),
-        ("parentIndex * 3m", "; did you mean `parentIndex()`?"),
-        ("swrt(4)", "; did you mean `sqrt`?"),
+        ("true and false", "&&"),
+        ("1 < 2 and true", "&&"),
+        ("true or false", "||"),
+        ("not true", "!"),
+        ("1 = 2", "=="),
+        ("true & false", "&&"),
+        ("true | false", "||"),
+        ("parentIndex * 3m", "parentIndex()"),
+        ("swrt(4)", "sqrt"),
     ],
 )
 def test_wrong_expressions_get_suggestions(text: str, suggestion: str) -> None:
     with pytest.raises(BadValue) as error:
         parse_value(text)
-    assert error.value.suggestion == suggestion
+    assert (error.value.suggestion or error.value.hint) == suggestion
 
 
 def test_where_no_function_has_a_name_like_that_all_are_named() -> None:
@@ -296,7 +296,7 @@ LIST = "; a list of values is written `${1ms, 2ms}`"
         ("[1ms]", LIST),
         ("1ms..5ms", "; a range of values is written `${1..5}ms`"),
         ("5s // five", "; a comment begins with `#`"),
-        ("$speed", "; did you mean `${speed}`?"),
+        ("$speed", "${speed}"),
         ("$", ""),
         ("1.5.", ""),
         ("3 * / 2", ""),
@@ -306,7 +306,7 @@ def test_what_other_grammars_have_there(text: str, hint: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(text)
     assert caught.value.problem.endswith(" is not understood there")
-    assert caught.value.suggestion == hint
+    assert (caught.value.suggestion or caught.value.hint) == hint
 
 
 @pytest.mark.parametrize(
@@ -332,7 +332,7 @@ def test_a_character_that_looks_like_another_is_named(text: str, problem: str) -
 def test_a_micro_has_a_letter_of_its_own(micro: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(f"100{micro}s")
-    assert caught.value.suggestion == "; a micro is `u`, as in `us`"
+    assert caught.value.hint == "; a micro is `u`, as in `us`"
 
 
 PATH = "uavs[3].wlan[1].radio.transmitter.power"
@@ -361,7 +361,7 @@ def test_levels_are_counted_from_the_module_of_the_parameter() -> None:
 def test_missing_indices_are_refused(path: str, levels: int) -> None:
     with pytest.raises(BadValue) as error:
         ParameterContext(1, path).index_of_ancestor(levels)
-    assert not error.value.suggestion
+    assert error.value.suggestion == error.value.hint == ""
 
 
 @pytest.mark.parametrize(
@@ -382,7 +382,7 @@ def test_missing_indices_are_refused(path: str, levels: int) -> None:
 def test_missing_indices_get_suggestions(path: str, levels: int, suggestion: str) -> None:
     with pytest.raises(BadValue) as error:
         ParameterContext(1, path).index_of_ancestor(levels)
-    assert error.value.suggestion == suggestion
+    assert (error.value.suggestion or error.value.hint) == suggestion
 
 
 @pytest.mark.parametrize(

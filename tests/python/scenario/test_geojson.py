@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
 YARD = [[3, 3], [3, 7], [7, 7], [7, 3], [3, 3]]

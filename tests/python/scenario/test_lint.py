@@ -8,8 +8,7 @@ import pytest
 
 from gradysim.prototype.run import PrototypeRun
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.file.reader import read_ini
-from gradysim.scenario.file.sections import search_order
+from gradysim.scenario.ini import read_ini, search_order
 from gradysim.scenario.lint import (
     Finding,
     bands_beside_frequencies,

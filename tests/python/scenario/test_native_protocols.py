@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario.errors.config_error import BadValue, ConfigError
+from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.native_protocols import (
     is_native_name,
     native_protocol,

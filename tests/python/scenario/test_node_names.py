@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.node_names import check_node_names, nodes_named
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
+from gradysim.scenario.errors import ConfigError
 
 IGNORED = """
     allow-object-stealing-on-deletion **.bin-recording check-signals cmdenv-autoflush

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.native_protocols import NativeParameter, NativeProtocol
 from gradysim.scenario.parameters import parameters_of, parametrize, unit_of
@@ -132,7 +132,7 @@ def test_where_a_parameter_is_an_int_what_to_write_for_other_numbers_is_said(nam
     with pytest.raises(BadValue) as caught:
         converted(name, written)
     default = getattr(Mobile, name)
-    assert caught.value.suggestion == f"; for other numbers write `{name}: float = {default}` in the class"
+    assert caught.value.hint == f"; for other numbers write `{name}: float = {default}` in the class"
 
 
 @pytest.mark.parametrize("written", ["5000", "5s", "5000ms", "2500 * 2ms"])

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.patterns import compile_pattern
 
 
@@ -78,7 +78,7 @@ def test_examples(pattern: str, path: str, expected: bool) -> None:
 def test_wrong_patterns_are_refused(pattern: str) -> None:
     with pytest.raises(BadValue) as error:
         compile_pattern(pattern)
-    assert not error.value.suggestion
+    assert error.value.suggestion == error.value.hint == ""
 
 
 @given(st.integers(0, 2000), st.integers(0, 2000), st.integers(0, 3000))

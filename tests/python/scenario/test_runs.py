@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.runs import FileHashes, UnreadVariables, select_runs, text_of_files, text_of_runs
 from python.scenario.conftest import BASE
 

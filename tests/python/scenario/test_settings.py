@@ -3,10 +3,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
+from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.expressions import ParameterContext
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.parameter_types import (
     choice,
     coordinate,

@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors.config_error import ConfigError
-from gradysim.scenario.errors.source import Source
-from gradysim.scenario.file.reader import Entry
+from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.sweep import (
     Constraint,
     IterationVariable,

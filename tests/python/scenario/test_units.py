@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors.config_error import BadValue
+from gradysim.scenario.errors import BadValue
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.units import (
     UNITS,
@@ -82,7 +82,7 @@ def test_every_dimension_has_a_linear_si_unit() -> None:
 def test_an_unknown_unit_names_the_nearest() -> None:
     with pytest.raises(BadValue) as error:
         unit_named("mpss")
-    assert error.value.suggestion == "; did you mean `mps`?"
+    assert error.value.suggestion == "mps"
 
 
 @pytest.mark.parametrize(("ratio", "ratio_db"), [(1, 0), (10, 10), (0.01, -20)])

@@ -1,6 +1,7 @@
 import pytest
 
 from gradysim.simulator import real_time
+from gradysim.simulator.real_time import FullSpeed, is_full_speed
 
 
 @pytest.mark.parametrize(("factor", "wall_s"), [(1.0, 10.0), (2.0, 5.0), (0.5, 20.0)])
@@ -45,3 +46,13 @@ def test_the_factor(given, factor):
 def test_a_factor_that_is_none(given):
     with pytest.raises(ValueError, match="real_time must be a bool or a finite factor >= 0, got "):
         real_time.real_time_factor(given)
+
+
+def test_it_ends_with_the_outermost_context() -> None:
+    seen = [is_full_speed()]
+    with FullSpeed():
+        with FullSpeed():
+            seen.append(is_full_speed())
+        seen.append(is_full_speed())
+    seen.append(is_full_speed())
+    assert seen == [False, True, True, False]

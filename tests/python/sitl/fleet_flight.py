@@ -3,7 +3,7 @@
 import asyncio
 
 from gradysim.sitl.fleet import Fleet
-from gradysim.sitl.link import MavlinkLink
+from gradysim.sitl.mavlink import MavlinkLink
 from gradysim.sitl.vehicle import Vehicle
 
 HOME = (-15.84, -47.92, 1000.0)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from gradysim.sitl.error import SitlError
-from gradysim.sitl.flown_node import FlownNode
+from gradysim.sitl import SitlError
+from gradysim.sitl.autopilot_node import AutopilotNode
 
 REFERENCE = (-15.84, -47.92, 1000.0)
 
@@ -11,7 +11,7 @@ REFERENCE = (-15.84, -47.92, 1000.0)
 def nodes(program, *starts, **settings):
     """Nodes 0, 1, ... that the toy flies, called "vehicle 0" and so on."""
     return [
-        FlownNode(number, f"vehicle {number}", start, program=program, user=None, **settings)
+        AutopilotNode(number, f"vehicle {number}", start, program=program, user=None, **settings)
         for number, start in enumerate(starts)
     ]
 

@@ -4,8 +4,8 @@ import json
 import socket
 import struct
 
-from gradysim.sitl.link import MavlinkLink
 from gradysim.sitl.lock_step import LockStepAutopilot
+from gradysim.sitl.mavlink import MavlinkLink
 from gradysim.sitl.quadcopter import Quadcopter
 
 SERVOS = "<HHI16H"
@@ -17,10 +17,10 @@ class Process:
 
     is_running = True
 
-    def last_words(self):
+    def last_output(self):
         return ""
 
-    def obituary(self):
+    def exit_report(self):
         return "it died"
 
 

@@ -1,13 +1,13 @@
 """A vehicle's steps, one by one: those of the toy, and answers that are made up here."""
 
 import asyncio
+import json
 
 import pytest
 
-from gradysim.sitl.dialect import COPTER_GUIDED, load_dialect
-from gradysim.sitl.error import SitlError
-from gradysim.sitl.link import MavlinkLink
-from gradysim.sitl.vehicle import Vehicle
+from gradysim.sitl import SitlError
+from gradysim.sitl.mavlink import COPTER_GUIDED, MavlinkLink, load_dialect
+from gradysim.sitl.vehicle import Vehicle, prepare
 from python.sitl.fleet_flight import HOME, fly, new_fleet, ready
 
 pytestmark = pytest.mark.usefixtures("own_folder")
@@ -148,3 +148,54 @@ def test_a_battery_of_minus_1_percent_is_unknown(played, vehicle, told, known):
     assert vehicle.battery_percent is None
     played.says(mavlink.MAVLink_sys_status_message(0, 0, 0, 0, 12000, 0, told, *([0] * 6)))
     assert vehicle.battery_percent == known
+
+
+pytestmark = pytest.mark.usefixtures("own_folder")
+
+START = (HOME[0] + 1e-4, HOME[1], 15.0)
+
+
+async def prepared(vehicle, **settings):
+    wishes = {"position_hz": 10, "speed_mps": 7.0, "timeout_s": 10, "parameters": {}, **settings}
+    await prepare(vehicle, START, **wishes)
+
+
+def final_state(program):
+    return json.loads(program.with_name("final_0.json").read_text())
+
+
+def test_it_hovers_at_its_start(toy_copter):
+    async def steps(vehicle):
+        await prepared(vehicle)
+        vehicle.check_flight()
+        return vehicle.position
+
+    assert fly(new_fleet(toy_copter()), steps) == pytest.approx(START, abs=1)
+
+
+def test_it_has_its_speed_then(toy_copter):
+    program = toy_copter()
+    fly(new_fleet(program), prepared)
+    assert final_state(program)["speed"] == 7
+
+
+def test_a_parameter_that_it_does_not_confirm_keeps_it_on_the_ground(toy_copter, monkeypatch):
+    monkeypatch.setattr("gradysim.sitl.vehicle._ANSWER_S", 0.05)
+    program = toy_copter()
+    with pytest.raises(SitlError, match="parameter NONESUCH = 1: not confirmed"):
+        fly(new_fleet(program), lambda vehicle: prepared(vehicle, parameters={"NONESUCH": 1.0}))
+    assert final_state(program)["target"] is None
+
+
+def test_who_refuses_it_knows_where_it_is_and_keeps_it_on_the_ground(toy_copter):
+    async def steps(vehicle):
+        def refuse():
+            raise SitlError(f"at {vehicle.position}, {vehicle.is_armed}")
+
+        with pytest.raises(SitlError) as caught:
+            await prepared(vehicle, check=refuse)
+        return str(caught.value)
+
+    program = toy_copter()
+    assert fly(new_fleet(program), steps) == f"at {(*HOME[:2], 0.0)}, False"
+    assert final_state(program)["target"] is None

@@ -5,11 +5,11 @@ from enum import Enum
 
 
 class CommunicationCommandType(int, Enum):
-    """How a message finds its receivers.
+    """Addressing of a message.
 
     Attributes:
-        SEND: To one node, named by `CommunicationCommand.destination`.
-        BROADCAST: To every node that can hear it.
+        SEND: To the node `CommunicationCommand.destination`.
+        BROADCAST: To every node in range.
     """
 
     SEND = 0
@@ -18,11 +18,11 @@ class CommunicationCommandType(int, Enum):
 
 @dataclass
 class CommunicationCommand:
-    """Sends `message`. There is no report of its delivery: messages may be lost.
+    """Sends `message`. Messages may be lost, and there are no delivery reports.
 
     Attributes:
-        command_type: How the message finds its receivers.
-        message: Any text. Its length in UTF-8 counts where airtime is simulated.
+        command_type: Addressing of the message.
+        message: Any str. Its airtime depends on its length in UTF-8.
         destination: Id of the receiving node; only for `SEND`.
         interface: Index of the node's network interface that sends it, 0 to 15: 1 for wlan[1]. Prototype mode
             has one medium, which all interfaces share.
@@ -42,7 +42,7 @@ class SendMessageCommand(CommunicationCommand):
 
 
 class BroadcastMessageCommand(CommunicationCommand):
-    """Sends `message` to every node in reach."""
+    """Sends `message` to every node in range."""
 
     def __init__(self, message: str, *, interface: int = 0) -> None:
         super().__init__(CommunicationCommandType.BROADCAST, message, interface=interface)

@@ -5,14 +5,14 @@ from enum import Enum
 
 
 class MobilityCommandType(int, Enum):
-    """What a mobility command asks for; the meaning of its parameters depends on it.
+    """Kind of a mobility command, which decides the meaning of its parameters.
 
     Attributes:
         GOTO_COORDS: Go to (x, y, z) = (param_1, param_2, param_3), metres.
         GOTO_GEO_COORDS: Go to (latitude, longitude, altitude) = (param_1, param_2, param_3), degrees,
             degrees, metres.
-        SET_SPEED: Set the speed to param_1; or, if three are given, the velocity to (param_1, param_2,
-            param_3); m/s.
+        SET_SPEED: Set the speed to param_1, if param_2 and param_3 are None or 0. Otherwise set the velocity
+            to (param_1, param_2, param_3); m/s.
     """
 
     GOTO_COORDS = 1
@@ -22,7 +22,7 @@ class MobilityCommandType(int, Enum):
 
 @dataclass
 class MobilityCommand:
-    """An order to the vehicle. Use the subclasses, which name their parameters; unused ones are None."""
+    """Command to the vehicle. The subclasses name their parameters. Unused parameters are None."""
 
     command_type: MobilityCommandType
     param_1: float | None = None
@@ -55,7 +55,7 @@ class SetSpeedMobilityCommand(MobilityCommand):
 
 
 class SetVelocityMobilityCommand(MobilityCommand):
-    """Hold the velocity (vx, vy, vz), m/s, until told otherwise; for vehicles steered by velocity."""
+    """Hold the velocity (vx, vy, vz), m/s, until the next command; for vehicles steered by velocity."""
 
     def __init__(self, vx: float, vy: float, vz: float) -> None:
         super().__init__(MobilityCommandType.SET_SPEED, vx, vy, vz)

@@ -1,33 +1,31 @@
-"""Lets others take part in the callbacks of a protocol: the base of every plugin.
+"""Dispatcher: a chain of handlers in front of each callback of one protocol. The base of every plugin.
 
-A dispatcher puts a chain of handlers in front of each of the five callbacks of one protocol instance.
-It lives on that instance and dies with it.
+The protocol instance owns its dispatcher.
 """
 
 from collections.abc import Callable
 from enum import Enum
 from typing import Any
 
-from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.interface import CALLBACKS, IProtocol
 from gradysim.protocol.messages.telemetry import Telemetry
 
 _ATTRIBUTE = "_gradysim_dispatcher"
-_CALLBACKS = ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
 
 
 class DispatchReturn(Enum):
-    """What a handler wants to become of the event that it was given.
+    """Return value of a handler.
 
     Attributes:
-        INTERRUPT: The event ends here: neither the handlers behind nor the protocol get it.
-        CONTINUE: The next in the chain gets it too. Returning nothing means the same.
+        INTERRUPT: The later handlers and the protocol do not get the event.
+        CONTINUE: The next handler gets the event, too. Returning None means the same.
     """
 
     INTERRUPT = 1
     CONTINUE = 2
 
 
-_INTERRUPT = DispatchReturn.INTERRUPT  # looking up a member of an enumeration takes longer than a call
+_INTERRUPT = DispatchReturn.INTERRUPT  # the lookup of an enumeration's member takes longer than a call
 
 
 class _Chain:
@@ -37,19 +35,19 @@ class _Chain:
         self._protocol = protocol
         self._callback = callback
         self._original: Callable[..., None] = getattr(protocol, callback)
-        # A tuple, replaced on every change: an event under way keeps the chain that it started with.
+        # A tuple, replaced on every change: an event in progress keeps its chain.
         self._handlers: tuple[Callable[..., Any], ...] = ()
         setattr(protocol, callback, getattr(self, dispatch))
 
     def dispatch_event(self, event: Any) -> None:
-        """A timer, a packet or telemetry."""
+        """Dispatch a timer, a packet or telemetry."""
         for handler in self._handlers:
             if handler(self._protocol, event) is _INTERRUPT:
                 return
         self._original(event)
 
     def dispatch_to_all(self) -> None:
-        """`initialize` and `finish` have no argument and reach everybody."""
+        """Dispatch `initialize` or `finish`, which reach every handler."""
         for handler in self._handlers:
             handler(self._protocol)
         self._original()
@@ -71,10 +69,10 @@ class _Chain:
 class ProtocolWrapper:
     """The handlers registered on one protocol; made by `create_dispatcher`.
 
-    Handlers are called with the protocol and the arguments of its callback. The one registered last is called
-    first, the protocol's own callback last. `DispatchReturn.INTERRUPT` stops a timer, a packet or telemetry
-    on its way; it has no effect on `initialize` and `finish`, which always reach everybody. Registering and
-    unregistering while an event is being handled counts from the next event on.
+    Handlers are called with the protocol and the arguments of its callback. The handler registered last is
+    called first, the protocol's own callback last. `DispatchReturn.INTERRUPT` stops a timer, a packet or
+    telemetry; it has no effect on `initialize` and `finish`. Changes during an event take effect at the next
+    event.
     """
 
     def __init__(self, protocol: IProtocol) -> None:
@@ -129,11 +127,11 @@ class ProtocolWrapper:
 def create_dispatcher(protocol: IProtocol) -> ProtocolWrapper:
     """Return the dispatcher of a protocol, the same one each time; the first call makes it.
 
-    Raises TypeError if what it is given has not the callbacks of a protocol.
+    Raises TypeError if `protocol` does not have the callbacks of a protocol.
     """
     wrapper: ProtocolWrapper | None = getattr(protocol, "__dict__", {}).get(_ATTRIBUTE)
     if wrapper is None:
-        if isinstance(protocol, type) or not all(hasattr(protocol, name) for name in _CALLBACKS):
+        if isinstance(protocol, type) or not all(hasattr(protocol, name) for name in CALLBACKS):
             raise TypeError(f"expected a protocol (a plugin's first argument is `self`), got {protocol!r}")
         wrapper = ProtocolWrapper(protocol)
         setattr(protocol, _ATTRIBUTE, wrapper)

@@ -1,4 +1,4 @@
-"""Flies a protocol's node along a list of waypoints, once or in a loop."""
+"""Plugin that flies a node along a list of waypoints, once or in a loop."""
 
 import logging
 import math
@@ -12,7 +12,7 @@ from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.configuration import configuration_or_default
+from gradysim.protocol.plugin.attachment import configuration_or_default, warn_without_telemetry
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 
@@ -20,12 +20,12 @@ _logger = logging.getLogger(__name__)
 
 
 class LoopMission(Enum):
-    """What follows the last waypoint of a mission.
+    """What happens after the last waypoint of a mission.
 
     Attributes:
         NO: The mission ends there.
         RESTART: The first waypoint is next.
-        REVERSE: The waypoints are flown backwards, and forwards again from the first one.
+        REVERSE: The waypoints are flown in reverse order, then forward again from the first one.
     """
 
     NO = 1
@@ -39,7 +39,7 @@ class MissionMobilityConfiguration:
 
     Attributes:
         speed: m/s, >= 0.
-        loop_mission: What follows the last waypoint.
+        loop_mission: What happens after the last waypoint.
         tolerance: A waypoint counts as reached at this distance or less; m, >= 0.
     """
 
@@ -49,14 +49,14 @@ class MissionMobilityConfiguration:
 
 
 class MissionMobilityPluginException(Exception):  # noqa: N818 (the published name)
-    """A mission that cannot be flown, or an order that makes no sense for the mission under way."""
+    """A mission is not valid, or a call does not fit the mission in progress."""
 
 
 class MissionMobilityPlugin:
-    """Sends the mobility commands of a mission, driven by the telemetry of its node.
+    """Sends the mobility commands of a mission. The telemetry of the node drives it.
 
-    Create it in `initialize` or later. It is idle until a mission is started, and again when a mission
-    without a loop has reached its last waypoint.
+    The plugin is idle until a mission starts, and again when a mission without a loop has reached its last
+    waypoint.
     """
 
     def __init__(
@@ -73,24 +73,24 @@ class MissionMobilityPlugin:
 
     @property
     def current_waypoint(self) -> int | None:
-        """Index of the waypoint that the node is flying to; None when idle."""
+        """Index of the current waypoint; None when idle."""
         return self._waypoint if self._mission else None
 
     @property
     def is_reversed(self) -> bool:
-        """Whether the waypoints are being flown from the last to the first."""
+        """Whether the waypoints are flown from the last to the first."""
         return self._reversed
 
     @property
     def is_idle(self) -> bool:
-        """Whether no mission is under way."""
+        """Whether no mission is in progress."""
         return not self._mission
 
     def start_mission(self, mission: Sequence[Position]) -> None:
-        """Fly to the first waypoint and on from there; a mission under way is dropped.
+        """Start a mission at its first waypoint. It replaces a mission in progress.
 
         Args:
-            mission: At least one waypoint (x, y, z), metres.
+            mission: At least one waypoint (x, y, z) in meters.
 
         Raises:
             MissionMobilityPluginException: There is no waypoint, or one is not three finite numbers.
@@ -107,9 +107,13 @@ class MissionMobilityPlugin:
         self._reversed = False
         self._go_to(0)
         self._protocol.provider.send_mobility_command(SetSpeedMobilityCommand(self._configuration.speed))
+        if len(waypoints) > 1:
+            warn_without_telemetry(
+                _logger, self._protocol, "a mission does not get beyond its first waypoint"
+            )
 
     def start_mission_with_waypoint_file(self, mission_file_path: str | PathLike[str]) -> None:
-        """Like `start_mission`, with the waypoints of a text file: one `x,y,z` in metres per line.
+        """Like `start_mission`, with the waypoints of a text file: one `x,y,z` in meters per line.
 
         Empty lines are skipped. A relative path starts at the working directory.
 
@@ -141,7 +145,7 @@ class MissionMobilityPlugin:
         self.start_mission(mission)
 
     def stop_mission(self) -> None:
-        """Become idle. No command is sent: the vehicle still flies to its last target. No-op when idle."""
+        """Become idle; no-op when idle. The vehicle still flies to its last target."""
         if self.is_idle:
             return
         self._dispatcher.unregister_handle_telemetry(self._handle_telemetry)
@@ -149,10 +153,10 @@ class MissionMobilityPlugin:
         self._reversed = False
 
     def set_current_waypoint(self, waypoint: int) -> None:
-        """Fly to the waypoint with that index now, and on from there in the same direction.
+        """Fly to the waypoint with that index now, and continue from there in the same direction.
 
         Raises:
-            MissionMobilityPluginException: No mission is under way, or it has no such waypoint.
+            MissionMobilityPluginException: No mission is in progress, or it does not have this waypoint.
         """
         self._require_mission("set the current waypoint")
         if isinstance(waypoint, bool) or not isinstance(waypoint, int):
@@ -164,17 +168,17 @@ class MissionMobilityPlugin:
         self._go_to(waypoint)
 
     def set_reversed(self, reversed: bool) -> None:
-        """Turn round: fly to the next waypoint of the new direction. No-op if it is not new.
+        """Set the direction, and fly to its next waypoint; no-op if this is the direction already.
 
-        At the end of the mission that the new direction points to, the waypoint stays the same.
+        At the end of the mission, the waypoint stays the same.
 
         Raises:
-            MissionMobilityPluginException: No mission is under way, or it does not loop with REVERSE.
+            MissionMobilityPluginException: No mission is in progress, or it does not loop with REVERSE.
         """
-        self._require_mission("turn round")
+        self._require_mission("reverse the mission")
         if self._configuration.loop_mission is not LoopMission.REVERSE:
             raise MissionMobilityPluginException(
-                "only a mission with loop_mission REVERSE can turn round, this one has "
+                "only a mission with loop_mission REVERSE can be reversed, this one has "
                 f"{self._configuration.loop_mission.name}"
             )
         if reversed == self._reversed:
@@ -186,7 +190,7 @@ class MissionMobilityPlugin:
     def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> None:
         # A handler before this one may have stopped the mission.
         if self._mission:
-            # squared_distance, written out, and x alone first: this runs at every telemetry of every vehicle.
+            # squared_distance, inlined, x first: this runs at every telemetry of every vehicle.
             x, y, z = telemetry.current_position
             target_x, target_y, target_z = self._mission[self._waypoint]
             dx = x - target_x
@@ -222,7 +226,7 @@ class MissionMobilityPlugin:
 
     def _require_mission(self, purpose: str) -> None:
         if self.is_idle:
-            raise MissionMobilityPluginException(f"cannot {purpose}: no mission is under way")
+            raise MissionMobilityPluginException(f"cannot {purpose}: no mission is in progress")
 
 
 def _check_configuration(configuration: MissionMobilityConfiguration) -> None:

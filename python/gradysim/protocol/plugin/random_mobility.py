@@ -1,4 +1,4 @@
-"""Sends a protocol's node to random points of a box, once or on a trip from one to the next."""
+"""Plugin that sends a node to random points of a box, once or on a trip from one to the next."""
 
 import logging
 import math
@@ -9,7 +9,11 @@ from gradysim.protocol.checked_values import checked_number, checked_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.configuration import configuration_or_default
+from gradysim.protocol.plugin.attachment import (
+    configuration_or_default,
+    stream_of,
+    warn_without_telemetry,
+)
 from gradysim.protocol.plugin.dispatcher import create_dispatcher
 from gradysim.protocol.position import Position
 
@@ -18,7 +22,7 @@ _logger = logging.getLogger(__name__)
 
 @dataclass
 class RandomMobilityConfig:
-    """The box that waypoints are drawn from, each coordinate uniformly, and when one counts as reached.
+    """The box from which waypoints are drawn uniformly, and the tolerance of a trip.
 
     Attributes:
         x_range: (lowest, highest) x; m.
@@ -34,11 +38,13 @@ class RandomMobilityConfig:
 
 
 class RandomMobilityPlugin:
-    """Draws waypoints from a random stream of its own: the same seed gives the same ones, in every mode.
+    """Draws waypoints from a random stream of its own. The same seed gives the same waypoints in every mode.
 
-    What else the protocol draws makes no difference, but for what it drew before the plugin was created: that
-    takes one number of `provider.random`. Create it in `initialize` or later. A trip goes from waypoint to
-    waypoint, driven by the node's telemetry, at the speed that the vehicle has.
+    The stream is seeded by one number of `provider.random`, when the plugin is created or, if the protocol
+    does not have a provider yet, at the first waypoint. Other draws of the protocol after that make no
+    difference.
+
+    A trip goes from waypoint to waypoint at the vehicle's speed. The node's telemetry drives it.
     """
 
     def __init__(self, protocol: IProtocol, config: RandomMobilityConfig | None = None) -> None:
@@ -57,26 +63,29 @@ class RandomMobilityPlugin:
             "tolerance", config.tolerance, lambda m: 0 <= m < math.inf, "finite and >= 0 m", ValueError
         )
         self._squared_tolerance = tolerance * tolerance
-        self._random = Random(protocol.provider.random.getrandbits(64))
+        self._random: Random | None = None
+        if getattr(protocol, "provider", None) is not None:
+            self._stream()
         self._dispatcher = create_dispatcher(protocol)
         self._target: Position | None = None
 
     @property
     def trip_ongoing(self) -> bool:
-        """Whether a trip is under way."""
+        """Whether a trip is in progress."""
         return self._target is not None
 
     @property
     def current_target(self) -> Position | None:
-        """The waypoint that the trip is flying to, (x, y, z) in metres; None without a trip."""
+        """Current waypoint of the trip, (x, y, z) in meters; None without a trip."""
         return self._target
 
     def travel_to_random_waypoint(self) -> Position:
-        """Send the vehicle to a new random waypoint, and return it: (x, y, z) in metres.
+        """Send the vehicle to a new random waypoint, and return it: (x, y, z) in meters.
 
-        During a trip it takes the place of the trip's target.
+        During a trip it replaces the trip's target.
         """
-        x, y, z = (self._random.uniform(lowest, highest) for lowest, highest in self._ranges)
+        stream = self._stream()
+        x, y, z = (stream.uniform(lowest, highest) for lowest, highest in self._ranges)
         _logger.info("Random mobility: Going to (%.2f, %.2f, %.2f)", x, y, z)
         self._protocol.provider.send_mobility_command(GotoCoordsMobilityCommand(x, y, z))
         if self.trip_ongoing:
@@ -89,18 +98,26 @@ class RandomMobilityPlugin:
             return
         self._target = self.travel_to_random_waypoint()
         self._dispatcher.register_handle_telemetry(self._handle_telemetry)
+        warn_without_telemetry(
+            _logger, self._protocol, "a random trip does not get beyond its first waypoint"
+        )
 
     def finish_random_trip(self) -> None:
-        """End the trip; no-op without one. No command is sent: the vehicle still flies to its last target."""
+        """End the trip; no-op without one. The vehicle still flies to its last target."""
         if not self.trip_ongoing:
             return
         self._dispatcher.unregister_handle_telemetry(self._handle_telemetry)
         self._target = None
 
+    def _stream(self) -> Random:
+        if self._random is None:
+            self._random = Random(stream_of(self._protocol.provider).getrandbits(64))
+        return self._random
+
     def _handle_telemetry(self, _protocol: IProtocol, telemetry: Telemetry) -> None:
         # A handler before this one may have ended the trip.
         if self._target is not None:
-            # squared_distance, written out: this runs at every telemetry of every vehicle.
+            # squared_distance, inlined: this runs at every telemetry of every vehicle.
             x, y, z = telemetry.current_position
             target_x, target_y, target_z = self._target
             dx, dy, dz = x - target_x, y - target_y, z - target_z

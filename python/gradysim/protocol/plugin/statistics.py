@@ -1,4 +1,4 @@
-"""Writes down what a node does over time: the pace of the simulation and the tracked variables, as CSV."""
+"""Plugin that writes the pace of the simulation and the tracked variables of a node to CSV files."""
 
 import csv
 import math
@@ -12,7 +12,7 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 
 DATA_COLLECTION_INTERVAL = 0.1
-"""Time between two samples, s, where nothing else is said."""
+"""Default time between two samples, s."""
 
 _TIMER = "statistics"
 _ATTRIBUTE = "_gradysim_statistics"
@@ -56,7 +56,7 @@ class StatisticsProtocolWrapper:
         self._registered = True
         protocol = self.protocol
         create_dispatcher(protocol).register_handle_timer(self._handle_timer)
-        # Around the dispatcher, whose handlers all come before the protocol: wanted is what a packet changed.
+        # Around the dispatcher, to sample after the protocol has handled the packet.
         self._dispatch_packet: Callable[[str], None] = protocol.handle_packet
         vars(protocol)["handle_packet"] = self._handle_packet
         self._schedule()
@@ -69,7 +69,7 @@ class StatisticsProtocolWrapper:
         protocol = self.protocol
         protocol.provider.cancel_timer(_TIMER)
         create_dispatcher(protocol).unregister_handle_timer(self._handle_timer)
-        # If somebody has bound it anew since, that still leads here, and on from here.
+        # A function that has replaced it since still calls this one, which passes the packet on.
         if vars(protocol)["handle_packet"] == self._handle_packet:
             vars(protocol)["handle_packet"] = self._dispatch_packet
 
@@ -140,7 +140,7 @@ def create_statistics(
     Raises:
         ValueError: `file_name_part` or `collection_interval` is not what it should be.
     """
-    create_dispatcher(protocol)  # which knows what is no protocol
+    create_dispatcher(protocol)  # raises TypeError for anything but a protocol
     wrapper: StatisticsProtocolWrapper | None = vars(protocol).get(_ATTRIBUTE)
     if wrapper is None:
         wrapper = StatisticsProtocolWrapper(protocol, file_name_part, collection_interval)

@@ -4,12 +4,12 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, TypedDict
 
-from gradysim.encapsulator.node_positions import NodePositions
+from gradysim.encapsulator.interface import NodePositions
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.extension.extension import Extension, mode_of, provider_of
-from gradysim.simulator.number_range import is_in_range
+from gradysim.simulator.validation import checked_configuration
 
 # Nodes on the very edge of the cone are in the picture, whatever the rounding; radians.
 _EDGE = 1e-6

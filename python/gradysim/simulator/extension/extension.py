@@ -9,12 +9,11 @@ from gradysim.protocol.interface import IProtocol, IProvider
 
 
 class Extension:
-    """Reaches what is behind a protocol's provider.
+    """Base of extensions, which use the simulator behind a protocol's provider.
 
-    An extension of one's own finds the handlers of prototype mode, those of communication, timers and
-    mobility among them, in `self._provider.handlers`. Elsewhere `_provider` is None, which is told by a
-    warning. What needs no more than a handler that was given to the run need not derive from this: with
-    `handler_of` it works in integrated mode, too, and nothing is told.
+    A subclass finds the handlers of prototype mode in `self._provider.handlers`. In other modes `_provider`
+    is None, and a warning is issued. An extension that needs only a handler given to the run should use
+    `handler_of` instead, which works in integrated mode, too.
     """
 
     _provider: PythonProvider | None
@@ -23,7 +22,7 @@ class Extension:
     _warns_elsewhere: ClassVar[bool] = True
 
     def __init__(self, protocol: IProtocol) -> None:
-        """Take the protocol of a node, from its `initialize` on.
+        """Attach to a protocol, from its `initialize` on.
 
         Raises:
             ReferenceError: The protocol has no provider yet, as in its constructor.
@@ -52,13 +51,12 @@ def provider_of(protocol: IProtocol) -> IProvider:
 def handler_of(protocol: IProtocol, label: str) -> Any:
     """Return the handler with that label of the run that a protocol belongs to; None if there is none.
 
-    In prototype mode and in integrated mode; elsewhere there are no handlers. ReferenceError if the protocol
-    has no provider yet, as in its constructor.
+    Both modes have handlers; other environments do not. ReferenceError if the protocol has no provider yet.
     """
     handlers: Mapping[str, Any] = getattr(provider_of(protocol), "handlers", {})
     return handlers.get(label)
 
 
 def mode_of(provider: Any) -> str:
-    """Return the name of the mode that a provider belongs to, for people."""
+    """Return the name of the mode that a provider belongs to, for messages."""
     return str(getattr(provider, "mode", f"the environment of {type(provider).__name__}"))

@@ -3,9 +3,9 @@
 import math
 from typing import Any, ClassVar
 
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.extension.extension import Extension, handler_of
-from gradysim.simulator.number_range import is_in_range
 
 Color = tuple[float, float, float]
 """(red, green, blue)."""

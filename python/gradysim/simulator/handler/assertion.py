@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.readable_number import readable_number
+from gradysim.protocol.plain_value import readable_number
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
@@ -191,7 +191,7 @@ class AssertionHandler(INodeHandler):
         return "assertion"
 
     def inject(self, event_loop: EventLoop) -> None:
-        """Begin anew, for a new simulation."""
+        """Reset for a new simulation."""
         self._nodes = []
         self._cases = [case() for case in self._assertions]
 
@@ -222,13 +222,13 @@ class AssertionHandler(INodeHandler):
                 name = type(case).__name__
                 case.test_iteration(self._nodes, iteration, timestamp)
         except BaseException as error:
-            self.judge_nothing_more()
+            self.stop_judging()
             if not isinstance(error, FailedAssertionException | KeyboardInterrupt):
                 error.add_note(f"in the assertion {name}: {_when(iteration, timestamp)}")
             raise
 
-    def judge_nothing_more(self) -> None:
-        """Drop the cases: the simulation ends early, and nobody knows what was to come."""
+    def stop_judging(self) -> None:
+        """Drop the cases, since the simulation ends early."""
         self._cases = []
 
     def finalize(self) -> None:

@@ -1,31 +1,130 @@
-"""The ideal network of prototype mode: who is in range gets the message, after a fixed delay."""
+"""The ideal network of prototype mode: every node in range gets a message, after a fixed delay."""
 
 import logging
 import math
 import random
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.encapsulator.refused_commands import wrong_communication
+from gradysim.encapsulator.validation import checked_interface, wrong_communication
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
-from gradysim.protocol.messages.interface_index import checked_interface
+from gradysim.protocol.plain_value import readable_number
 from gradysim.protocol.position import Position, squared_distance
-from gradysim.protocol.readable_number import readable_number
-from gradysim.simulator.checked_configuration import checked_configuration
-from gradysim.simulator.event import EventLoop, ScheduledEvent
-from gradysim.simulator.handler.copy_ledger import CopyLedger
-from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
+from gradysim.simulator.event import MOST_AT_ONE_INSTANT, Callback, EventLoop, InstantCount, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
-from gradysim.simulator.number_range import is_in_range
+from gradysim.simulator.validation import checked_configuration
 
 _logger = logging.getLogger(__name__)
+
+KINDS = {CommunicationCommandType.BROADCAST: "broadcast", CommunicationCommandType.SEND: "unicast"}
+
+
+class _Arrivals:
+    """Deliveries of one kind of message with the same delay."""
+
+    def __init__(self) -> None:
+        self.count = 0
+
+    def deliver(self, receive: Callback) -> None:
+        self.count += 1
+        receive()
+
+
+class _Counts:
+    """Counts of one kind of message and its deliveries."""
+
+    def __init__(self) -> None:
+        self.sent = 0
+        self.carried = 0
+        self.delivered: dict[float, _Arrivals] = {}  # by their delays; s
+        self.out_of_range = 0
+        self.lost = 0
+
+    def after(self, delay_s: float) -> _Arrivals:
+        arrivals = self.delivered.get(delay_s)
+        if arrivals is None:
+            arrivals = self.delivered[delay_s] = _Arrivals()
+        return arrivals
+
+
+class DeliveryLedger:
+    """Counts messages and their deliveries, one per receiver, in one simulation at a time."""
+
+    def __init__(self) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Set all counts to 0."""
+        self._counts = {kind: _Counts() for kind in KINDS}
+
+    def note(
+        self,
+        kind: CommunicationCommandType,
+        copies: Iterable[ScheduledEvent],
+        *,
+        lost: int,
+        out_of_range: int,
+        delay_s: float,
+    ) -> list[ScheduledEvent]:
+        """Count a message that is sent, and its deliveries.
+
+        Args:
+            kind: To one node or to all.
+            copies: Delivery events, one per receiver.
+            lost: Number of deliveries lost by the medium's failure rate.
+            out_of_range: Number of receivers out of range.
+            delay_s: Delay of the deliveries.
+
+        Returns:
+            Delivery events that count themselves when they run.
+        """
+        counts = self._counts[kind]
+        arrivals = counts.after(delay_s)
+        counted: list[ScheduledEvent] = [
+            (partial(arrivals.deliver, receive), context) for receive, context in copies
+        ]
+        counts.sent += 1
+        counts.carried += len(counted)
+        counts.lost += lost
+        counts.out_of_range += out_of_range
+        return counted
+
+    def message_fates(self) -> dict[str, dict[str, int]]:
+        """Return how many messages were sent: {kind: {"sent": count}}."""
+        return {name: {"sent": self._counts[kind].sent} for kind, name in KINDS.items()}
+
+    def delays(self) -> dict[str, dict[float, int]]:
+        """Return the delays of the deliveries so far: {kind: {delay in s: count}}."""
+        return {
+            name: {delay_s: arrivals.count for delay_s, arrivals in self._counts[kind].delivered.items()}
+            for kind, name in KINDS.items()
+        }
+
+    def copy_fates(self) -> dict[str, dict[str, int]]:
+        """Return the outcomes of the deliveries so far: {kind: {outcome: count}}.
+
+        "out_of_range" and "lost" (by the medium's failure rate) are decided at sending. "in_air" is not
+        delivered yet; at the end of the run, it is never delivered.
+        """
+        return {name: _fates(self._counts[kind]) for kind, name in KINDS.items()}
+
+
+def _fates(counts: _Counts) -> dict[str, int]:
+    delivered = sum(arrivals.count for arrivals in counts.delivered.values())
+    return {
+        "delivered": delivered,
+        "out_of_range": counts.out_of_range,
+        "lost": counts.lost,
+        "in_air": counts.carried - delivered,
+    }
 
 
 @dataclass
@@ -35,7 +134,7 @@ class CommunicationMedium:
     Attributes:
         transmission_range: Receivers at this distance or less get the message; m, >= 0.
         delay: From sending to reception; s, >= 0.
-        failure_rate: Probability that a receiver in range misses the message, each one by itself; 0 to 1.
+        failure_rate: Probability that a receiver in range misses the message, independent of others; 0 to 1.
     """
 
     transmission_range: float = TRANSMISSION_RANGE_M
@@ -57,9 +156,9 @@ def can_transmit(
     medium: CommunicationMedium,
     stream: random.Random | None = None,
 ) -> bool:
-    """Whether a message gets from one point (m) to another now; drawn from `stream` if failures are possible.
+    """Return whether a message gets from one point (m) to another. A failure is drawn from `stream`.
 
-    Without a stream a failure is drawn from Python's global one.
+    Without a stream, Python's global one is used.
     """
     reach = medium.transmission_range
     if squared_distance(source_position, destination_position) > reach * reach:
@@ -70,18 +169,18 @@ def can_transmit(
 
 
 class CommunicationSource:
-    """A node as sender of messages."""
+    """A node that sends messages."""
 
     def __init__(self, node: Node[Any]) -> None:
         self.node = node
         self._without_delay = InstantCount()
 
     def hand_over_message(self, message: str, endpoint: "CommunicationDestination") -> None:
-        """Note in the log that a message is on its way to the endpoint. It does not deliver it."""
+        """Log that a message is sent to the endpoint. This does not deliver it."""
         _logger.debug("%s sends to %s: %s", self.node.id, endpoint.node.id, message)
 
     def count_at(self, now: float, medium: CommunicationMedium) -> None:
-        """Count a message that arrives at once. Raises CommunicationException if they do not end."""
+        """Count a message without delay. CommunicationException if they are too many at one instant."""
         if self._without_delay.exceeds(now):
             raise CommunicationException(
                 f"node {self.node.id} has sent {MOST_AT_ONE_INSTANT} messages at {readable_number(now)} s, "
@@ -90,34 +189,34 @@ class CommunicationSource:
 
 
 class CommunicationDestination:
-    """A node as receiver of messages."""
+    """A node that receives messages."""
 
     def __init__(self, node: Node[Any]) -> None:
         self.node = node
         self.context = f"{label_node(node)} handle_packet"
-        # Losses are the receiver's draws: what others hear does not depend on it.
+        # Each receiver draws its own losses, so that they do not depend on other receivers.
         self.stream = RandomStream(getattr(node, "seed", 0), node.id, Purpose.COMMUNICATION)
 
     def receive_message(self, message: str, source: CommunicationSource) -> None:
-        """Hand the message to the node's protocol, which is not told whose it is."""
+        """Hand the message to the node's protocol, without the sender."""
         self.node.protocol_encapsulator.handle_packet(message)
 
 
 class CommunicationHandler(INodeHandler):
-    """Carries messages between nodes. Who is in range is decided at the instant of sending.
+    """Carries messages between nodes. Positions count at the instant of sending.
 
     Attributes:
-        default_medium: Holds for commands that come without a medium of their own.
+        default_medium: Medium of commands without a medium of their own.
     """
 
     def __init__(
-        self, communication_medium: CommunicationMedium | None = None, ledger: CopyLedger | None = None
+        self, communication_medium: CommunicationMedium | None = None, ledger: DeliveryLedger | None = None
     ) -> None:
         """Carry messages over a medium.
 
         Args:
             communication_medium: Without one the defaults of `CommunicationMedium` hold.
-            ledger: Is told what becomes of each copy of each message; None if nobody wants to know.
+            ledger: Counts messages and deliveries; None for no counts.
         """
         self._ledger = ledger
         self.default_medium = checked_configuration(communication_medium, CommunicationMedium)
@@ -144,7 +243,7 @@ class CommunicationHandler(INodeHandler):
         """Let the node send and receive.
 
         Raises:
-            CommunicationException: There is no event loop yet.
+            CommunicationException: The event loop is missing.
         """
         if self._event_loop is None:
             raise CommunicationException(f"cannot register node {node.id}: inject an event loop first")
@@ -165,20 +264,19 @@ class CommunicationHandler(INodeHandler):
             medium: Instead of `default_medium`.
 
         Raises:
-            CommunicationException: The sender is not registered, the message is no text, no node can have
-                such an interface, the destination is missing, unknown or the sender itself, or the node has
-                sent a million messages without delay at this instant, and time stands still.
+            CommunicationException: The sender is not registered, the command is not valid, or the node has
+                sent a million messages without delay at this instant.
         """
         event_loop = self._event_loop
         if event_loop is None or sender.id not in self._destinations:
             raise CommunicationException(f"node {sender.id} is not registered with the communication handler")
         message, kind = getattr(command, "message", None), getattr(command, "command_type", None)
-        # Commands of one's own may have neither.
+        # A user's own command may have neither.
         address, interface = getattr(command, "destination", None), getattr(command, "interface", 0)
         if not isinstance(message, str):
             raise self._refusal(command, sender)
         if type(interface) is not int or interface:
-            checked_interface(interface)  # which one it is makes no difference here
+            checked_interface(interface)  # all interfaces share one medium
         destinations: Collection[CommunicationDestination]
         if kind == CommunicationCommandType.BROADCAST:
             destinations = self._destinations.values()
@@ -210,11 +308,11 @@ class CommunicationHandler(INodeHandler):
         destination: CommunicationDestination,
         medium: CommunicationMedium,
     ) -> None:
-        """Send the copy of a message that is for one destination.
+        """Send a message to one destination.
 
-        For handlers of one's own: one that overrides it is asked for each copy, and may pass it on with
-        another medium, or not at all. Where nobody does, all copies of a message are sent at once, which is
-        faster, and only these are in the ledger.
+        A subclass may override it to change the medium or to drop the message. It is then called for each
+        destination. Otherwise all deliveries are scheduled at once, which is faster, and only these are
+        counted.
         """
         assert self._event_loop is not None
         copies, _ = _copies(message, source, (destination,), medium)
@@ -225,7 +323,7 @@ class CommunicationHandler(INodeHandler):
     ) -> CommunicationDestination:
         try:
             destination = self._destinations.get(address)
-        except TypeError:  # As a list is not hashable.
+        except TypeError:  # not hashable, such as a list
             destination = None
         if destination is None or destination.node is sender:
             raise self._refusal(command, sender)
@@ -241,7 +339,7 @@ def _schedule(
     medium: CommunicationMedium,
     event_loop: EventLoop,
 ) -> None:
-    """Have the copies of a message arrive after the delay of the medium."""
+    """Schedule the deliveries of a message after the delay of the medium."""
     if copies:
         arrival = event_loop.current_time + medium.delay
         if arrival == event_loop.crowded_instant:
@@ -255,9 +353,9 @@ def _copies(
     destinations: Collection[CommunicationDestination],
     medium: CommunicationMedium,
 ) -> tuple[list[ScheduledEvent], int]:
-    """Make an event for each destination that the message gets to: `can_transmit`, written out for speed.
+    """Return a delivery event for each destination that the message reaches, and the number of losses.
 
-    Also returns how many that are in range miss it.
+    This is `can_transmit`, inlined for speed.
     """
     reach_squared = medium.transmission_range * medium.transmission_range
     failure_rate = medium.failure_rate

@@ -3,11 +3,16 @@
 from functools import partial
 from typing import Any
 
-from gradysim.encapsulator.refused_commands import wrong_timer, wrong_timer_name
+from gradysim.encapsulator.validation import wrong_timer, wrong_timer_name
 from gradysim.protocol.errors import TimerException as TimerException
-from gradysim.protocol.readable_number import readable_number
-from gradysim.simulator.event import EventLoop, EventLoopException, ScheduledEvent
-from gradysim.simulator.handler.instant_count import MOST_AT_ONE_INSTANT, InstantCount
+from gradysim.protocol.plain_value import readable_number
+from gradysim.simulator.event import (
+    MOST_AT_ONE_INSTANT,
+    EventLoop,
+    EventLoopException,
+    InstantCount,
+    ScheduledEvent,
+)
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
@@ -17,7 +22,7 @@ _Pending = dict[str, dict[int, tuple[float, ScheduledEvent]]]
 
 
 class TimerHandler(INodeHandler):
-    """Calls `handle_timer` of a node when a timer is due; at equal times in the order of setting."""
+    """Calls `handle_timer` of a node when a timer is due. Equal times run in the order of setting."""
 
     def __init__(self) -> None:
         self._event_loop: EventLoop | None = None
@@ -45,11 +50,11 @@ class TimerHandler(INodeHandler):
         self._contexts[node.id] = f"{label_node(node)} handle_timer"
 
     def get_current_time(self) -> float:
-        """Return the simulated time in seconds; 0 as long as there is no simulation."""
+        """Return the simulated time in seconds; 0 before the first simulation."""
         return 0.0 if self._event_loop is None else self._event_loop.current_time
 
     def set_timer(self, message: str, timestamp: float, node: Node[Any]) -> None:
-        """Have `handle_timer(message)` of the node called at a time.
+        """Schedule a call of the node's `handle_timer(message)`.
 
         Args:
             message: Name of the timer; several of one name may be pending.
@@ -57,8 +62,8 @@ class TimerHandler(INodeHandler):
             node: A registered node.
 
         Raises:
-            TimerException: The node is not registered, the name is no text, the time is not possible, or the
-                node has set a million timers for now, and time stands still.
+            TimerException: The node is not registered, the name is not a str, the time is not valid, or the
+                node has set a million timers for the current time.
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):
@@ -81,7 +86,7 @@ class TimerHandler(INodeHandler):
         """Remove every pending timer of that name; no-op if there is none.
 
         Raises:
-            TimerException: The node is not registered, or the name is no text.
+            TimerException: The node is not registered, or the name is not a str.
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):

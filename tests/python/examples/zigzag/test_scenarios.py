@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.node.node_spec import NodeSpec
+from gradysim.scenario.node_spec import NodeSpec
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
 SIZES = {"ZigZag5": (2, 5), "ZigZag15": (7, 15), "ZigZag25": (12, 25)}

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gradysim.simulator import event
 from gradysim.simulator.event import _RAN_AT_MOST, EventLoop
-from gradysim.simulator.handler import instant_count
 from gradysim.simulator.handler.timer import TimerException, TimerHandler
 from gradysim.simulator.node import Node
 
@@ -210,7 +210,7 @@ class TestStandingTime:
     @pytest.fixture
     def again(self, monkeypatch, world, handler, node):
         """Have each timer set another one, `delay` seconds later."""
-        monkeypatch.setattr(instant_count, "MOST_AT_ONE_INSTANT", 10)
+        monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 10)
 
         def again(delay, times=None):
             left = iter(range(times)) if times else repeat(0)

@@ -1,6 +1,5 @@
-"""Followers that keep their place beside a leader, wherever it goes."""
+"""Plugins for followers that keep a position relative to a leader."""
 
-from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.plugin.follow_mobility.follower import (
     MobilityFollowerConfiguration,
     MobilityFollowerPlugin,
@@ -11,6 +10,7 @@ from gradysim.protocol.plugin.follow_mobility.mobility import (
     FOLLOWER_TAG,
     FOLLOWER_TIMER_TAG,
     LEADER_TAG,
+    FollowMobilityException,
 )
 
 __all__ = [

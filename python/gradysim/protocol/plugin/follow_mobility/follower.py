@@ -1,4 +1,4 @@
-"""Makes a protocol's node a follower: it keeps its place beside a leader."""
+"""Plugin for a follower: the node keeps a position relative to a leader."""
 
 import logging
 import math
@@ -8,14 +8,14 @@ from gradysim.protocol.checked_values import checked_number, checked_point
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
-from gradysim.protocol.plugin.configuration import configuration_or_default
+from gradysim.protocol.plugin.attachment import configuration_or_default, time_of
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
-from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.plugin.follow_mobility.mobility import (
     FOLLOWER_TAG,
     FOLLOWER_TIMER_TAG,
     LEADER_PREFIX,
     LEADER_TAG,
+    FollowMobilityException,
     decode_leader,
     encode_follower,
 )
@@ -38,9 +38,9 @@ class MobilityFollowerConfiguration:
     """How a follower finds and keeps a leader.
 
     Attributes:
-        scanning_interval: Time between two looks at which leaders are there; s, > 0.
-        leader_timeout: A leader that has not been heard for this long is gone; s, > 0.
-        auto_follow: Whether a look that finds a leader, while none is followed, chooses it.
+        scanning_interval: Time between two checks of the available leaders; s, > 0.
+        leader_timeout: A leader that was not heard for this long is dropped; s, > 0.
+        auto_follow: Whether a check chooses a leader if none is followed.
         follow_orientation: Whether the relative position turns with the leader's orientation.
     """
 
@@ -51,15 +51,12 @@ class MobilityFollowerConfiguration:
 
 
 class MobilityFollowerPlugin:
-    """Flies to a place relative to its leader each time it hears the leader, and answers.
+    """Flies to a position relative to its leader each time it hears the leader, and sends an answer.
 
-    Create it in `initialize` or later. Every `scanning_interval` it looks which leaders it still hears: those
-    not heard for `leader_timeout` are dropped, the one that it follows among them; the vehicle then ends up
-    at its last target. With `auto_follow`, the leader with the smallest id is taken if none is followed.
-    The broadcasts of leaders do not reach the protocol.
-
-    Answers go out at once. Followers of the same leader answer together, right after its broadcast; on a real
-    channel, which was busy with that broadcast, each one's network interface then waits for a random time.
+    Create it in `initialize` or later. Every `scanning_interval` it drops leaders that it has not heard for
+    `leader_timeout`. If its own leader is among them, the vehicle stays at its last target. With
+    `auto_follow` it then follows the leader with the smallest id. The protocol does not get the broadcasts of
+    leaders.
     """
 
     def __init__(
@@ -85,34 +82,34 @@ class MobilityFollowerPlugin:
 
     @property
     def available_leaders(self) -> set[int]:
-        """Ids of the leaders that have been heard and not been found gone since."""
+        """Ids of the leaders that were heard and not dropped since."""
         return set(self._last_heard)
 
     @property
     def current_leader(self) -> int | None:
-        """Id of the leader that is followed, or None."""
+        """Id of the current leader, or None."""
         return self._leader
 
     @property
     def current_leader_position(self) -> Position | None:
-        """Where the leader said that it is, (x, y, z) in metres; None before it was heard as the leader."""
+        """Last broadcast position of the leader, (x, y, z) in meters; None before its first broadcast."""
         return self._leader_position
 
     @property
     def current_leader_orientation(self) -> float | None:
-        """Which way the leader said that it looks, degrees; None before it was heard as the leader."""
+        """Last broadcast orientation of the leader, degrees; None before its first broadcast."""
         return self._leader_orientation
 
     @property
     def relative_position(self) -> Position:
-        """Place beside the leader, (x, y, z) in metres from it, when its orientation is 0."""
+        """Position relative to a leader with orientation 0, (x, y, z) in meters."""
         return self._relative_position
 
     def follow_leader(self, leader_id: int) -> None:
-        """Follow that leader, from its next broadcast on, instead of any other.
+        """Follow that leader from its next broadcast on.
 
         Raises:
-            FollowMobilityException: It is not among `available_leaders`.
+            FollowMobilityException: It is not in `available_leaders`.
         """
         if leader_id not in self._last_heard:
             available = ", ".join(map(str, sorted(self._last_heard))) or "none"
@@ -121,7 +118,7 @@ class MobilityFollowerPlugin:
             self._follow(leader_id)
 
     def set_relative_position(self, position: Position) -> None:
-        """Set the place beside the leader, (x, y, z) in metres; taken up at the leader's next broadcast.
+        """Set the relative position, (x, y, z) in meters. It is used from the leader's next broadcast on.
 
         Raises:
             FollowMobilityException: It is not three finite numbers.
@@ -129,13 +126,13 @@ class MobilityFollowerPlugin:
         self._relative_position = checked_point("a relative position", position, FollowMobilityException)
 
     def _schedule_scan(self) -> None:
-        next_scan = self._provider.current_time() + self._configuration.scanning_interval
+        next_scan = time_of(self._provider) + self._configuration.scanning_interval
         self._provider.schedule_timer(FOLLOWER_TIMER_TAG, next_scan)
 
     def _handle_timer(self, _protocol: IProtocol, timer: str) -> DispatchReturn:
         if timer != FOLLOWER_TIMER_TAG:
             return DispatchReturn.CONTINUE
-        oldest = self._provider.current_time() - self._configuration.leader_timeout
+        oldest = time_of(self._provider) - self._configuration.leader_timeout
         self._last_heard = {leader: heard for leader, heard in self._last_heard.items() if heard > oldest}
         if self._leader is not None and self._leader not in self._last_heard:
             self._follow(None)
@@ -148,7 +145,7 @@ class MobilityFollowerPlugin:
         if not message.startswith(LEADER_PREFIX):
             return DispatchReturn.CONTINUE
         state = decode_leader(message)
-        self._last_heard[state.id] = self._provider.current_time()
+        self._last_heard[state.id] = time_of(self._provider)
         if state.id == self._leader:
             self._leader_position = state.position
             self._leader_orientation = state.orientation

@@ -1,22 +1,27 @@
-"""Makes a protocol's node a leader: it tells where it is, and knows who follows it."""
+"""Plugin for a leader: the node broadcasts its position and knows its followers."""
 
 import logging
 import math
 from dataclasses import dataclass
+from random import Random
 
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
-from gradysim.protocol.plugin.configuration import configuration_or_default
+from gradysim.protocol.plugin.attachment import (
+    configuration_or_default,
+    stream_of,
+    time_of,
+    warn_without_telemetry,
+)
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
-from gradysim.protocol.plugin.follow_mobility.broadcast_clock import BroadcastClock
-from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.plugin.follow_mobility.mobility import (
     BROADCAST_TIMER_TAG,
     FOLLOWER_PREFIX,
     FOLLOWER_TAG,
     LEADER_TAG,
+    FollowMobilityException,
     LeaderState,
     checked_orientation,
     decode_follower,
@@ -38,15 +43,15 @@ _logger = logging.getLogger(__name__)
 
 @dataclass
 class MobilityLeaderConfiguration:
-    """How a leader makes itself known.
+    """How a leader broadcasts.
 
     Attributes:
         broadcast_interval: Mean time between two broadcasts; s, > 0.
-        follower_timeout: A follower that has not answered for this long is one no more; s, > 0.
-        initial_orientation: Which way the leader looks at first: degrees, from x (North) towards y (East).
-        broadcast_jitter: Each interval has one broadcast, at a random moment of its first part, which is this
-            long; 0 to 1 intervals. With 0 all leaders that were made together send in lock-step: on a real
-            channel none of them is heard.
+        follower_timeout: A follower that did not answer for this long is dropped; s, > 0.
+        initial_orientation: First orientation: degrees, from x (North) towards y (East).
+        broadcast_jitter: Largest random delay of a broadcast, as a part of the interval; 0 to 1. With 0,
+            leaders that are created at the same time send at the same instants, and their frames collide on a
+            real channel.
     """
 
     broadcast_interval: float = 0.02
@@ -56,14 +61,13 @@ class MobilityLeaderConfiguration:
 
 
 class MobilityLeaderPlugin:
-    """Broadcasts position and orientation of its node, and keeps the set of those who answer.
+    """Broadcasts position and orientation of its node, and keeps the set of its followers.
 
-    Create it in `initialize` or later. The first broadcast comes one interval after that, and not before the
-    first telemetry has told the position. Answers of followers do not reach the protocol; the broadcasts of
-    other leaders do.
+    Create it in `initialize` or later. The first broadcast comes one interval later, and not before the first
+    telemetry. The protocol does not get the answers of followers; it gets the broadcasts of other leaders.
 
     Attributes:
-        is_broadcasting: True; while it is set to False, broadcasts are left out.
+        is_broadcasting: True; set it to False to pause the broadcasts.
     """
 
     def __init__(self, protocol: IProtocol, configuration: MobilityLeaderConfiguration | None = None) -> None:
@@ -77,29 +81,30 @@ class MobilityLeaderPlugin:
         self._provider = protocol.provider
         self._position: Position | None = None
         self._last_answer: dict[int, float] = {}
-        self._warned = False
+        self._warned = getattr(self._provider, "has_telemetry", True) is False
+        warn_without_telemetry(_logger, protocol, "a leader does not broadcast")
         self.is_broadcasting = True
         dispatcher = create_dispatcher(protocol)
         dispatcher.register_handle_telemetry(self._handle_telemetry)
         dispatcher.register_handle_timer(self._handle_timer)
         dispatcher.register_handle_packet(self._handle_packet)
-        now = self._provider.current_time()
-        self._clock = BroadcastClock(interval, jitter, now, self._provider.random)
+        now = time_of(self._provider)
+        self._clock = BroadcastClock(interval, jitter, now, stream_of(self._provider))
         self._provider.schedule_timer(BROADCAST_TIMER_TAG, self._clock.next(now))
 
     @property
     def followers(self) -> set[int]:
-        """Ids of the nodes that have answered less than `follower_timeout` seconds ago."""
-        oldest = self._provider.current_time() - self._timeout
+        """Ids of the nodes that answered less than `follower_timeout` seconds ago."""
+        oldest = time_of(self._provider) - self._timeout
         return {follower for follower, answer in self._last_answer.items() if answer > oldest}
 
     @property
     def orientation(self) -> float:
-        """Which way the leader looks: degrees, from x (North) towards y (East)."""
+        """Orientation of the leader: degrees, from x (North) towards y (East)."""
         return self._orientation
 
     def set_orientation(self, orientation: float) -> None:
-        """Look that way, in degrees; followers learn of it with the next broadcast.
+        """Set the orientation, in degrees. Followers get it with the next broadcast.
 
         Raises:
             FollowMobilityException: It is not a finite number.
@@ -112,7 +117,7 @@ class MobilityLeaderPlugin:
     def _handle_timer(self, _protocol: IProtocol, timer: str) -> DispatchReturn:
         if timer != BROADCAST_TIMER_TAG:
             return DispatchReturn.CONTINUE
-        now = self._provider.current_time()
+        now = time_of(self._provider)
         if self.is_broadcasting:
             self._broadcast()
         followers = self.followers
@@ -127,15 +132,42 @@ class MobilityLeaderPlugin:
         elif not self._warned:
             self._warned = True
             _logger.warning(
-                "Leader %s does not broadcast: it has had no telemetry yet to tell it where it is",
+                "Leader %s does not broadcast: its position is unknown before the first telemetry",
                 self._provider.get_id(),
             )
 
     def _handle_packet(self, _protocol: IProtocol, message: str) -> DispatchReturn:
         if not message.startswith(FOLLOWER_PREFIX):
             return DispatchReturn.CONTINUE
-        self._last_answer[decode_follower(message)] = self._provider.current_time()
+        self._last_answer[decode_follower(message)] = time_of(self._provider)
         return DispatchReturn.INTERRUPT
+
+
+class BroadcastClock:
+    """Times of a leader's broadcasts: one in each interval, with a random delay.
+
+    Broadcast k = 1, 2, ... is due at start + k * interval + delay. The delay is uniform between 0 and
+    jitter * interval. The mean time between two broadcasts is the interval, without a drift.
+
+    Without the delay, leaders that are created at the same time always send at the same instant. Their frames
+    collide, and a radio that transmits does not receive.
+    """
+
+    def __init__(self, interval: float, jitter: float, start: float, random: Random) -> None:
+        """Count intervals from `start` (s); `interval` in s, > 0; `jitter` 0 to 1."""
+        self._interval = interval
+        self._jitter = jitter
+        self._start = start
+        self._random = random
+        self._number = 0
+
+    def next(self, now: float) -> float:
+        """Return the time of the next broadcast, s, >= `now`. Missed intervals are skipped."""
+        # The tolerance keeps the next interval if rounding puts `now` just behind the end of this one.
+        elapsed = math.ceil((now - self._start) / self._interval - 1e-6)
+        self._number = max(self._number + 1, elapsed)
+        delay = self._random.uniform(0, self._jitter)
+        return max(now, self._start + (self._number + delay) * self._interval)
 
 
 def _checked(configuration: MobilityLeaderConfiguration) -> tuple[float, float, float, float]:

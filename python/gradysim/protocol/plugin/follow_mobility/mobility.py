@@ -1,4 +1,4 @@
-"""What leaders and followers say to each other: the tags of their timers and messages, and the formats.
+"""Messages between leaders and followers: tags of timers and messages, formats, and the exception of both.
 
 A leader broadcasts `LEADER_TAG:{"id": 0, "position": [x, y, z], "orientation": degrees}`; a follower answers
 with `FOLLOWER_TAG:id`, to its leader alone.
@@ -9,7 +9,6 @@ import math
 from typing import NamedTuple
 
 from gradysim.protocol.checked_values import checked_number, checked_point
-from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.position import Position
 
 LEADER_TAG = "FollowMobilityPlugin__leader"
@@ -21,8 +20,12 @@ LEADER_PREFIX = f"{LEADER_TAG}:"
 FOLLOWER_PREFIX = f"{FOLLOWER_TAG}:"
 
 
+class FollowMobilityException(Exception):  # noqa: N818 (the published name)
+    """A leader is not available, a value is out of range, or a message is malformed."""
+
+
 class LeaderState(NamedTuple):
-    """What a leader says of itself: its id, where it is (m) and which way it looks (degrees)."""
+    """What a leader broadcasts: id, position (m) and orientation (degrees)."""
 
     id: int
     position: Position
@@ -30,15 +33,15 @@ class LeaderState(NamedTuple):
 
 
 def encode_leader(state: LeaderState) -> str:
-    """Return the message of a leader."""
+    """Return the broadcast of a leader."""
     return LEADER_PREFIX + json.dumps(state._asdict())
 
 
 def decode_leader(message: str) -> LeaderState:
-    """Return what the message of a leader says; a missing orientation is 0.
+    """Return the state in the broadcast of a leader. A missing orientation is 0.
 
     Raises:
-        FollowMobilityException: The message is not one of a leader.
+        FollowMobilityException: The message is not the broadcast of a leader.
     """
     try:
         payload = json.loads(message.removeprefix(LEADER_PREFIX))
@@ -56,15 +59,15 @@ def decode_leader(message: str) -> LeaderState:
 
 
 def encode_follower(identifier: int) -> str:
-    """Return the message of a follower."""
+    """Return the answer of a follower."""
     return f"{FOLLOWER_PREFIX}{identifier}"
 
 
 def decode_follower(message: str) -> int:
-    """Return the id of the follower that the message is from.
+    """Return the id of the follower that sent the message.
 
     Raises:
-        FollowMobilityException: The message is not one of a follower.
+        FollowMobilityException: The message is not the answer of a follower.
     """
     try:
         return int(message.removeprefix(FOLLOWER_PREFIX))
@@ -73,7 +76,7 @@ def decode_follower(message: str) -> int:
 
 
 def checked_orientation(orientation: object) -> float:
-    """Return an angle in degrees as a number; FollowMobilityException if it is not finite."""
+    """Return an angle in degrees as a float; FollowMobilityException if it is not finite."""
     return checked_number(
         "an orientation",
         orientation,

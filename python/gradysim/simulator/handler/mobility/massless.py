@@ -1,12 +1,11 @@
-"""Vehicles without mass: they fly straight to their target at their speed, and stand still there."""
+"""Vehicles without mass: they fly straight to their target at their speed, and stop there."""
 
 import math
 from dataclasses import dataclass
 from typing import Any, cast
 
-from gradysim.encapsulator.command_numbers import three_numbers
-from gradysim.encapsulator.geo_target import geo_target
-from gradysim.encapsulator.refused_commands import wrong_mobility
+from gradysim.encapsulator.validation import geo_target, three_numbers, wrong_mobility
+from gradysim.protocol.checked_values import is_in_range
 from gradysim.protocol.defaults import SPEED_MPS, UPDATE_S
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import (
@@ -15,19 +14,16 @@ from gradysim.protocol.messages.mobility import (
     MobilityCommandType,
 )
 from gradysim.protocol.position import Position
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
-from gradysim.simulator.handler.mobility.telemetry import TelemetryGroup
-from gradysim.simulator.handler.mobility.update_times import UpdateTimes
+from gradysim.simulator.handler.mobility.updates import TelemetryGroup, UpdateTimes
 from gradysim.simulator.node import Node
-from gradysim.simulator.number_range import is_in_range
-from gradysim.simulator.reference_coordinates import check_reference
+from gradysim.simulator.validation import check_reference, checked_configuration
 
 
 @dataclass
 class MasslessMobilityConfiguration:
-    """How all nodes move, as far as `MasslessMobilityHandler.configure_node` does not say otherwise.
+    """Motion of all nodes. `MasslessMobilityHandler.configure_node` changes it for one node.
 
     Attributes:
         update_rate: Time between two updates of all positions; s, > 0.
@@ -55,11 +51,11 @@ class _NodeSettings:
 
 
 class MasslessMobilityHandler(INodeHandler):
-    """Moves the nodes at each update, and then tells each one its position in an event of its own.
+    """Moves the nodes at each update. Telemetry follows, in an event of its own for each node.
 
     Attributes:
         nodes: Registered nodes by id.
-        targets: Where nodes fly to, (x, y, z) in metres by id; it stays after arrival.
+        targets: Targets (x, y, z) in meters by id; they stay after arrival.
         speeds: m/s by id.
     """
 
@@ -88,7 +84,7 @@ class MasslessMobilityHandler(INodeHandler):
         telemetry_interval: float | None = None,
         stationary: bool = False,
     ) -> None:
-        """Settle how one node moves, before it is registered; it holds in every simulation of this handler.
+        """Set how one node moves, before it is registered. It holds in every simulation of this handler.
 
         Args:
             node_id: Its id.
@@ -135,7 +131,7 @@ class MasslessMobilityHandler(INodeHandler):
         """Let the node move.
 
         Raises:
-            MasslessMobilityException: There is no event loop yet.
+            MasslessMobilityException: The event loop is missing.
         """
         if self._event_loop is None:
             raise MasslessMobilityException(f"cannot register node {node.id}: inject an event loop first")
@@ -153,10 +149,10 @@ class MasslessMobilityHandler(INodeHandler):
             self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Carry out an order to a vehicle; it counts for the whole step that the next update makes.
+        """Carry out a mobility command. It holds for the whole step of the next update.
 
-        So a vehicle may turn up to one `update_rate` too early: by a timer at 1 s, which comes before the
-        update at 1 s, at the place where it was at 0.99 s.
+        So a vehicle may turn up to one `update_rate` too early. A timer at 1 s runs before the update at 1 s:
+        the vehicle turns at its position of 0.99 s.
 
         Args:
             command: GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.
@@ -195,10 +191,10 @@ class MasslessMobilityHandler(INodeHandler):
         self._schedule_update(event_loop)
 
     def _move(self) -> bool:
-        """Take each node one step of speed * update_rate straight to its target, and not beyond.
+        """Move each node one step of speed * update_rate straight towards its target, and not beyond.
 
         Returns:
-            Whether one was on its way.
+            Whether a node moved.
         """
         on_their_way = False
         update_rate = self._configuration.update_rate
@@ -224,7 +220,43 @@ class MasslessMobilityHandler(INodeHandler):
 
 
 def _in_updates(interval_s: float, update_rate_s: float) -> float:
-    """Length of an interval in updates, a whole number if it is one but for rounding."""
+    """Return the length of an interval in updates, rounded if it is an integer but for rounding errors."""
     updates = interval_s / update_rate_s
     whole = round(updates)
     return float(whole) if math.isclose(updates, whole, rel_tol=1e-9) else updates
+
+
+# Largest number of updates that are skipped at once.
+_MOST_SKIPPED = 1 << 20
+
+
+class IdleSkippingMobilityHandler(MasslessMobilityHandler):
+    """Skips idle updates: no vehicle moves and no telemetry is due.
+
+    The last update before each other event is never skipped. It schedules the next update, the first one that
+    the other event can affect, at the usual time and place in the order of events. So only the number of
+    events differs, if everything happens in events. Use `MasslessMobilityHandler` if you count events or act
+    between them.
+    """
+
+    _moved = True
+
+    def _move(self) -> bool:
+        self._moved = super()._move()
+        return self._moved
+
+    def _schedule_update(self, event_loop: EventLoop) -> None:
+        # The first update is scheduled before there are nodes. Often a group has telemetry at each update.
+        if self._updates != 0 and not self._moved and 1.0 not in self._telemetry:
+            self._updates = self._next_update(event_loop) - 1
+        super()._schedule_update(event_loop)
+
+    def _next_update(self, event_loop: EventLoop) -> int:
+        following = self._updates + 1
+        latest = following + _MOST_SKIPPED
+        for group in self._telemetry.values():
+            latest = min(latest, group.due)
+        next_time = event_loop.next_time()
+        if next_time is None:
+            return latest
+        return self._times.last_before(next_time, range(following, latest + 1))

@@ -6,14 +6,17 @@ import weakref
 import webbrowser
 from typing import Any
 
-from gradysim.simulator.checked_configuration import checked_configuration
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import INodeHandler
-from gradysim.simulator.handler.visualization.command_queue import CommandQueue
-from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
+from gradysim.simulator.handler.visualization.messages import (
+    CommandQueue,
+    VisualizationConfiguration,
+    greeting,
+    snapshot,
+)
 from gradysim.simulator.handler.visualization.server import AddressInUse, VisualizationServer
-from gradysim.simulator.handler.visualization.wire import greeting, snapshot
 from gradysim.simulator.node import Node
+from gradysim.simulator.validation import checked_configuration
 
 _logger = logging.getLogger(__name__)
 
@@ -83,7 +86,7 @@ class VisualizationHandler(INodeHandler):
                 error,
             )
             return
-        # Who drops a simulation half-way leaves no thread behind.
+        # A simulation that is dropped before its end leaves no thread behind.
         self._guard = weakref.finalize(self, server.stop)
         self._server = server
         self._publish(server)

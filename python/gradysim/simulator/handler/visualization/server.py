@@ -14,16 +14,19 @@ from concurrent.futures import Future
 from queue import Empty
 from typing import TYPE_CHECKING
 
-from gradysim.simulator.handler.visualization.command_queue import CommandQueue
-from gradysim.simulator.handler.visualization.configuration import VisualizationConfiguration
-from gradysim.simulator.handler.visualization.wire import command_text, is_pause_or_resume
+from gradysim.simulator.handler.visualization.messages import (
+    CommandQueue,
+    VisualizationConfiguration,
+    command_text,
+    is_pause_or_resume,
+)
 
 if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
 
 _logger = logging.getLogger(__name__)
 
-# The library tells of every handshake; viewers look for the server with requests that are none.
+# The library logs every handshake. Viewers look for the server with plain HTTP requests.
 _library_logger = logging.getLogger(f"{__name__}.websockets")
 _library_logger.setLevel(logging.CRITICAL + 1)
 

@@ -1,6 +1,7 @@
 import json
 import logging
 import math
+from random import Random
 
 import pytest
 from hypothesis import given
@@ -12,6 +13,7 @@ from gradysim.protocol.plugin.follow_mobility.leader import (
     BROADCAST_TIMER_TAG,
     FOLLOWER_TAG,
     LEADER_TAG,
+    BroadcastClock,
     FollowMobilityException,
     MobilityLeaderConfiguration,
     MobilityLeaderPlugin,
@@ -21,7 +23,7 @@ POSITION = (1.0, 2.0, 3.0)
 
 
 def lead(protocol, **configuration):
-    """A leader that knows where it is."""
+    """A leader that has had telemetry."""
     plugin = MobilityLeaderPlugin(protocol, MobilityLeaderConfiguration(**configuration))
     protocol.handle_telemetry(Telemetry(POSITION))
     protocol.calls.clear()
@@ -90,14 +92,12 @@ def test_it_says_where_it_is_now(protocol):
     assert payloads(protocol)[0]["position"] == [9, 8, 7]
 
 
-def test_it_does_not_say_where_it_is_before_it_knows(protocol, caplog):
+def test_it_does_not_broadcast_before_the_first_telemetry(protocol, caplog):
     MobilityLeaderPlugin(protocol, MobilityLeaderConfiguration(broadcast_interval=0.5, broadcast_jitter=0))
     with caplog.at_level(logging.WARNING):
         protocol.provider.pass_time(protocol, 1)
     assert protocol.provider.sent == []
-    assert [record.getMessage() for record in caplog.records] == [
-        "Leader 0 does not broadcast: it has had no telemetry yet to tell it where it is"
-    ]
+    assert [record.levelname for record in caplog.records] == ["WARNING"]
     protocol.handle_telemetry(Telemetry(POSITION))
     protocol.provider.pass_time(protocol, 1.5)
     assert len(protocol.provider.sent) == 1
@@ -203,3 +203,58 @@ def test_a_wrong_orientation_is_refused(protocol):
         plugin.set_orientation(math.nan)
     with pytest.raises(FollowMobilityException, match="orientation"):
         lead(protocol, initial_orientation=None)
+
+
+intervals = st.floats(1e-3, 1e3)
+jitters = st.floats(0, 1)
+starts = st.floats(0, 1e5)
+
+
+def times(clock, start, count):
+    """The first `count` times of the clock, each asked at the one before."""
+    result = [clock.next(start)]
+    while len(result) < count:
+        result.append(clock.next(result[-1]))
+    return result
+
+
+@given(intervals, jitters, starts, st.randoms(use_true_random=False))
+def test_each_interval_has_one_broadcast_in_its_first_part(interval, jitter, start, random):
+    for number, time in enumerate(times(BroadcastClock(interval, jitter, start, random), start, 50), start=1):
+        offset = (time - start) / interval - number
+        assert -1e-6 <= offset <= jitter + 1e-6
+
+
+@given(intervals, jitters, starts, st.randoms(use_true_random=False), st.floats(0, 1e5))
+def test_no_broadcast_is_in_the_past(interval, jitter, start, random, late):
+    clock = BroadcastClock(interval, jitter, start, random)
+    clock.next(start)
+    assert clock.next(start + late) >= start + late
+
+
+def test_missed_intervals_are_skipped():
+    clock = BroadcastClock(1.0, 0.0, 0.0, Random(0))
+    assert [clock.next(0.0), clock.next(7.5), clock.next(8.0)] == [1.0, 8.0, 9.0]
+
+
+def test_a_broadcast_at_the_end_of_its_interval_keeps_the_next_interval():
+    class Latest(Random):
+        def uniform(self, a, b):
+            return b
+
+    clock = BroadcastClock(546.97, 1.0, 0.0, Latest())
+    assert times(clock, 0.0, 50) == pytest.approx([546.97 * (number + 1) for number in range(1, 51)])
+
+
+def test_without_jitter_it_is_periodic():
+    assert times(BroadcastClock(0.5, 0.0, 2.0, Random(0)), 2.0, 4) == [2.5, 3.0, 3.5, 4.0]
+
+
+def test_the_mean_time_between_two_is_the_interval():
+    result = times(BroadcastClock(0.5, 1.0, 0.0, Random(0)), 0.0, 1001)
+    assert (result[-1] - result[0]) / 1000 == pytest.approx(0.5, abs=0.5 / 1000)
+
+
+def test_two_clocks_with_other_streams_do_not_tick_together():
+    one, other = (times(BroadcastClock(0.02, 0.5, 0.0, Random(seed)), 0.0, 100) for seed in (1, 2))
+    assert set(one).isdisjoint(other)

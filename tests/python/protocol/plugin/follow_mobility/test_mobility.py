@@ -4,12 +4,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.protocol.plugin.follow_mobility.exception import FollowMobilityException
 from gradysim.protocol.plugin.follow_mobility.mobility import (
     BROADCAST_TIMER_TAG,
     FOLLOWER_TAG,
     FOLLOWER_TIMER_TAG,
     LEADER_TAG,
+    FollowMobilityException,
     LeaderState,
     checked_orientation,
     decode_follower,

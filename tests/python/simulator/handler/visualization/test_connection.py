@@ -8,7 +8,7 @@ import websockets.asyncio.server
 from websockets.sync.client import connect
 
 from gradysim.simulator.handler.visualization import VisualizationConfiguration
-from gradysim.simulator.handler.visualization.command_queue import CommandQueue
+from gradysim.simulator.handler.visualization.messages import CommandQueue
 from gradysim.simulator.handler.visualization.server import VisualizationServer
 
 

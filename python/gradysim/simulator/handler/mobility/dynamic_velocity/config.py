@@ -1,9 +1,13 @@
-"""How vehicles that are steered by velocity fly."""
+"""Configuration and exception of vehicles that are steered by velocity."""
 
 import math
 from dataclasses import dataclass
 
-from gradysim.simulator.number_range import is_in_range
+from gradysim.protocol.checked_values import is_in_range
+
+
+class DynamicVelocityMobilityException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
+    """A command that a vehicle cannot carry out, or a node that is not known here."""
 
 
 @dataclass
@@ -20,7 +24,7 @@ class DynamicVelocityMobilityConfiguration:
             follows as fast as the acceleration allows.
         tau_z: The same along the vertical.
         send_telemetry: Whether nodes get telemetry.
-        telemetry_decimation: Telemetry comes with every so many updates; >= 1.
+        telemetry_decimation: Number of updates per telemetry; >= 1.
     """
 
     update_rate: float

@@ -93,7 +93,7 @@ def _limited(vector: Velocity, limit_xy: float, limit_z: float) -> Velocity:
 
 
 def _times(limit: float, dt: float) -> float:
-    """The product; in a step of no length there is no change, even without a limit."""
+    """The product; 0 for a step of length 0, even without a limit."""
     return 0.0 if dt == 0 else limit * dt
 
 

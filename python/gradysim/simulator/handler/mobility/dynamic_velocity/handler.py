@@ -1,21 +1,23 @@
-"""Vehicles that are told a velocity and reach it as fast as they can."""
+"""Vehicles that are steered by velocity, with limited speed and acceleration."""
 
 from collections.abc import Callable
 from typing import Any
 
-from gradysim.encapsulator.command_numbers import three_numbers
+from gradysim.encapsulator.validation import three_numbers
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.simulator.event import EventLoop, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
-from gradysim.simulator.handler.mobility.dynamic_velocity.config import DynamicVelocityMobilityConfiguration
+from gradysim.simulator.handler.mobility.dynamic_velocity.config import (
+    DynamicVelocityMobilityConfiguration,
+    DynamicVelocityMobilityException,
+)
 from gradysim.simulator.handler.mobility.dynamic_velocity.core import (
     apply_velocity_limits,
     apply_velocity_tracking_first_order,
     integrate_position,
 )
-from gradysim.simulator.handler.mobility.dynamic_velocity.exception import DynamicVelocityMobilityException
 from gradysim.simulator.handler.mobility.dynamic_velocity.telemetry import DynamicVelocityTelemetry, Velocity
-from gradysim.simulator.handler.mobility.update_times import UpdateTimes
+from gradysim.simulator.handler.mobility.updates import UpdateTimes
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 

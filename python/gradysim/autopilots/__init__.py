@@ -1,1 +1,0 @@
-"""The nodes of a scenario that autopilots fly, for both modes."""

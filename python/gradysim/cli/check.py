@@ -1,0 +1,83 @@
+"""`gradysim check`: all errors and lint findings of a file, without a run."""
+
+import contextlib
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from gradysim.cli.exit_code import MISTAKE, OK, say_mistake
+from gradysim.cli.options import FileArgument, Mode, SetOption
+from gradysim.cli.runs import check, placed
+from gradysim.cli.warnings import findings_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from gradysim.scenario.errors import ConfigError, ErrorCollector
+    from gradysim.scenario.lint import Finding
+
+ConfigsOption = Annotated[
+    str | None,
+    Parameter(
+        name="--config",
+        alias="-c",
+        show_default=False,
+        help="Name of the configuration. All configurations of the file by default.",
+    ),
+]
+
+
+def check_file(
+    file: FileArgument,
+    /,
+    *,
+    config: ConfigsOption = None,
+    mode: Annotated[Mode, Parameter(help="The mode to check for, as of `gradysim run`.")] = "integrated",
+    settings: SetOption = (),
+) -> int:
+    """Report all errors and warnings of a file, sorted by line."""
+    from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.scenario.errors import ConfigErrors, ErrorCollector
+    from gradysim.scenario.ini import config_names, read_ini
+
+    errors = ErrorCollector()
+    findings: list[Finding] = []
+    configs = [config] if config is not None else []
+    try:
+        with errors.collecting(), contextlib.redirect_stdout(sys.stderr):  # protocols may print
+            configs = configs or config_names(read_ini(file))
+            for name in configs:
+                findings += _checked(file, name, mode, settings, errors)
+    except (CompiledPartMissingError, OSError) as mistake:
+        return say_mistake(mistake)
+    found = ConfigErrors(errors.errors).errors if errors.errors else []
+    reports: list[ConfigError | Finding] = [*found, *dict.fromkeys(findings)]
+    for report in sorted(reports, key=lambda each: (str(each.file or ""), each.line)):
+        print(report)
+    named = "configuration" if len(configs) == 1 else "configurations"
+    print(f"{len(found)} errors and {len(reports) - len(found)} warnings in {len(configs)} {named}")
+    return MISTAKE if found else OK
+
+
+def _checked(
+    file: "Path", config: str, mode: Mode, settings: "Sequence[str]", errors: "ErrorCollector"
+) -> "list[Finding]":
+    """Check one configuration. Returns the lint findings; `errors` takes the errors."""
+    if mode == "prototype":
+        from gradysim.prototype.simulation import check_scenario
+    else:
+        from gradysim.integrated.network import check_scenario
+
+    before = len(errors.errors)
+    findings: list[Finding] = []
+    with errors.collecting():
+        checked = check(file, config, None, settings)
+        scenarios = placed(checked, checked.scenarios)
+        for scenario in scenarios:
+            with errors.collecting():
+                check_scenario(scenario)
+        if len(errors.errors) == before:
+            findings = findings_of(scenarios, mode)
+    return findings

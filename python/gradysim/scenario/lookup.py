@@ -1,0 +1,275 @@
+"""Finds the entry that is in force for a parameter: the first one, in search order, whose pattern matches.
+
+A path has two parts: the name below the network (`uavs[3]`) and the rest (`mobility.speed`). The patterns
+that can match a rest are found once per rest. Per node, one dictionary lookup remains for the entries that
+name the node, and one match for each other entry that may be about its group.
+"""
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import NamedTuple
+
+from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector
+from gradysim.scenario.expressions import differs_between_parameters
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.options import (
+    IGNORED_BEGINNINGS,
+    IGNORED_ENDS,
+    IGNORED_MODULES,
+    IGNORED_OPTIONS,
+    NETWORK,
+    OPTIONS,
+)
+from gradysim.scenario.pattern_index import PatternIndex
+from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.schema import Key
+from gradysim.scenario.settings import Setting, SettingReader
+
+_NETWORK_NAME = re.compile(r'("?)(?:[A-Za-z_]\w*\.)*([A-Za-z_]\w*)\1', re.ASCII)
+"""Names of packages may precede it; quotes are optional."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """An entry with its position in the search order.
+
+    Attributes:
+        order: Its position among all entries; the first one that matches is in force.
+        rank: The position of its section; 0 is the command line, the highest is [General].
+        entry: The entry.
+        pattern: Its key, compiled.
+        parts: The pattern for the network, for the name below it and for the rest (which may be missing), or
+            None if `**` makes them uncertain.
+        differs: Whether its value differs between parameters: it is drawn, or depends on an index.
+    """
+
+    order: int
+    rank: int
+    entry: Entry
+    pattern: Pattern
+    parts: list[Pattern] | None
+    differs: bool
+
+    @property
+    def is_default(self) -> bool:
+        """Whether the entry is `default`: it stops the search and leaves the default."""
+        return self.entry.text == "default"
+
+    def overrides(self, other: "Found") -> bool:
+        """Return whether it comes before the other from another section or file, so on purpose."""
+        here, there = ((found.rank, found.entry.source.file) for found in (self, other))
+        return here != there and self.order < other.order
+
+    def may_end_in(self, rest: str) -> bool:
+        """Return whether paths that end in `rest` can match, judged by their last name only."""
+        tail = self.pattern.tail
+        return tail is None or not rest or tail.matches(rest.rpartition(".")[2])
+
+    def name_pattern(self) -> Pattern | None:
+        """Return the part that names something below the network, if it is certain."""
+        return self.parts[1] if self.parts else None
+
+    def rest_pattern(self) -> Pattern | None:
+        """Return the part below that name, if there is one and it is certain."""
+        return self.parts[2] if self.parts and len(self.parts) == 3 else None
+
+
+class _Candidate(NamedTuple):
+    """An entry that can match a rest, and the pattern for the name; None if only the whole path decides."""
+
+    found: Found
+    name: Pattern | None
+
+
+_ANY_NAME = compile_pattern("*")
+
+
+class Candidates:
+    """The entries that can match one rest below some name."""
+
+    def __init__(self, network: str, rest: str, candidates: Iterable[_Candidate]) -> None:
+        self._prefix = f"{network}."
+        self._suffix = f".{rest}" if rest else ""
+        self._by_name: dict[str, Found] = {}
+        self._patterns: list[_Candidate] = []
+        for candidate in candidates:
+            if candidate.name is None or candidate.name.literal is None:
+                self._patterns.append(candidate)
+            else:
+                self._by_name.setdefault(candidate.name.literal, candidate.found)
+        self._of_group: dict[str, list[_Candidate]] = {}
+
+    def __bool__(self) -> bool:
+        return bool(self._by_name or self._patterns)
+
+    def first(self, name: str) -> Found | None:
+        """Return the entry in force for that name."""
+        best = self._by_name.get(name)
+        for found, pattern in self._patterns_for(name.partition("[")[0]):
+            if best is not None and found.order > best.order:
+                break
+            if pattern is not None:
+                if pattern.matches(name):
+                    return found
+            elif found.pattern.matches(f"{self._prefix}{name}{self._suffix}"):
+                return found
+        return best
+
+    def _patterns_for(self, group: str) -> list[_Candidate]:
+        """Return those that may match nodes of that group."""
+        of_group = self._of_group.get(group)
+        if of_group is None:
+            of_group = self._of_group[group] = [
+                candidate
+                for candidate in self._patterns
+                if candidate.name is None or candidate.name.group in (None, group)
+            ]
+        return of_group
+
+
+class Lookup:
+    """All entries of a configuration, in search order.
+
+    Attributes:
+        network: What paths begin with.
+        options: The first entry of each option.
+        found: The entries of parameters in search order, without those that only OMNeT++ reads.
+    """
+
+    def __init__(self, ranked: Sequence[Ranked]) -> None:
+        """Index entries in search order. Raises ConfigError for all bad patterns."""
+        self.options: dict[str, Entry] = {}
+        for _, entry in ranked:
+            if is_option(entry):
+                self.options.setdefault(entry.key, entry)
+        self.network = network_name(self.options.get(NETWORK))
+        self.found: list[Found] = []
+        errors = ErrorCollector()
+        for order, (rank, entry) in enumerate(ranked):
+            if not is_option(entry) and not is_ignored(entry):
+                with errors.collecting():
+                    self.found.append(_compile(order, rank, entry))
+        errors.raise_all()
+        self._below_names: PatternIndex[_Candidate] = PatternIndex()  # by the pattern of the rest
+        self._without_rest: list[_Candidate] = []
+        self._below_anything: PatternIndex[_Candidate] = PatternIndex()  # `**.` and what is below
+        self._uncertain: list[_Candidate] = []
+        for found in self.found:
+            self._add(found)
+        self._candidates: dict[str, Candidates] = {}
+
+    def _add(self, found: Found) -> None:
+        if found.parts is not None:
+            if not found.parts[0].matches(self.network):
+                return
+            name, rest = found.parts[1], found.rest_pattern()
+        elif (below := found.pattern.below_anything) is not None:
+            name, rest = below
+            self._below_anything.add(found.pattern, _Candidate(found, _ANY_NAME))
+        else:
+            self._uncertain.append(_Candidate(found, None))
+            return
+        if rest is None:
+            self._without_rest.append(_Candidate(found, name))
+        else:
+            self._below_names.add(rest, _Candidate(found, name))
+
+    def candidates(self, rest: str) -> Candidates:
+        """Return the entries that can match `NETWORK.<name>.<rest>`; without a rest, `NETWORK.<name>`."""
+        candidates = self._candidates.get(rest)
+        if candidates is None:
+            found = [candidate for candidate in self._uncertain if candidate.found.may_end_in(rest)]
+            if rest:
+                found += self._below_names.matching(rest)
+                found += self._below_anything.matching(f".{rest}")
+            else:
+                found += self._without_rest
+            found.sort(key=lambda candidate: candidate.found.order)
+            candidates = self._candidates[rest] = Candidates(self.network, rest, found)
+        return candidates
+
+    def first(self, name: str, rest: str = "") -> Found | None:
+        """Return the entry in force for one path."""
+        return self.candidates(rest).first(name)
+
+
+def network_name(network: Entry | None) -> str:
+    """Return what paths begin with. `network` is the option of that name; packages may precede the name.
+
+    Raises ConfigError if it has variables or is not a name.
+    """
+    if network is None:
+        return "Network"
+    if "${" in network.text:
+        text = "it is the same in all runs"
+        raise ConfigError.at(network.source, text, expected="a name without variables")
+    match = _NETWORK_NAME.fullmatch(network.text)
+    if match is None:
+        expected = "the name of a network, such as `Network` or `package.Network`"
+        raise ConfigError.at(network.source, f"`{network.text}` is not a name", expected=expected)
+    return match[2]
+
+
+def is_option(entry: Entry) -> bool:
+    """Return whether the key is that of an option: it has no dot."""
+    return "." not in entry.key
+
+
+def options_in_force(entries: Iterable[Entry]) -> dict[str, Entry]:
+    """Return the entry in force for each option that is set."""
+    options: dict[str, Entry] = {}
+    for entry in entries:
+        if entry.key in OPTIONS:
+            options.setdefault(entry.key, entry)
+    return {key: entry for key, entry in options.items() if entry.text != "default"}
+
+
+def is_ignored(entry: Entry) -> bool:
+    """Return whether only OMNeT++ reads an entry. Its value is not checked."""
+    parts = entry.key.split(".")
+    if len(parts) == 1:
+        return any(fnmatchcase(entry.key, option) for option in IGNORED_OPTIONS)
+    if parts[-1].startswith(IGNORED_BEGINNINGS) or parts[-1] in IGNORED_ENDS:
+        return True
+    return len(parts) > 2 and parts[1] in IGNORED_MODULES
+
+
+def _compile(order: int, rank: int, entry: Entry) -> Found:
+    try:
+        pattern = compile_pattern(entry.key)
+    except BadValue as error:
+        text = f"{entry.key}: {error.problem}"
+        raise ConfigError(text, entry.source, expected=error.expected, hint=error.hint) from error
+    parts = pattern.split()
+    differs = differs_between_parameters(entry.text)
+    return Found(order, rank, entry, pattern, parts if parts and len(parts) > 1 else None, differs)
+
+
+def read_struct(
+    struct: str,
+    found: Mapping[Key, Found],
+    settings: SettingReader,
+    path_of: Callable[[Key], str],
+    errors: ErrorCollector,
+) -> dict[str, Setting]:
+    """Return the fields of one struct that entries set. Of two keys for one field, the first entry is used.
+
+    Args:
+        struct: The first part of the keys' targets.
+        found: The entries in force, by key.
+        settings: Reads the values.
+        path_of: Gives the path of a key's parameter below the network.
+        errors: Takes the errors of values; their fields are left out.
+    """
+    first: dict[str, tuple[Found, Key]] = {}
+    for key, entry in found.items():
+        if key.struct == struct and (key.field not in first or entry.order < first[key.field][0].order):
+            first[key.field] = (entry, key)
+    read: dict[str, Setting] = {}
+    for field, (entry, key) in first.items():
+        if not entry.is_default:
+            with errors.collecting():
+                read[field] = settings.setting(entry.entry, key.kind, path_of(key))
+    return read

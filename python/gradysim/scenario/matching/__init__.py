@@ -1,1 +1,0 @@
-"""Which line is meant for what: groups of nodes, the entry in force, and keys that match nothing."""

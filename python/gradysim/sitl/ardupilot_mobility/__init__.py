@@ -1,0 +1,9 @@
+"""Mobility handler for nodes that ArduPilot flies, in SITL or in real vehicles."""
+
+from gradysim.sitl.ardupilot_mobility.configuration import (
+    ArdupilotMobilityConfiguration,
+    ArdupilotMobilityException,
+)
+from gradysim.sitl.ardupilot_mobility.handler import ArdupilotMobilityHandler
+
+__all__ = ["ArdupilotMobilityConfiguration", "ArdupilotMobilityException", "ArdupilotMobilityHandler"]

@@ -1,0 +1,115 @@
+"""Autopilots on simulated time: as fast as possible, and repeatable."""
+
+import logging
+import math
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+from gradysim.protocol.defaults import UPDATE_S
+from gradysim.protocol.messages.mobility import MobilityCommand
+from gradysim.simulator.event import EventLoop
+from gradysim.simulator.handler.mobility.massless import MasslessMobilityConfiguration
+from gradysim.simulator.log import label_node
+from gradysim.simulator.node import Node
+from gradysim.sitl import SitlError
+from gradysim.sitl.ardupilot_mobility.configuration import (
+    ArdupilotMobilityConfiguration,
+    ArdupilotMobilityException,
+)
+from gradysim.sitl.ardupilot_mobility.report import NodeReport
+from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
+from gradysim.sitl.autopilot_node import AutopilotNode
+from gradysim.sitl.flights import Flights
+
+_logger = logging.getLogger(__name__)
+
+
+class LockStep:
+    """All vehicles of a simulation, in lock-step with it."""
+
+    def __init__(
+        self,
+        nodes: Mapping[int, Node[Any]],
+        configuration: ArdupilotMobilityConfiguration,
+        event_loop: EventLoop,
+    ) -> None:
+        """Create the vehicles of the nodes."""
+        self._nodes = nodes
+        self._event_loop = event_loop
+        self._begin_s = event_loop.current_time
+        self._update_rate_s = configuration.update_rate
+        self._reports: dict[int, NodeReport] = {}
+        self._flights = Flights(
+            [
+                AutopilotNode(
+                    id=node.id,
+                    name=f"node {node.id} ({label_node(node)})",
+                    start=node.position,
+                    speed_mps=configuration.default_speed,
+                    program=configuration.ardupilot_path,
+                    user=configuration.autopilot_user,
+                    parameters=configuration.autopilot_parameters or {},
+                )
+                for node in nodes.values()
+            ],
+            configuration.reference_coordinates,
+            on_text=partial(_log, logging.INFO if configuration.uav_api_log_console else logging.DEBUG),
+            console_folder=configuration.uav_api_log_path,
+            timeout_s=configuration.uav_api_startup_timeout,
+        )
+        self._mobility = _Mobility(configuration, self._flights)
+
+    def begin(self) -> None:
+        """Start the autopilots and fly all nodes to their initial positions."""
+        self._mobility.inject(self._event_loop)
+        for node in self._nodes.values():
+            self._mobility.register_node(node)
+        self._mobility.take_off()
+        for identifier in self._nodes:
+            self._reports[identifier] = NodeReport(battery_start=self._flights.battery_percent(identifier))
+        self._mobility.initialize()
+
+    def obey(self, command: MobilityCommand, node_id: int) -> None:
+        """Send a command to the autopilot of a node."""
+        self._mobility.handle_command(command, self._nodes[node_id])
+
+    def end(self) -> Mapping[int, NodeReport]:
+        """Return the reports. Telemetries are never dropped, and clocks have no error."""
+        telemetries = math.floor((self._event_loop.current_time - self._begin_s) / self._update_rate_s + 1e-6)
+        for identifier, report in self._reports.items():
+            report.requests = telemetries
+            report.battery_end = self._flights.battery_percent(identifier)
+        return self._reports
+
+    def close(self) -> None:
+        """End the autopilots."""
+        self._flights.close()
+
+
+def _log(level: int, name: str, text: str) -> None:
+    _logger.log(level, "%s says: %s", name, text)
+
+
+class _Mobility(AutopilotMobilityHandler):
+    """Converts SitlErrors to the exception of the handler."""
+
+    def __init__(
+        self,
+        configuration: ArdupilotMobilityConfiguration,
+        flights: Flights,
+    ) -> None:
+        rate_s = configuration.update_rate
+        mobility = MasslessMobilityConfiguration(
+            update_rate=rate_s / math.ceil(rate_s / UPDATE_S - 1e-9),  # so that telemetry is due at an update
+            reference_coordinates=configuration.reference_coordinates,
+        )
+        super().__init__(mobility, flights)
+        for identifier in flights.ids:
+            self.configure_node(identifier, telemetry_interval=rate_s)
+
+    def _fly_on(self) -> None:
+        try:
+            super()._fly_on()
+        except SitlError as error:
+            raise ArdupilotMobilityException(str(error)) from error

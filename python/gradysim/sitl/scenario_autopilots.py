@@ -1,0 +1,85 @@
+"""Autopilots of the nodes of a scenario, for both modes."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from gradysim.protocol.position import Position
+from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.native_protocols import NativeProtocol
+from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
+from gradysim.scenario.scenario import Scenario
+from gradysim.sitl import SitlError
+from gradysim.sitl.arducopter import find_arducopter
+from gradysim.sitl.autopilot_node import AutopilotNode, check_start, wind_mps
+from gradysim.sitl.mavlink import load_dialect
+from gradysim.sitl.process import user_for
+
+if TYPE_CHECKING:
+    from gradysim.sitl.flights import Flights
+
+
+def check_autopilots(scenario: Scenario) -> None:
+    """Check that the nodes of a scenario can be flown by their autopilots.
+
+    Raises:
+        ConfigError: The program is missing, a node cannot be flown by it, or the extra `sitl` is not
+            installed. It names the line in the .ini file.
+    """
+    for spec in scenario.nodes:
+        if spec.autopilot is not None:
+            _check(spec, spec.autopilot, scenario.reference_coordinates)
+
+
+def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights | None":
+    """Return the flights of all nodes with an autopilot, not started; None without such nodes.
+
+    Args:
+        scenario: Scenario with checked values.
+        on_text: Called with the name of a node and each text of its autopilot.
+
+    Raises:
+        ConfigError: As `check_autopilots`.
+    """
+    check_autopilots(scenario)
+    if all(spec.autopilot is None for spec in scenario.nodes):
+        return None
+    from gradysim.sitl.flights import Flights
+
+    nodes = [_node_of(spec, spec.autopilot) for spec in scenario.nodes if spec.autopilot is not None]
+    return Flights(nodes, scenario.reference_coordinates, on_text=on_text)
+
+
+def _node_of(spec: NodeSpec, autopilot: AutopilotSpec) -> AutopilotNode:
+    return AutopilotNode(
+        id=spec.id,
+        name=f"node {spec.id} ({spec.name})",
+        start=spec.initial_position,
+        speed_mps=autopilot.speed_mps,
+        program=autopilot.program,
+        user=autopilot.user,
+        parameters=autopilot.parameters,
+    )
+
+
+def _check(spec: NodeSpec, autopilot: AutopilotSpec, reference: Position) -> None:
+    if issubclass(spec.protocol, NativeProtocol):
+        text = f"{spec.name}: autopilots work only with Python protocols; expected another mobility.typename"
+        raise ConfigError.at(autopilot.source, text)
+    with _errors_at(autopilot.source):
+        load_dialect()
+        check_start(spec.name, spec.initial_position, reference)
+    with _errors_at(autopilot.parameters_source):
+        wind_mps(spec.name, autopilot.parameters)
+    with _errors_at(autopilot.program_source):
+        find_arducopter(autopilot.program)
+    with _errors_at(autopilot.user_source):
+        user_for(autopilot.user)
+
+
+@contextmanager
+def _errors_at(source: Source) -> Iterator[None]:
+    try:
+        yield
+    except (SitlError, ModuleNotFoundError) as error:
+        raise ConfigError.at(source, str(error)) from error

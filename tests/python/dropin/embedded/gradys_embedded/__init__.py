@@ -1,0 +1,1 @@
+"""Stand-in for the package gradys-embedded: the same public structure, for tests."""

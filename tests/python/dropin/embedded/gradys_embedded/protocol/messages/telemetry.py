@@ -1,0 +1,6 @@
+from dataclasses import dataclass
+
+
+@dataclass
+class Telemetry:
+    current_position: tuple[float, float, float]
