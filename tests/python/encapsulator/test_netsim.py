@@ -95,7 +95,7 @@ def test_ids_count_from_0():
 
 
 def test_made_without_the_other_nodes_it_does_not_know_where_they_are():
-    with pytest.raises(RuntimeError, match="positions of the nodes are unknown"):
+    with pytest.raises(RuntimeError):
         Pair().encapsulators[0].provider.node_positions()
 
 

@@ -109,5 +109,5 @@ def test_at_the_pace_of_the_wall_clock(make_scenario, wall_clock):
 
 @pytest.mark.parametrize("factor", [-1, float("nan"), "fast"])
 def test_what_is_no_pace(make_scenario, factor):
-    with pytest.raises(ValueError, match="real_time must be a bool or a finite factor >= 0, got "):
+    with pytest.raises(ValueError, match="real_time"):
         run(make_scenario(), real_time=factor)

@@ -44,7 +44,7 @@ def test_the_factor(given, factor):
 
 @pytest.mark.parametrize("given", [-1, float("nan"), float("inf"), "fast", None])
 def test_a_factor_that_is_none(given):
-    with pytest.raises(ValueError, match="real_time must be a bool or a finite factor >= 0, got "):
+    with pytest.raises(ValueError, match="real_time"):
         real_time.real_time_factor(given)
 
 

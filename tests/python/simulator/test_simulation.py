@@ -59,7 +59,7 @@ def test_nodes_are_prepared_before_their_protocols_are_made():
 
 @pytest.mark.parametrize("position", [(1, 2), (1, 2, math.nan), "123"])
 def test_a_malformed_position_is_refused(position):
-    with pytest.raises(ValueError, match="the position of a node must be three finite numbers"):
+    with pytest.raises(ValueError, match="position"):
         SimulationBuilder().add_node(protocol(), position)
 
 

@@ -19,7 +19,7 @@ def test_without_any_there_are_defaults():
 
 @pytest.mark.parametrize("wrong", ["medium", 0, {}, CommunicationMedium])
 def test_anything_else_is_refused(wrong):
-    with pytest.raises(TypeError, match="expected a CommunicationMedium, got"):
+    with pytest.raises(TypeError, match="CommunicationMedium"):
         checked_configuration(wrong, CommunicationMedium)
 
 
@@ -54,6 +54,6 @@ def test_a_place_is_right(place):
     [(90.1, 0, 0), (-91, 0, 0), (0, math.inf, 0), (0, 0, math.nan), (0, 0), "abc", None, (0, 0, 0, 0)],
 )
 def test_anything_else_is_refused_by_value(place):
-    with pytest.raises(ValueError, match=r"^reference_coordinates must be") as caught:
+    with pytest.raises(ValueError, match="reference_coordinates") as caught:
         check_reference(place)
     assert str(caught.value).endswith(repr(place))

@@ -143,7 +143,7 @@ def test_what_is_no_protocol_has_no_dispatcher(wrong):
 
 
 def test_a_handler_must_be_callable():
-    with pytest.raises(TypeError, match="callable"):
+    with pytest.raises(TypeError):
         register(Recorder(), "handle_timer", "not a function")
 
 

@@ -143,7 +143,7 @@ def test_the_protocol_still_gets_its_telemetry(protocol):
     "value", [(1, 0), (0, math.nan), (0, math.inf), (0,), (0, 1, 2), 5, None, ("low", "high")]
 )
 def test_a_bad_range_is_refused(protocol, name, value):
-    with pytest.raises(ValueError, match=f"{name} must be two finite numbers"):
+    with pytest.raises(ValueError, match=name):
         RandomMobilityPlugin(protocol, RandomMobilityConfig(**{name: value}))
 
 
@@ -156,7 +156,7 @@ def test_without_tolerance_a_target_is_reached_at_its_very_point(protocol):
 
 @pytest.mark.parametrize("tolerance", [-1, math.nan, math.inf, "1"])
 def test_a_bad_tolerance_is_refused(protocol, tolerance):
-    with pytest.raises(ValueError, match="tolerance must be finite and >= 0 m"):
+    with pytest.raises(ValueError, match="tolerance"):
         RandomMobilityPlugin(protocol, RandomMobilityConfig(tolerance=tolerance))
 
 

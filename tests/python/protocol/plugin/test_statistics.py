@@ -246,7 +246,7 @@ def test_finishing_what_was_not_created_is_refused(protocol):
 
 @pytest.mark.parametrize("interval", [0, -1, math.nan, math.inf, "1"])
 def test_a_bad_interval_is_refused(protocol, interval):
-    with pytest.raises(ValueError, match="collection_interval must be finite and > 0 s"):
+    with pytest.raises(ValueError, match="collection_interval"):
         create_statistics(protocol, "part", interval)
 
 

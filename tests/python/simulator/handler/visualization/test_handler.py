@@ -273,7 +273,7 @@ def test_a_simulation_whose_address_is_in_use_goes_on_without_viewers(shown, cap
 
 
 def test_a_host_of_another_machine_is_refused(shown):
-    with pytest.raises(VisualizationException, match=r"cannot listen for viewers on '192\.0\.2\.1' port"):
+    with pytest.raises(VisualizationException, match=r"192\.0\.2\.1"):
         shown(host="192.0.2.1").start()
 
 

@@ -155,10 +155,10 @@ def test_other_commands_are_refused(hangar, command):
 
 
 def test_an_unregistered_node_is_refused(world, hangar):
-    with pytest.raises(DynamicVelocityMobilityException, match="node 7 is not registered"):
+    with pytest.raises(DynamicVelocityMobilityException, match="node 7"):
         hangar().handler.handle_command(SetVelocityMobilityCommand(1, 2, 3), world.node(7))
 
 
 def test_what_is_no_configuration_is_refused():
-    with pytest.raises(TypeError, match="expected a DynamicVelocityMobilityConfiguration, got None"):
+    with pytest.raises(TypeError, match="DynamicVelocityMobilityConfiguration"):
         DynamicVelocityMobilityHandler(None)
