@@ -153,4 +153,5 @@ is_editable = $(shell grep -hos '"editable": true' $(VENV)/lib/python*/site-pack
 $(STAMPS)/editable: pyproject.toml $(cpp_engine) $(python_packages) $(if $(is_editable),,again) | $(STAMPS)/build
 	$(call need,$(BIN)/python -c 'import os$(comma)sys$(comma)sysconfig; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))',python3-dev)
 	$(BIN)/pip install --quiet --no-build-isolation --editable .
+	@$(BIN)/python -m compileall -q python  # where PYTHONDONTWRITEBYTECODE is set, each start would do it
 	@touch $@

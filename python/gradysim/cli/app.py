@@ -69,7 +69,7 @@ app.command(calibrate_power, name="calibrate")
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (that of this process by default) and return the exit code."""
-    if sys.stdout is None:  # closed by whoever started the command
+    if sys.stdout is None:  # the caller closed it
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
@@ -79,7 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         try:
             code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
         finally:
-            sys.stdout.flush()  # here, where it is known what to do if nobody takes it
+            sys.stdout.flush()  # here, where an output that takes no more is handled
     except CycloptsError:  # cyclopts has said what is wrong
         return MISTAKE
     except KeyboardInterrupt:
@@ -92,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if not is_about_output(error):
             return say_mistake(error)
         abandon_output()
-        if isinstance(error, BrokenPipeError):  # who reads the output, such as `head`, has had enough
+        if isinstance(error, BrokenPipeError):  # the reader, such as `head`, has closed the pipe
             return OK
         print(f"standard output: {error.strerror}", file=sys.stderr)
         return MISTAKE

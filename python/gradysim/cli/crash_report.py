@@ -12,7 +12,7 @@ PACKAGE = Path(__file__).resolve().parent.parent
 
 def report_crashes() -> None:
     """Let the interpreter say on the error output in which line it crashes, as in a library written in C."""
-    with contextlib.suppress(OSError, ValueError):  # an error output that is no file
+    with contextlib.suppress(OSError, ValueError):  # an error output without a file descriptor
         if not faulthandler.is_enabled():
             faulthandler.enable()
 

@@ -99,7 +99,7 @@ def execute(
                 run.execute(bar.update, interrupt.should_stop)
     except KeyboardInterrupt as pressed:
         return Outcome(run.result(), pressed, interrupted=True, findings=run.findings())
-    except BaseException as failure:  # SystemExit and asyncio.CancelledError are no Exception
+    except BaseException as failure:  # also SystemExit and asyncio.CancelledError
         return Outcome(run.result(), failure=failure, findings=run.findings())
     result = run.result()
     return Outcome(result, interrupted=result.interrupted, findings=run.findings())

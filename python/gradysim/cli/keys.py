@@ -20,23 +20,24 @@ HEADINGS = ("key", "unit or value", "default", "meaning")
 
 INTRODUCTION = """# Keys of .ini files
 
-All that an `.ini` file may say; `gradysim keys` prints this page, `gradysim keys ardupilot` the keys in whose
-name, values or meaning that stands, in any case, and `gradysim keys "*.power"` those whose name ends so.
-`nodes` stands for the name of a group, `*` for any index. Values in other units of the same dimension are
-understood too: a power in `mW` or `dBm`, a time in `ms` or `h`.
-Of two lines that fit, the first one is in force: write `*.uavs[0].mobility.speed` above
-`*.uavs[*].mobility.speed`. `gradysim run` warns of a line that another one above it in the same section of
-the same file deprives of any effect. A list of values, `${10ms, 50ms}`, makes runs of each
-(docs/guides/results.md). Values may be worked out, `50m * parentIndex()`, and drawn, `uniform(0m, 1km)`, for
-each node its own (docs/guides/values.md). A section may also say `extends = NAME` and `abstract = true`, and
-`include FILE` puts another file in the place of that line. What only OMNeT++ needs is
-ignored: `network` but for its name, how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
-`*.visualizer.**` and so on), and what it records where (`result-dir`, `**.vector-recording` and so on).
+The keys that an `.ini` file may set. `gradysim keys` prints this page. `gradysim keys ardupilot` prints the
+keys that contain this word in their name, values or meaning. `gradysim keys "*.power"` prints those that end
+so.
 
-A key that matches no parameter is an error. A line for a model that is not chosen (`pathLoss.sigma` with
-`FreeSpacePathLoss`) is none, but `gradysim run` says on the error output that nothing reads it, and what
-would. It says nothing of a line that at least one node reads, nor of one whose model is turned off in so many
-words, by `typename = ""`, nor in prototype mode, which has no such models.
+- `nodes` stands for the name of a group, `*` for any index.
+- Values may have other units of the same dimension: a power in `mW` or `dBm`, a time in `ms` or `h`.
+- If two lines match, the first one is in force. Write `*.uavs[0].mobility.speed` above
+  `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that has no effect because of a line above it.
+- A list of values, `${10ms, 50ms}`, makes one run for each (docs/guides/results.md).
+- Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/guides/values.md).
+- A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file.
+- Options of OMNeT++ alone are ignored: how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
+  `*.visualizer.**`), and what it records where (`result-dir`, `**.vector-recording`). Of `network` only the
+  name is used.
+
+A key that matches no parameter is an error. A line for a model that is not chosen, such as `pathLoss.sigma`
+with `FreeSpacePathLoss`, is a warning of `gradysim run`: nothing reads it. There is no warning if at least
+one node reads the line, if `typename = ""` turns the model off, or in prototype mode.
 
 This page is made by `gradysim keys --markdown`."""
 

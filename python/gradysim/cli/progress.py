@@ -33,7 +33,7 @@ class SpeedColumn(ProgressColumn):
 class RunProgress:
     """A bar on `console` that `update` moves; it is gone when the `with` block ends.
 
-    It draws only when `update` is called, so there is no thread beside the simulation.
+    It draws only when `update` is called, so it needs no thread.
     """
 
     def __init__(self, console: Console, title: str, limit_s: float) -> None:

@@ -15,6 +15,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 from types import ModuleType
 from weakref import WeakValueDictionary
@@ -75,15 +76,10 @@ class ModuleLoader:
         """
         siblings = self._siblings.setdefault(folder, {})
         names = _module_names(folder)
-        # A list, since looking at a lazy module may import others, and other threads import modules, too.
-        hidden = {
-            name: module
-            for name, module in list(sys.modules.items())
-            if name.partition(".")[0] in names and not _is_in(name, module, folder)
-        }
+        hidden = {name: module for name, module in _loaded(names) if not _is_in(name, module, folder)}
         for name in hidden:
             del sys.modules[name]
-        before = set(sys.modules)
+        latest = next(reversed(sys.modules))
         sys.modules.update(
             {name: module for name, module in siblings.items() if first or not _is_stdlib(name)}
         )
@@ -93,10 +89,24 @@ class ModuleLoader:
         finally:
             if str(folder) in sys.path:
                 sys.path.remove(str(folder))
-            for name, module in list(sys.modules.items()):
-                if name not in before and _is_in(name, module, folder):
+            new = list(takewhile(lambda name: name != latest, reversed(sys.modules)))
+            for name in reversed(new):
+                if _is_in(name, sys.modules[name], folder):
                     siblings[name] = sys.modules.pop(name)
             sys.modules.update(hidden)
+
+
+def _loaded(names: set[str]) -> list[tuple[str, ModuleType]]:
+    """Return the modules with one of these names, and those of packages with one.
+
+    Mostly there are none. Then this looks at no module: each look would copy a page of memory in a process
+    that was forked.
+    """
+    top_level = {name for name in names if name in sys.modules}
+    if not top_level:
+        return []
+    # A list, since looking at a lazy module may import others, and other threads import modules, too.
+    return [entry for entry in list(sys.modules.items()) if entry[0].partition(".")[0] in top_level]
 
 
 _loaders: WeakValueDictionary[str, ModuleLoader] = WeakValueDictionary()

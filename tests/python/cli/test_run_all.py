@@ -1,6 +1,11 @@
+"""Runs by another executor, and the line about those that are missing."""
+
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 
-from gradysim.cli.study import text_of_unfinished
+from gradysim.cli.options import RunOptions
+from gradysim.cli.run import run_file, text_of_unfinished
 
 
 @pytest.mark.parametrize(
@@ -26,3 +31,11 @@ from gradysim.cli.study import text_of_unfinished
 )
 def test_the_line(done: list[int], ended: dict[int, str], left: list[int], text: str) -> None:
     assert text_of_unfinished("X", done, ended, left) == text
+
+
+def test_the_executor_is_an_argument(folder, capsys):
+    options = RunOptions(mode="prototype", quiet=True, result_dir=folder / "out")
+    with ThreadPoolExecutor(1) as executor:
+        assert run_file(folder / "test.ini", options, executor) == 0
+        assert executor.submit(int).result() == 0
+    assert len(list((folder / "out").iterdir())) == 3
