@@ -37,8 +37,8 @@ PathLoss make_path_loss(const MediumConfig& config) {
     if (name == "BreakpointPathLoss") {
         path_loss.near_ = {.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1};
         path_loss.far_ = {.coefficient = ratio_from_db(-config.l02_db) *
-                                              std::pow(config.breakpoint_distance_m, config.alpha2),
-                               .exponent = config.alpha2};
+                                         std::pow(config.breakpoint_distance_m, config.alpha2),
+                          .exponent = config.alpha2};
         path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
         return path_loss;
     }

@@ -36,20 +36,20 @@ TEST(Fading, ThereIsNoneInThePureModelsOfPathLoss) {
         const Fading fading(config_of(name), 1);
         EXPECT_TRUE(fading.is_none()) << name;
         EXPECT_EQ(fading.gain(0, 1, SimTime(), 0), 1) << name;
-        EXPECT_EQ(fading.most(), 1) << name;
+        EXPECT_EQ(fading.max(), 1) << name;
     }
 }
 
 TEST(Fading, IsCutOffAtWhatComesOnceInABillionDraws) {
     // −ln 10⁻⁹, and the quantile of m = 2.5 (mpmath).
-    EXPECT_NEAR(Fading(config_of("RayleighFading"), 1).most(), 20.72326583694641, 1e-12);
-    EXPECT_NEAR(Fading(config_of("NakagamiFading"), 1).most(), 20.72326583694641, 1e-12);
+    EXPECT_NEAR(Fading(config_of("RayleighFading"), 1).max(), 20.72326583694641, 1e-12);
+    EXPECT_NEAR(Fading(config_of("NakagamiFading"), 1).max(), 20.72326583694641, 1e-12);
     MediumConfig nakagami = config_of("NakagamiFading");
     nakagami.shape_factor = 2.5;
-    EXPECT_NEAR(Fading(nakagami, 1).most(), 25.346096850771514 / 2.5, 1e-11);
+    EXPECT_NEAR(Fading(nakagami, 1).max(), 25.346096850771514 / 2.5, 1e-11);
     MediumConfig shadowing = config_of("LogNormalShadowing");
     shadowing.sigma_db = 4;
-    EXPECT_NEAR(db_from_ratio(Fading(shadowing, 1).most()), 4 * 5.9978070150076869, 1e-11);
+    EXPECT_NEAR(db_from_ratio(Fading(shadowing, 1).max()), 4 * 5.9978070150076869, 1e-11);
 }
 
 TEST(Fading, WithoutALineOfSightRicianIsRayleigh) {
@@ -94,7 +94,7 @@ TEST(Fading, WhereALeastGainIsGivenEitherItIsTheSameOrThereIsLess) {
             for (std::uint64_t id = 0; id < 3000; ++id) {
                 const SimTime time = SimTime::from_us(static_cast<std::int64_t>(37 * id));
                 const double gain = fading.gain(0, 1, time, id);
-                for (const double least : {gain / 2, gain, 2.0, 5.0, fading.most()}) {
+                for (const double least : {gain / 2, gain, 2.0, 5.0, fading.max()}) {
                     const double found = fading.gain(0, 1, time, id, least);
                     left_out += found == gain ? 0 : 1;
                     ASSERT_TRUE(found == gain || (found == 0 && gain < least))
@@ -111,7 +111,7 @@ TEST(Fading, ShadowingWithoutASpreadIsNone) {
     shadowing.sigma_db = 0;
     const Fading fading(shadowing, 1);
     EXPECT_EQ(fading.gain(0, 1, SimTime(), 5), 1);
-    EXPECT_EQ(fading.most(), 1);
+    EXPECT_EQ(fading.max(), 1);
 }
 
 TEST(Fading, ChancesOfShadowingAreThoseOfANormalNumber) {
@@ -175,7 +175,7 @@ TEST(Fading, ChancesOfRicianAreThoseOfGammaWithAShapeFromPoisson) {
                 expected += std::exp(drawn * std::log(k) - k - std::lgamma(drawn + 1)) *
                             gamma_above(drawn + 1, (k + 1) * gain);
             }
-            if (gain < fading.most()) {
+            if (gain < fading.max()) {
                 EXPECT_NEAR(fading.chance_of(gain), expected, 1e-12) << k_db << " dB, " << gain;
             }
         }
@@ -195,8 +195,8 @@ TEST(Fading, ChancesOfAStrongLineOfSightAreThoseOfANormalNumber) {
 TEST(Fading, NothingHasAChanceBeyondWhereItIsCutOff) {
     for (const char* name : {"LogNormalShadowing", "RayleighFading", "RicianFading", "NakagamiFading"}) {
         const Fading fading(config_of(name), 1);
-        EXPECT_GT(fading.chance_of(fading.most()), 0) << name;
-        EXPECT_EQ(fading.chance_of(fading.most() * 1.001), 0) << name;
+        EXPECT_GT(fading.chance_of(fading.max()), 0) << name;
+        EXPECT_EQ(fading.chance_of(fading.max() * 1.001), 0) << name;
         EXPECT_EQ(fading.chance_of(0), 1) << name;
     }
     EXPECT_EQ(Fading(config_of("FreeSpacePathLoss"), 1).chance_of(1), 1);
@@ -241,7 +241,7 @@ TEST(Fading, TheMeanIsThatOfTheChances) {
         constexpr double step = 0.005;  // of the natural logarithm
         double sum = 0;
         for (int i = 0; i < 10'000; ++i) {
-            const double log = std::log(fading.most()) - step * (i + 0.5);
+            const double log = std::log(fading.max()) - step * (i + 0.5);
             sum += fading.chance_of(std::exp(log)) * std::exp(log) * step;
         }
         EXPECT_NEAR(sum / fading.mean(), 1, 1e-5) << config.path_loss;
