@@ -5,16 +5,14 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+from gradysim.scenario.expressions import ParameterContext, parse_value
+from gradysim.scenario.functions import Value
 from gradysim.scenario.ini import Ranked, read_ini, search_order
 from gradysim.scenario.lookup import is_option
-from gradysim.scenario.runs.iterations import name_iterations, text_of_iterations
-from gradysim.scenario.runs.numbered_runs import numbered_runs
-from gradysim.scenario.runs.variables import run_variables, substitute
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.operators import Value
-from gradysim.scenario.value.parameter_context import ParameterContext
-from gradysim.scenario.value.pattern import compile_pattern
-from gradysim.scenario.value.quantity import Quantity
+from gradysim.scenario.patterns import compile_pattern
+from gradysim.scenario.runs import numbered_runs
+from gradysim.scenario.sweep import name_iterations, run_variables, substitute, text_of_iterations
+from gradysim.scenario.units import Quantity
 from verification.finding import Finding
 from verification.reference_data import rows
 

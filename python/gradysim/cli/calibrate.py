@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gradysim.integrated.calibration import Calibration
-    from gradysim.scenario.value.kinds import Kind, Scalar
+    from gradysim.scenario.parameter_types import ParameterType, Scalar
 
 
 BAR_WIDTH = 40
@@ -50,8 +50,8 @@ def calibrate_power(
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.runs.iterations import text_of_iterations
-    from gradysim.scenario.value.kinds import quantity, whole_bytes
+    from gradysim.scenario.parameter_types import quantity, whole_bytes
+    from gradysim.scenario.sweep import text_of_iterations
 
     try:
         scenario = check(file, config, "0", settings).scenarios[0]
@@ -81,10 +81,10 @@ def calibrate_power(
     return OK
 
 
-def option_value(option: str, text: str, kind: "Kind") -> "Scalar":
+def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
     """Return the value that an option says. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors import BadValue, ConfigError
-    from gradysim.scenario.value.expression import parse_value
+    from gradysim.scenario.expressions import parse_value
 
     try:
         return kind.convert(parse_value(text))
@@ -99,7 +99,7 @@ def option_value(option: str, text: str, kind: "Kind") -> "Scalar":
 
 def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> str:
     """Return all of it as text, for an output of that encoding."""
-    from gradysim.scenario.value.decibels import db_from_ratio
+    from gradysim.scenario.units import db_from_ratio
 
     c = calibration
     above = (
@@ -142,7 +142,7 @@ def _in_mw(power_w: float) -> str:
 
 def _in_dbm(power_w: float) -> str:
     """Three digits after the point, rounded up."""
-    from gradysim.scenario.value.decibels import dbm_from_w
+    from gradysim.scenario.units import dbm_from_w
 
     return f"{math.ceil(1000 * dbm_from_w(power_w)) / 1000:.3f}"
 
@@ -157,7 +157,7 @@ def _what_decides(level: str, level_w: float | None) -> list[str]:
         return []
     from textwrap import wrap
 
-    from gradysim.scenario.value.decibels import dbm_from_w
+    from gradysim.scenario.units import dbm_from_w
 
     decides = (
         f"The receiver's {level} of {dbm_from_w(level_w):g} dBm decides, not the noise:"

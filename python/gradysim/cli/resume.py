@@ -19,8 +19,7 @@ def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Sc
     """
     from gradysim.results.files import files_changed_since
     from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.runs.file_hashes import text_of_files
-    from gradysim.scenario.runs.run_numbers import text_of_runs
+    from gradysim.scenario.runs import text_of_files, text_of_runs
 
     result_dir = options.result_dir
     if result_dir is None:

@@ -254,6 +254,6 @@ def text_of_unfinished(
 
 
 def _numbers(numbers: Sequence[int]) -> str:
-    from gradysim.scenario.runs.run_numbers import text_of_runs
+    from gradysim.scenario.runs import text_of_runs
 
     return f" ({text_of_runs(numbers)})" if numbers else ""

@@ -20,7 +20,7 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.lint import unread_variables
     from gradysim.scenario.load import runs_of
-    from gradysim.scenario.runs.iterations import text_of_iterations
+    from gradysim.scenario.sweep import text_of_iterations
 
     try:
         for number, repetition, iterations in runs_of(file, config, settings):

@@ -16,7 +16,7 @@ from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import ReadBy
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig

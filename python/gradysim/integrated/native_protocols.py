@@ -8,7 +8,7 @@ from gradysim.protocol.interface import IProvider
 from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim

@@ -18,7 +18,7 @@ from gradysim.scenario.keys import DEFAULT_INTERFACE
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 from gradysim.sitl.scenario_autopilots import check_autopilots
 
 if TYPE_CHECKING:

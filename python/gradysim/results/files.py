@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.results.result import Mode, RunResult, plain_iterations
-from gradysim.scenario.runs.file_hashes import hash_of
+from gradysim.scenario.runs import hash_of
 from gradysim.scenario.scenario import Scenario
 
 

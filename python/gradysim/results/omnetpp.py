@@ -17,8 +17,8 @@ from gradysim.results.delays import bin_rows
 from gradysim.results.quantity import Histogram, Scalar
 from gradysim.results.recorder import Values, Vector
 from gradysim.results.result import Mode, RunResult
-from gradysim.scenario.runs.iterations import PREDEFINED
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.sweep import PREDEFINED
 
 if TYPE_CHECKING:
     import sqlite3

@@ -24,7 +24,7 @@ from gradysim.results.outcomes import (
 from gradysim.results.quantity import Histogram, Quantity, Scalar, json_object, recorded, scalars_of
 from gradysim.results.recorder import Vector
 from gradysim.results.tracked_variables import tracked_scalars
-from gradysim.scenario.value.quoted import is_quoted, unquoted
+from gradysim.scenario.functions import is_quoted, unquoted
 
 Mode = Literal["integrated", "prototype"]
 

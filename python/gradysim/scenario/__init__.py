@@ -18,7 +18,7 @@ from gradysim.scenario.load import load_scenarios
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 __all__ = [
     "CommunicationMediumSpec",

@@ -11,13 +11,13 @@ which is meant (channel 36: 5180 MHz).
 from dataclasses import replace
 
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.kinds import Kind, Scalar, choice, integer
-from gradysim.scenario.value.operators import Value
-from gradysim.scenario.value.quantity import Quantity
+from gradysim.scenario.expressions import parse_value
+from gradysim.scenario.functions import Value
+from gradysim.scenario.parameter_types import ParameterType, Scalar, choice, integer
+from gradysim.scenario.units import Quantity
 
 
-def _channel_of_2_4_ghz() -> Kind:
+def _channel_of_2_4_ghz() -> ParameterType:
     """A channel of the 2.4 GHz band, counted from 0 as INET does, converted to its centre in hertz.
 
     The centres are those of IEEE 802.11-2020, 15.4.4.3: 2.412 GHz and every 5 MHz from there, the 14th at
@@ -40,7 +40,8 @@ def _channel_of_2_4_ghz() -> Kind:
         channel = (float(carrier_hz) - 2.412e9) / 5e6
         return f"{channel:g}" if channel.is_integer() else "none"
 
-    return Kind("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", convert, unit="0 to 13", show=show)
+    expected = "a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13"
+    return ParameterType(expected, convert, unit="0 to 13", show=show)
 
 
 def _hint_at_5_ghz(value: Value) -> str:
@@ -52,7 +53,7 @@ def _hint_at_5_ghz(value: Value) -> str:
     return ""
 
 
-def _channel(band: str, start_hz: float, width_hz: float, count: int) -> Kind:
+def _channel(band: str, start_hz: float, width_hz: float, count: int) -> ParameterType:
     """A channel of a band of equal channels, converted to its centre in hertz."""
     index = integer(0, count - 1)
 
@@ -61,7 +62,7 @@ def _channel(band: str, start_hz: float, width_hz: float, count: int) -> Kind:
 
     first_mhz = (start_hz + width_hz / 2) / 1e6
     expected = f'a channel of the band "{band}", 0 ({first_mhz:g} MHz) to {count - 1}'
-    return Kind(expected, convert, unit=f"0 to {count - 1}")
+    return ParameterType(expected, convert, unit=f"0 to {count - 1}")
 
 
 CHANNELS = {
@@ -83,7 +84,7 @@ CHANNELS = {
 _FIRST_OF_802154, _LAST_OF_802154 = 11, 26
 
 
-def _channel_of_802154() -> Kind:
+def _channel_of_802154() -> ParameterType:
     """A channel of IEEE 802.15.4 in the 2450 MHz band, converted to its centre in hertz.
 
     The centre of channel k is 2405 + 5 (k - 11) MHz (IEEE 802.15.4-2006, 6.1.2.1).
@@ -99,7 +100,7 @@ def _channel_of_802154() -> Kind:
         return f"{channel:g}" if is_one else "none"
 
     numbers = f"{_FIRST_OF_802154} to {_LAST_OF_802154}"
-    return Kind(
+    return ParameterType(
         f"a channel of IEEE 802.15.4, {numbers} (2.405 GHz to 2.48 GHz)", convert, unit=numbers, show=show
     )
 
@@ -108,7 +109,7 @@ CHANNEL_OF_802154 = _channel_of_802154()
 """The kind of a channel's number of an 802.15.4 radio."""
 
 
-def channel_by_default() -> Kind:
+def channel_by_default() -> ParameterType:
     """The kind of a channel's number where no band is said; lists of keys show those of both standards."""
     of_80211 = CHANNELS["2.4 GHz"]
 
@@ -123,7 +124,7 @@ BAND = choice(*CHANNELS)
 """The name of a band."""
 
 
-def first_channel_of_band() -> Kind:
+def first_channel_of_band() -> ParameterType:
     """The name of a band, converted to the centre of its channel 0 in hertz."""
     centres_hz = {name: channel.convert(parse_value("0")) for name, channel in CHANNELS.items()}
     names = {centre_hz: BAND.show(name) for name, centre_hz in centres_hz.items()}

@@ -32,7 +32,7 @@ from gradysim.scenario.obstacles import (
     misplaced_ring,
     read_setting,
 )
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 _IF_IN_METERS = (
     "if they are x and y of the scene in meters, expected"

@@ -13,8 +13,8 @@ from gradysim.scenario.errors import ErrorCollector
 from gradysim.scenario.keys import GROUP_SIZE, NETWORK_MODULES, NUM_WLAN_INTERFACES, PROTOCOL_KEYS
 from gradysim.scenario.lookup import Found, Lookup
 from gradysim.scenario.options import IGNORED_MODULES
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.settings import SettingReader
 
 _PROTOCOL_PATHS = frozenset(key.path for key in PROTOCOL_KEYS)
 

@@ -25,7 +25,7 @@ from gradysim.scenario.keys import (
 from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
 from gradysim.scenario.node_spec import STRUCTS, InterfaceSpec
 from gradysim.scenario.schema import Key
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 
 def interface_counts(lookup: Lookup, groups: list[Group], settings: SettingReader) -> dict[str, int]:

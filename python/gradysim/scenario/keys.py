@@ -10,9 +10,8 @@ from dataclasses import dataclass, replace
 
 from gradysim.protocol.defaults import MOST_INTERFACES, TRANSMISSION_RANGE_M
 from gradysim.scenario.bands import CHANNEL_OF_802154, channel_by_default, first_channel_of_band
-from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key, ReadBy, engine_keys
-from gradysim.scenario.value.kinds import (
-    Kind,
+from gradysim.scenario.parameter_types import (
+    ParameterType,
     angle,
     choice,
     coordinate,
@@ -24,7 +23,8 @@ from gradysim.scenario.value.kinds import (
     si_number,
     text,
 )
-from gradysim.scenario.value.units import UNITS_IN_NAMES
+from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key, ReadBy, engine_keys
+from gradysim.scenario.units import UNITS_IN_NAMES
 
 _ENGINE = engine_keys()
 
@@ -46,7 +46,7 @@ class _Below:
     struct: str
     read_by: ReadBy | None = None
 
-    def __call__(self, name: str, field: str, kind: Kind, meaning: str, default: str = "") -> Key:
+    def __call__(self, name: str, field: str, kind: ParameterType, meaning: str, default: str = "") -> Key:
         """Return the key `path.name`, whose value goes to `struct.field`."""
         return Key(f"{self.path}.{name}", f"{self.struct}.{field}", kind, meaning, default, self.read_by)
 

@@ -8,19 +8,17 @@ from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue, Source
+from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
 from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY, has_radios
 from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import annotations_of, unit_of
 from gradysim.scenario.pattern_index import PatternIndex
-from gradysim.scenario.runs.unread_variables import UnreadVariables
+from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.runs import UnreadVariables
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.parameter_context import ParameterContext, differs_between_parameters
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
-from gradysim.scenario.value.quantity import Quantity
-from gradysim.scenario.value.units import Dimension
+from gradysim.scenario.units import Dimension, Quantity
 
 
 @dataclass(frozen=True)

@@ -11,15 +11,25 @@ from gradysim.scenario.ini import Entry, Ranked, read_ini, read_overrides, searc
 from gradysim.scenario.lookup import is_option, network_name, options_in_force
 from gradysim.scenario.network import Network, Networks
 from gradysim.scenario.options import NETWORK, OPTIONS
-from gradysim.scenario.runs.iterations import name_iterations
-from gradysim.scenario.runs.labels import free_text, with_labels
-from gradysim.scenario.runs.numbered_runs import numbered_runs
-from gradysim.scenario.runs.seed import check_seeds_of_runs, seed_of_file, whole_seed
-from gradysim.scenario.runs.settings_hash import entries_of_the_hash, settings_hash
-from gradysim.scenario.runs.variables import run_variables, substitute, substituted
+from gradysim.scenario.runs import (
+    check_seeds_of_runs,
+    entries_of_the_hash,
+    numbered_runs,
+    seed_of_file,
+    settings_hash,
+    whole_seed,
+)
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.settings import read_scalar
+from gradysim.scenario.sweep import (
+    free_text,
+    name_iterations,
+    run_variables,
+    substitute,
+    substituted,
+    with_labels,
+)
 from gradysim.scenario.unknown_keys import check_option
-from gradysim.scenario.value.setting import read_scalar
 
 _MOST_FAILED = 20
 """Combinations of iteration variables with errors, after which reading stops."""

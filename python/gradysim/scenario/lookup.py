@@ -12,6 +12,7 @@ from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector
+from gradysim.scenario.expressions import differs_between_parameters
 from gradysim.scenario.ini import Entry, Ranked
 from gradysim.scenario.options import (
     IGNORED_BEGINNINGS,
@@ -22,10 +23,9 @@ from gradysim.scenario.options import (
     OPTIONS,
 )
 from gradysim.scenario.pattern_index import PatternIndex
+from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.schema import Key
-from gradysim.scenario.value.parameter_context import differs_between_parameters
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
-from gradysim.scenario.value.setting import Setting, SettingReader
+from gradysim.scenario.settings import Setting, SettingReader
 
 _NETWORK_NAME = re.compile(r'("?)(?:[A-Za-z_]\w*\.)*([A-Za-z_]\w*)\1', re.ASCII)
 """Names of packages may precede it; quotes are optional."""

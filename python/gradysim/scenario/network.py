@@ -6,6 +6,7 @@ from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
+from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.geojson import read_obstacle_files
 from gradysim.scenario.groups import Group, find_groups
@@ -18,20 +19,17 @@ from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.nodes import build_nodes, load_protocols
 from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
 from gradysim.scenario.protocols import ProtocolLoader
-from gradysim.scenario.runs.file_hashes import FileHashes
-from gradysim.scenario.runs.iterations import IterationVariable
-from gradysim.scenario.runs.unread_variables import UnreadVariables, line_instead, unread_variables
-from gradysim.scenario.runs.variables import depends_on_run, substitute, substituted
+from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.schema import Key
+from gradysim.scenario.settings import Setting, SettingReader
+from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
 from gradysim.scenario.unknown_keys import (
     NoSuchNodeError,
     ProtocolAndInterfaces,
     check_names,
     check_parameters,
 )
-from gradysim.scenario.value.drawing_functions import drawing_function_in
-from gradysim.scenario.value.setting import Setting, SettingReader
 
 
 @dataclass(frozen=True)
@@ -182,7 +180,7 @@ class Networks:
         self._loader, self._hashes = ProtocolLoader(), FileHashes(folder)
         parameters = [entry for _, entry in ranked if not is_option(entry) and not is_ignored(entry)]
         self._varying = [entry for entry in parameters if depends_on_run(entry)]
-        self._always_draws = any(drawing_function_in(entry.text) for entry in parameters)
+        self._always_draws = any(distribution_in(entry.text) for entry in parameters)
         self._last: _Read | None = None
         self._of_other_runs: list[Sequence[Source]] = []
         self._read: set[Source] = set()
@@ -203,7 +201,7 @@ class Networks:
         texts, last = self._texts(variables), self._last
         if last is None or texts != last.texts:
             return self._read_network(texts, variables, seed), True
-        if seed == last.seed or not (self._always_draws or any(map(drawing_function_in, texts))):
+        if seed == last.seed or not (self._always_draws or any(map(distribution_in, texts))):
             return last.network, True
         if last.settings.is_right_for_all_seeds():
             return last.network, False

@@ -17,7 +17,7 @@ from gradysim.scenario.errors import ConfigError, Source, did_you_mean
 from gradysim.scenario.keys import ARDUPILOT
 from gradysim.scenario.parameters import can_be_set, parameters_of
 from gradysim.scenario.protocol_modules import Origin, origin_of
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 
 @dataclass(frozen=True)

@@ -27,13 +27,13 @@ from gradysim.scenario.keys import (
 from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
 from gradysim.scenario.native_protocols import native_protocol
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
+from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.placement import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
 from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.schema import Key
+from gradysim.scenario.settings import Setting, SettingReader
 from gradysim.scenario.unknown_keys import is_misspelled_class
-from gradysim.scenario.value.kinds import Kind
-from gradysim.scenario.value.setting import Setting, SettingReader
 
 _AXES = ("x", "y", "z")
 _TYPENAME = next(key for key in MOBILITY_KEYS if key.target == "mobility.typename")
@@ -173,7 +173,7 @@ class _NodeBuilder:
             for key in NODE_KEYS
             if key not in (*PROTOCOL_KEYS, *WLAN_KEYS) and (candidates := lookup.candidates(key.path))
         ]
-        self._parameters: dict[type[IProtocol], list[tuple[str, Kind, Candidates]]] = {}
+        self._parameters: dict[type[IProtocol], list[tuple[str, ParameterType, Candidates]]] = {}
         self._interfaces = InterfaceBuilder(lookup, settings, errors)
         self._shared: dict[object, _Shared] = {}
         self._grids: dict[tuple[_Shared, str], Grid] = {}
@@ -208,7 +208,7 @@ class _NodeBuilder:
     def _parameter_settings(
         self,
         name: str,
-        parameters: Sequence[tuple[str, Kind, Candidates]],
+        parameters: Sequence[tuple[str, ParameterType, Candidates]],
         found: Sequence[Found | None],
     ) -> dict[str, Setting]:
         read: dict[str, Setting] = {}

@@ -10,7 +10,7 @@ from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
 from gradysim.scenario.lookup import Lookup
 from gradysim.scenario.schema import Key
-from gradysim.scenario.value.setting import Setting, SettingReader
+from gradysim.scenario.settings import Setting, SettingReader
 
 Corner = tuple[float, float]
 """x and y in meters."""

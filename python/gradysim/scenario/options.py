@@ -6,8 +6,8 @@ run are refused.
 
 from types import MappingProxyType
 
+from gradysim.scenario.parameter_types import ParameterType, integer, quantity, text
 from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
-from gradysim.scenario.value.kinds import Kind, integer, quantity, text
 
 LONGEST_RUN_S = 9_200_000
 """The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""
@@ -75,7 +75,7 @@ OPTION_KEYS: tuple[Key, ...] = (
     Key("description", "option.description", text(), "What the configuration is about", default='""'),
 )
 
-OPTIONS: dict[str, Kind] = {key.path: key.kind for key in OPTION_KEYS}
+OPTIONS: dict[str, ParameterType] = {key.path: key.kind for key in OPTION_KEYS}
 
 NETWORK = "network"
 """The option that says what paths begin with: OMNeT++'s, of which nothing else counts."""

@@ -9,11 +9,18 @@ from functools import cache, lru_cache, partial, wraps
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue
+from gradysim.scenario.functions import Value
 from gradysim.scenario.native_protocols import NativeProtocol
-from gradysim.scenario.value.kinds import Kind, Scalar, boolean, integer, number_in, si_number, text
-from gradysim.scenario.value.operators import Value
-from gradysim.scenario.value.quantity import Quantity
-from gradysim.scenario.value.units import UNITS, UNITS_IN_NAMES, Dimension
+from gradysim.scenario.parameter_types import (
+    ParameterType,
+    Scalar,
+    boolean,
+    integer,
+    number_in,
+    si_number,
+    text,
+)
+from gradysim.scenario.units import UNITS, UNITS_IN_NAMES, Dimension, Quantity
 
 _MOST_CLASSES = 256
 """Classes whose parameters are cached. A script may read files again and again, each time as new classes."""
@@ -32,13 +39,13 @@ _CONTRACT = {*dir(IProtocol), *annotations_of(IProtocol)}
 
 
 @lru_cache(maxsize=_MOST_CLASSES)
-def parameters_of(cls: type[IProtocol]) -> dict[str, Kind]:
+def parameters_of(cls: type[IProtocol]) -> dict[str, ParameterType]:
     """Return {name: type of its values} for the parameters of a protocol.
 
     The type is that of the default; `delay: float = 0` is a float, too. Quantities are converted to the unit
     of the parameter, or to SI units if nothing declares it. An angle needs a declared unit.
     """
-    parameters: dict[str, Kind] = {}
+    parameters: dict[str, ParameterType] = {}
     for base in reversed(cls.__mro__):
         if base in IProtocol.__mro__:
             continue
@@ -91,7 +98,7 @@ _BOOLEAN = boolean()
 _TEXT = text()
 
 
-def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: object) -> Kind | None:
+def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: object) -> ParameterType | None:
     annotated = annotation.__name__ if isinstance(annotation, type) else str(annotation)
     is_float = re.search(r"\bfloat\b", annotated) is not None
     unit = unit_of(cls, name)
@@ -105,7 +112,7 @@ def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: objec
 
 
 @cache
-def _float_without_unit(name: str) -> Kind:
+def _float_without_unit(name: str) -> ParameterType:
     """Take any number but an angle: commands want degrees, and the SI unit is the radian."""
     any_number = si_number()
 
@@ -122,7 +129,7 @@ def _float_without_unit(name: str) -> Kind:
 
 
 @cache
-def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> Kind:
+def _integer_of(name: str, default: int, unit: str | None, is_native: bool) -> ParameterType:
     number = "an integer" if unit is None else f"an integer number of {unit}"
     any_integer = integer(at_most=None)
 

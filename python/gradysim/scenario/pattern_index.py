@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from operator import itemgetter
 from typing import Generic, NamedTuple, TypeVar
 
-from gradysim.scenario.value.pattern import Pattern, Token
+from gradysim.scenario.patterns import Pattern, Token
 
 
 class Place(NamedTuple):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.groups import Group
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 GRID_FIELDS = ("num_hosts", "columns", "rows", "margin_{}", "separation_{}")
 """Fields of a position that a grid is made of; the last two for each of its axes."""

@@ -11,11 +11,9 @@ from gradysim.scenario.lookup import is_ignored, options_in_force
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.options import LONGEST_RUN_S
-from gradysim.scenario.runs.labels import with_labels
-from gradysim.scenario.runs.seed import checked_seed
-from gradysim.scenario.runs.unread_variables import UnreadVariables
-from gradysim.scenario.runs.variables import run_variables, substitute
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.runs import UnreadVariables, checked_seed
+from gradysim.scenario.settings import Setting
+from gradysim.scenario.sweep import run_variables, substitute, with_labels
 
 
 @dataclass(frozen=True)

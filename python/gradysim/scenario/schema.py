@@ -11,9 +11,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from gradysim.scenario.value.decibels import db_from_ratio
-from gradysim.scenario.value.kinds import (
-    Kind,
+from gradysim.scenario.parameter_types import (
+    ParameterType,
     boolean,
     choice,
     file_name,
@@ -25,6 +24,7 @@ from gradysim.scenario.value.kinds import (
     quantity,
     whole_bytes,
 )
+from gradysim.scenario.units import db_from_ratio
 
 HAS_TO_BE_GIVEN = "none: it has to be given"
 """The default of a key without which its model, or a run, does not work."""
@@ -63,7 +63,7 @@ class Key:
 
     path: str
     target: str
-    kind: Kind
+    kind: ParameterType
     meaning: str
     default: str = ""
     read_by: ReadBy | None = None
@@ -114,7 +114,7 @@ def engine_keys() -> Mapping[str, tuple[Key, ...]]:
     return {struct: tuple(of_struct) for struct, of_struct in keys.items()}
 
 
-def _kind(kind: str, **details: Any) -> Kind:
+def _kind(kind: str, **details: Any) -> ParameterType:
     """The type of a declaration: `kind` is the name that cpp/netsim/config/field.hpp gives it."""
     match kind:
         case "quantity":

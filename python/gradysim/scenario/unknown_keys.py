@@ -10,6 +10,7 @@ from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.protocol.interface import IProtocol
+from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.groups import Group
 from gradysim.scenario.ini import Entry
@@ -32,8 +33,7 @@ from gradysim.scenario.lookup import Found, Lookup, is_ignored
 from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
 from gradysim.scenario.parameters import annotations_of, parameters_of
 from gradysim.scenario.pattern_index import TextIndex
-from gradysim.scenario.value.drawing_functions import drawing_function_in
-from gradysim.scenario.value.pattern import Pattern, compile_pattern
+from gradysim.scenario.patterns import Pattern, compile_pattern
 
 
 class NoSuchNodeError(ConfigError):
@@ -248,7 +248,7 @@ def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
 def _is_beyond_drawn_size(found: Found, groups: list[Group]) -> bool:
     """Return whether a key names an index of a group whose size is drawn: other seeds may have it."""
     size = _size_of_indexed_group(found, groups)
-    return size is not None and bool(drawing_function_in(size.entry.text))
+    return size is not None and bool(distribution_in(size.entry.text))
 
 
 def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:

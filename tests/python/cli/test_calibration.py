@@ -13,8 +13,8 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli.calibrate import check_picture, draw, text_of_calibration
 from gradysim.integrated.calibration import Calibration
-from gradysim.scenario.value.expression import parse_value
-from gradysim.scenario.value.kinds import quantity
+from gradysim.scenario.expressions import parse_value
+from gradysim.scenario.parameter_types import quantity
 
 
 def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None) -> Calibration:

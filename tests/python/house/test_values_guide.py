@@ -11,9 +11,9 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.value.drawing_functions import DRAWING_FUNCTIONS
-from gradysim.scenario.value.functions import FUNCTIONS, SELECT_WRITTEN
-from gradysim.scenario.value.operators import OPERATORS
+from gradysim.scenario.distributions import DISTRIBUTIONS
+from gradysim.scenario.expressions import SELECT_WRITTEN
+from gradysim.scenario.functions import FUNCTIONS, OPERATORS
 
 GUIDE = "docs/guides/values.md"
 
@@ -55,10 +55,10 @@ def test_its_tables_have_all_functions(root: Path) -> None:
     _, pure, drawing = (root / GUIDE).read_text().split("| function |")
     pure = pure.partition("## ")[0]
     assert sorted(functions_in(pure)) == sorted(
-        [SELECT_WRITTEN, *(function.written for function in FUNCTIONS.values())]
+        [SELECT_WRITTEN, *(written for written, _ in FUNCTIONS.values())]
     )
     drawn = functions_in(drawing.partition("All values")[0])
-    assert drawn == [function.written for function in DRAWING_FUNCTIONS.values()]
+    assert drawn == [function.written for function in DISTRIBUTIONS.values()]
 
 
 def test_its_table_has_all_operators(root: Path) -> None:

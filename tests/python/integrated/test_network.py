@@ -10,7 +10,7 @@ from gradysim.integrated.network import (
     set_fields,
 )
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 
 
 def setting(value, key="key"):

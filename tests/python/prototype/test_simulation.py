@@ -8,7 +8,7 @@ from gradysim.prototype.simulation import build_simulation, communication_medium
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.keys import ARDUPILOT, MOBILITY_KEYS
 from gradysim.scenario.scenario import CommunicationMediumSpec
-from gradysim.scenario.value.setting import Setting
+from gradysim.scenario.settings import Setting
 from python.recorded_protocols import COUNTER, EARLY, FLYING, vectors_of
 
 TYPENAME = next(key for key in MOBILITY_KEYS if key.path == "mobility.typename")

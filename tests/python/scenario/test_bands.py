@@ -9,7 +9,7 @@ from gradysim.scenario.bands import (
     first_channel_of_band,
 )
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.value.expression import parse_value
+from gradysim.scenario.expressions import parse_value
 
 
 @pytest.mark.parametrize(

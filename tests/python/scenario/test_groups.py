@@ -6,7 +6,7 @@ from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.lookup import Lookup
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 
 def groups_of(*sections: str) -> list[Group]:

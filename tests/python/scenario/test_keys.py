@@ -1,6 +1,6 @@
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.keys import GROUP_SIZE, NETWORK_KEYS, NODE_KEYS, OBSTACLE_KEYS, obstacle_path
 from gradysim.scenario.schema import ReadBy, engine_keys
-from gradysim.scenario.value.expression import parse_value
 
 ALL_KEYS = (*NODE_KEYS, *NETWORK_KEYS)
 

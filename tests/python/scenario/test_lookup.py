@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.ini import Entry, Ranked
 from gradysim.scenario.lookup import Lookup, network_name, read_struct
+from gradysim.scenario.parameter_types import number, quantity
+from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.schema import Key
-from gradysim.scenario.value.kinds import number, quantity
-from gradysim.scenario.value.pattern import compile_pattern
-from gradysim.scenario.value.setting import SettingReader
+from gradysim.scenario.settings import SettingReader
 
 
 def entries(*keys: str) -> list[Ranked]:

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue
+from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.native_protocols import NativeParameter, NativeProtocol
 from gradysim.scenario.parameters import parameters_of, parametrize, unit_of
-from gradysim.scenario.value.expression import parse_value
 from python.quiet_protocol import Quiet
 
 

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.pattern_index import PatternIndex, Place, TextIndex, landmarks, names_at
-from gradysim.scenario.value.pattern import compile_pattern
+from gradysim.scenario.patterns import compile_pattern
 
 
 @pytest.mark.parametrize(

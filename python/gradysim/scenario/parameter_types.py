@@ -1,0 +1,316 @@
+"""Types of parameters: a quantity of some dimension, an integer, one of several names, and so on.
+
+A type turns the value that was written into what a struct holds: SI units, powers in watts. Constructors take
+keyword arguments: `quantity("s", above=0, shown="ms")`. Bounds are in the unit of the type: `at_least` and
+`at_most` are inclusive, `above` is exclusive, and `special` is one more value that is allowed.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from gradysim.protocol.position import LARGEST_COORDINATE_M
+from gradysim.scenario.errors import BadValue, nearest
+from gradysim.scenario.functions import Value, text_of
+from gradysim.scenario.units import UNITS, Dimension, Quantity, db_from_ratio, ratio_from_db
+
+Scalar = float | int | str | bool
+
+MAX_INTEGER = 2**31 - 1
+"""The largest `int` of the engine."""
+
+_STRONGEST_W = 1
+
+
+@dataclass(frozen=True, eq=False)
+class ParameterType:
+    """What the value of a parameter has to be.
+
+    Attributes:
+        expected: Its name in messages, after "expected".
+        convert: Checks a value and returns what is to be stored. Raises BadValue.
+        is_text: Whether it is a string: an override needs no quotes.
+        names: The strings that are allowed, if not all are.
+        is_file: Whether the string is the name of a file, relative to the .ini file.
+        unit: For a list of keys: the unit, or what it is instead ("whole number").
+        show: Writes what is stored as it would stand in a file, in `unit`.
+        has_all_between: Whether every value between two valid values is valid, whatever else the file says.
+    """
+
+    expected: str
+    convert: Callable[[Value], Scalar]
+    is_text: bool = False
+    names: tuple[str, ...] = ()
+    is_file: bool = False
+    unit: str = ""
+    show: Callable[[Scalar], str] = str
+    has_all_between: bool = False
+
+
+@dataclass(frozen=True)
+class _Range:
+    """The range of a number, and one value beside it that is allowed too."""
+
+    at_least: float | None = None
+    above: float | None = None
+    at_most: float | None = None
+    special: float | None = None
+
+    def check(self, result: float, value: Value) -> None:
+        """Raise BadValue for a number that is out of range or not finite."""
+        if self.special is not None and result == self.special:
+            return
+        if isinstance(result, float) and not math.isfinite(result):
+            raise BadValue(f"`{text_of(value)}` is not finite")
+        if (
+            (self.at_least is not None and result < self.at_least)
+            or (self.above is not None and result <= self.above)
+            or (self.at_most is not None and result > self.at_most)
+        ):
+            raise BadValue("it is out of range")
+
+    def text(self, unit: str = "") -> str:
+        """The range for a message, ", at least 0m, or -1m"."""
+        bounds = (
+            ("at least", self.at_least),
+            ("greater than", self.above),
+            ("at most", None if self.at_most == MAX_INTEGER else self.at_most),
+        )
+        parts = [f"{name} {_bound(bound)}{unit}" for name, bound in bounds if bound is not None]
+        or_special = f", or {self.special:g}{unit}" if self.special is not None else ""
+        return (f", {' and '.join(parts)}" if parts else "") + or_special
+
+
+def _bound(bound: float) -> str:
+    return str(bound) if isinstance(bound, int) else f"{bound:.12g}"
+
+
+def quantity(
+    unit: str,
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
+    special: float | None = None,
+    shown: str = "",
+) -> ParameterType:
+    """Return the type of finite quantities, converted to `unit`. Lists of keys show them in `shown`."""
+    target, limits = UNITS[unit], _Range(at_least, above, at_most, special)
+
+    def convert(value: Value) -> float:
+        number = _quantity_of(value).to(target)
+        limits.check(number, value)
+        return number
+
+    def show(value: Scalar) -> str:
+        number = float(value)
+        return f"{number:g}{unit}" if number == special else _in_unit(number, unit, shown or unit)
+
+    return ParameterType(target.dimension.value + limits.text(unit), convert, unit=shown or unit, show=show)
+
+
+def _in_unit(value: float, unit: str, shown: str) -> str:
+    """Write `value`, which is in `unit`, in the unit `shown`."""
+    source, target = UNITS[unit], UNITS[shown]
+    number = value * float(source.factor / target.factor)
+    return f"{db_from_ratio(number) if target.logarithmic else number:.6g}{shown}"
+
+
+def coordinate() -> ParameterType:
+    """Return the type of coordinates within the scene, in meters."""
+    return quantity("m", at_least=-LARGEST_COORDINATE_M, at_most=LARGEST_COORDINATE_M)
+
+
+def place() -> ParameterType:
+    """Return the type of coordinates where a node may be, whatever else is there."""
+    return replace(coordinate(), has_all_between=True)
+
+
+def angle() -> ParameterType:
+    """Return the type of angles, in radians."""
+    return quantity("rad", shown="deg")
+
+
+def level(zero: bool = False) -> ParameterType:
+    """Return the type of powers at a receiver, in watts; `zero` is allowed or not.
+
+    At most 1 W (30 dBm): more than any radio receives, and less than the usual levels without their minus
+    sign. The engine has no such bound: in networks built in Python, radios may stand side by side.
+    """
+    power = quantity("W", at_least=0, shown="dBm") if zero else quantity("W", above=0, shown="dBm")
+
+    def convert(value: Value) -> Scalar:
+        power_w = power.convert(value)
+        if float(power_w) > _STRONGEST_W:
+            raise BadValue(
+                f"`{text_of(value)}` is more than any radio receives", "; is a minus sign missing?"
+            )
+        return power_w
+
+    return replace(power, expected=f"{power.expected} and at most {_STRONGEST_W}W", convert=convert)
+
+
+def number(
+    at_least: float | None = None,
+    above: float | None = None,
+    at_most: float | None = None,
+    special: float | None = None,
+) -> ParameterType:
+    """Return the type of finite numbers without a unit."""
+    limits = _Range(at_least, above, at_most, special)
+
+    def convert(value: Value) -> float:
+        result = float(_plain(value).number)
+        limits.check(result, value)
+        return result
+
+    return ParameterType(
+        f"a plain number{limits.text()}", convert, unit="number", show=lambda value: f"{value:g}"
+    )
+
+
+def integer(
+    at_least: int | None = None, at_most: int | None = MAX_INTEGER, special: int | None = None
+) -> ParameterType:
+    """Return the type of integers, written without a point; by default at most an `int` of the engine."""
+    limits = _Range(at_least, None, at_most, special)
+
+    def convert(value: Value) -> int:
+        result = _plain(value).number
+        if not isinstance(result, int):
+            if math.isfinite(result) and result == int(result):
+                hint = f"; did you mean `{int(result)}`, or `int(...)` of an expression?"
+                raise BadValue("it is a floating-point number", hint)
+            raise BadValue(f"`{text_of(value)}` is no whole number")
+        limits.check(result, value)
+        return result
+
+    return ParameterType(f"a whole number{limits.text()}", convert, unit="whole number")
+
+
+def whole_bytes(at_least: int = 0, at_most: int = MAX_INTEGER) -> ParameterType:
+    """Return the type of sizes, converted to a whole number of bytes."""
+    size = quantity("B", at_least=at_least, at_most=at_most)
+
+    def convert(value: Value) -> int:
+        result = float(size.convert(value))
+        if not result.is_integer():
+            raise BadValue(f"`{text_of(value)}` is no whole number of bytes")
+        return int(result)
+
+    return replace(size, convert=convert)
+
+
+def power_ratio(at_least_db: float = -300) -> ParameterType:
+    """Return the type of ratios of powers in decibels, converted to linear ones."""
+    decibels = quantity("dB", at_least=at_least_db, at_most=300)
+    return replace(
+        decibels,
+        convert=lambda value: ratio_from_db(float(decibels.convert(value))),
+        show=lambda ratio: decibels.show(db_from_ratio(float(ratio))),
+    )
+
+
+def boolean() -> ParameterType:
+    """Return the type of true and false."""
+
+    def convert(value: Value) -> bool:
+        if not isinstance(value, bool):
+            raise BadValue(f"it is {_description(value)}")
+        return value
+
+    name = "true or false"
+    return ParameterType(name, convert, unit=name, show=lambda value: "true" if value else "false")
+
+
+def text() -> ParameterType:
+    """Return the type of strings in quotes."""
+    return ParameterType('a text in quotes ("...")', _string_of, is_text=True, unit="text", show=_quoted)
+
+
+def file_name() -> ParameterType:
+    """Return the type of names of files, in quotes, relative to the folder of the .ini file."""
+    return replace(text(), expected='the name of a file in quotes ("...")', is_file=True, unit="file")
+
+
+def choice(*names: str, otherwise: str = "") -> ParameterType:
+    """Return the type of strings that are one of `names`.
+
+    `otherwise` is the hint for a string that is not a misspelling of one of them: what to use here instead
+    of what other simulators have under that name.
+    """
+
+    def convert(value: Value) -> str:
+        name = _string_of(value)
+        if name not in names:
+            if otherwise and name and not nearest(name, names, strict=True):
+                raise BadValue(f"`{name}` is not known", f"; {otherwise}")
+            raise BadValue(f"`{name}` is not known", suggestion=nearest(name, names))
+        return name
+
+    listed = ", ".join(map(_quoted, names))
+    expected = f"one of {listed}" if len(names) > 1 else listed
+    return ParameterType(expected, convert, is_text=True, names=names, unit=expected, show=_quoted)
+
+
+def si_number() -> ParameterType:
+    """Return the type of numbers, or quantities converted to SI. Sizes have no SI unit; decibels stay."""
+
+    def convert(value: Value) -> float:
+        given = _quantity_of(value)
+        if given.unit is None:
+            return _not_nan(float(given.number), value)
+        if given.unit.dimension is Dimension.DATA:
+            raise BadValue("bits and bytes have no SI unit")
+        base = next(u for u in UNITS.values() if u.dimension is given.unit.dimension and u.factor == 1)
+        return _not_nan(given.to(base), value)
+
+    return ParameterType("a number, or a quantity that has an SI unit", convert, unit="number or quantity")
+
+
+def number_in(unit: str) -> ParameterType:
+    """Return the type of numbers that are taken as they are, or quantities converted to `unit`."""
+    target = UNITS[unit]
+
+    def convert(value: Value) -> float:
+        given = _quantity_of(value)
+        return _not_nan(float(given.number) if given.unit is None else given.to(target), value)
+
+    expected = f"{target.dimension.value}, or a number of {unit}"
+    return ParameterType(expected, convert, unit=unit, show=lambda value: f"{value:g}{unit}")
+
+
+def _quoted(string: Scalar) -> str:
+    return f'"{string}"'
+
+
+def _quantity_of(value: Value) -> Quantity:
+    if not isinstance(value, Quantity):
+        raise BadValue(f"it is {_description(value)}")
+    return value
+
+
+def _plain(value: Value) -> Quantity:
+    given = _quantity_of(value)
+    if given.unit is None or given.unit.dimension is Dimension.RATIO:
+        return given
+    raise BadValue(f"it has the unit `{given.unit.name}`")
+
+
+def _string_of(value: Value) -> str:
+    if not isinstance(value, str):
+        raise BadValue(f"it is {_description(value)}")
+    return value
+
+
+def _description(value: Value) -> str:
+    if isinstance(value, str):
+        return "a text"
+    if isinstance(value, bool):
+        return "a truth value"
+    return "a quantity" if value.unit else "a number"
+
+
+def _not_nan(result: float, value: Value) -> float:
+    if math.isnan(result):
+        raise BadValue(f"`{text_of(value)}` is no number")
+    return result

@@ -1,0 +1,345 @@
+"""Runs of a configuration: their numbers and seeds, and hashes that show whether two runs are the same."""
+
+import hashlib
+import os
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from operator import index
+from pathlib import Path
+from types import MappingProxyType
+from typing import NamedTuple
+
+from gradysim.scenario.errors import OF_SCRIPT, ConfigError, Source
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.keys import NETWORK_MODULES
+from gradysim.scenario.lookup import Lookup, is_ignored, is_option
+from gradysim.scenario.options import LARGEST_SEED, NETWORK, OPTIONS
+from gradysim.scenario.settings import read_scalar
+from gradysim.scenario.sweep import (
+    LABEL_OPTIONS,
+    MAX_VALUES,
+    REPETITION,
+    Constraint,
+    IterationVariable,
+    check_lock_step,
+    combinations,
+    count_combinations,
+    in_nesting_order,
+    substitute,
+)
+
+HASH_DIGITS = 16
+"""Hexadecimal digits of a hash, as many as a fingerprint has."""
+
+OF_NO_RUN = (
+    "repeat",
+    "constraint",
+    "iteration-nesting-order",
+    "description",
+    NETWORK,
+    "extends",
+    "abstract",
+    *LABEL_OPTIONS,
+)
+"""Options that say which runs there are, or that do not change what happens in a run."""
+
+_MOST_NAMES = 3
+"""Names of files that a message lists."""
+
+_RANGE_OF_RUNS = re.compile(r"\s*(\d{1,9})\s*(?:(?:\.\.|-)\s*(\d{1,9})\s*)?", re.ASCII)
+_NAMES = re.compile(r"\$\{(\w+)\}", re.ASCII)
+_OF_ALL = {"iterationvars", "iterationvarsf", "iterationvarsd", "experiment", "measurement", "replication"}
+"""Variables that may contain the values of others."""
+
+
+class NumberedRun(NamedTuple):
+    """One run: its number, its repetition, and the values of the iteration variables by name."""
+
+    number: int
+    repetition: int
+    iterations: dict[str, str]
+
+
+def numbered_runs(
+    options: Mapping[str, Entry],
+    variables: Sequence[IterationVariable],
+    config: str,
+    runs: str | Iterable[int] | None,
+    source: Source,
+    name: str,
+) -> tuple[list[NumberedRun], int]:
+    """Return the runs that are wanted, and the number of all.
+
+    All runs are the combinations of values that the constraint leaves, each repeated. Repetitions are values
+    of one more variable, the innermost one unless `iteration-nesting-order` says otherwise. `source` is the
+    place of the configuration, and `name` what messages about `runs` begin with. Raises ConfigError if there
+    are no runs or too many, and what `select_runs` raises.
+    """
+    repetitions = _repetitions(options.get("repeat"), source)
+    nested = in_nesting_order([*variables, repetitions], options.get("iteration-nesting-order"))
+    check_lock_step(nested)
+    repeat, combined = len(repetitions.values), count_combinations(variables)
+    count = combined * repeat
+    if count > MAX_VALUES:
+        raise ConfigError(
+            f"configuration `{config}` has {combined} combinations of values and {repeat} runs of each;"
+            f" expected at most {MAX_VALUES} runs",
+            repetitions.source,
+        )
+    made_of = f"{combined} combinations of values, `repeat = {repeat}`" if variables else ""
+    entry = options.get("constraint")
+    constraint = Constraint(entry) if entry else None
+    if constraint is not None:
+        count = sum(1 for _ in _allowed(nested, constraint))
+        made_of = f"what the constraint leaves of {made_of}" if made_of else ""
+        if count == 0:
+            problem = f"none of {combined} combinations of values is left; expected one at least"
+            raise ConfigError.at(constraint.source, problem)
+    numbers = select_runs(runs, count, config, repetitions.source, made_of, name)
+    wanted = set(numbers)
+    every = islice(_allowed(nested, constraint), numbers[-1] + 1 if numbers else 0)
+    chosen = [
+        NumberedRun(number, int(values.pop(REPETITION)), values)
+        for number, values in enumerate(every)
+        if number in wanted
+    ]
+    return chosen, count
+
+
+def _allowed(
+    variables: Sequence[IterationVariable], constraint: Constraint | None
+) -> Iterator[dict[str, str]]:
+    every = combinations(variables)
+    return every if constraint is None else filter(constraint.holds, every)
+
+
+def _repetitions(repeat: Entry | None, source: Source) -> IterationVariable:
+    """The variable `repetition`. Raises ConfigError if the option is not a number."""
+    if repeat is None:
+        return IterationVariable(REPETITION, ("0",), source)
+    if "${" in repeat.text:
+        raise ConfigError.at(repeat.source, "it is the same for all combinations; expected a number")
+    count = int(read_scalar(repeat, OPTIONS["repeat"]))
+    return IterationVariable(REPETITION, tuple(map(str, range(count))), repeat.source)
+
+
+def select_runs(
+    runs: str | Iterable[int] | None,
+    count: int,
+    config: str,
+    source: Source,
+    made_of: str = "",
+    name: str = OF_SCRIPT.runs,
+) -> list[int]:
+    """Return run numbers such as "0,2,5..9" in increasing order, each once; 0 to count-1 for None.
+
+    `source` is where `count` comes from, and `made_of` says how, if `repeat` alone does not. `name` is what
+    messages about `runs` begin with.
+
+    Raises:
+        ConfigError: The string is not a list of numbers, or there is no such run.
+        TypeError: `runs` is neither a string nor integers.
+    """
+    if runs is None:
+        return list(range(count))
+    ranges = _ranges(runs, name) if isinstance(runs, str) else _single_runs(runs, name)
+    for numbers in ranges:
+        if not numbers or numbers.start < 0 or numbers.stop > count:
+            run = numbers.start if not numbers or numbers.start < 0 else numbers.stop - 1
+            has = "run 0" if count == 1 else f"runs 0 to {count - 1}"
+            expected = f"expected {has} ({made_of or f'`repeat = {count}`'})"
+            raise ConfigError(f"configuration `{config}` has no run {run}; {expected}", source)
+    return sorted({run for numbers in ranges for run in numbers})
+
+
+def text_of_runs(numbers: Sequence[int]) -> str:
+    """Write increasing run numbers so that `select_runs` reads them."""
+    parts: list[list[int]] = []
+    for number in numbers:
+        if parts and parts[-1][-1] == number - 1:
+            parts[-1].append(number)
+        else:
+            parts.append([number])
+    return ",".join(f"{part[0]}..{part[-1]}" if part[1:] else str(part[0]) for part in parts)
+
+
+def _single_runs(runs: Iterable[int], name: str) -> list[range]:
+    try:
+        return [range(run, run + 1) for run in map(index, runs)]
+    except TypeError:
+        raise TypeError(f"{name} {runs!r:.80}: expected numbers of runs, such as [0, 2]") from None
+
+
+def _ranges(text: str, name: str) -> list[range]:
+    ranges = []
+    for part in text.split(","):
+        match = _RANGE_OF_RUNS.fullmatch(part)
+        if match is None or (match[2] and int(match[2]) < int(match[1])):
+            raise ConfigError(f"{name} {text}: expected numbers of runs and ranges such as `0,2,5..9`")
+        ranges.append(range(int(match[1]), int(match[2] or match[1]) + 1))
+    return ranges
+
+
+def whole_seed(seed: object) -> int:
+    """Return a seed as an int, since numpy's integers overflow. TypeError if it is not an integer."""
+    try:
+        return index(seed)  # type: ignore[arg-type]
+    except TypeError:
+        raise TypeError(f"seed = {seed!r}: expected a whole number") from None
+
+
+def checked_seed(seed: object) -> int:
+    """Return the seed of a run as an int. Raises TypeError and ValueError for what is not a seed."""
+    whole = whole_seed(seed)
+    if not 0 <= whole <= LARGEST_SEED:
+        raise ValueError(f"seed = {whole}: it is out of range; expected 0 to {LARGEST_SEED}")
+    return whole
+
+
+def check_seeds_of_runs(seed: int, last_run: int, name: str = OF_SCRIPT.seed) -> None:
+    """Raise ConfigError unless `seed`, that of run 0, and the seeds of all runs to the last are in range.
+
+    `name` is what the message begins with.
+    """
+    if not 0 <= seed <= LARGEST_SEED:
+        raise ConfigError(f"{name} {seed}: it is out of range; expected 0 to {LARGEST_SEED}")
+    if seed + last_run > LARGEST_SEED:
+        raise ConfigError(
+            f"{name} {seed}: run {last_run} would have the seed {seed + last_run}; expected at most"
+            f" {LARGEST_SEED - last_run}, since run N adds N"
+        )
+
+
+def seed_of_file(options: Mapping[str, Entry], run_number: int, variables: Mapping[str, str]) -> int:
+    """Return the seed that the file gives a run, by default its number. ConfigError if it is not a seed."""
+    seed = options.get("seed-set")
+    return int(read_scalar(substitute(seed, variables), OPTIONS["seed-set"])) if seed else run_number
+
+
+def entries_of_the_hash(ranked: Iterable[Ranked]) -> list[Ranked]:
+    """Return the entries that a settings hash covers: the first of each key, unless it is not about a run."""
+    first: dict[str, Ranked] = {}
+    for rank, entry in ranked:
+        if entry.key not in OF_NO_RUN and not is_ignored(entry):
+            first.setdefault(entry.key, Ranked(rank, entry))
+    return list(first.values())
+
+
+def settings_hash(entries: Iterable[Ranked]) -> str:
+    """Return the hash of entries whose variables have been replaced: of keys, values and their order."""
+    text = "\0".join(f"{entry.key}={entry.text}" for _, entry in entries)
+    return hashlib.sha256(text.encode()).hexdigest()[:HASH_DIGITS]
+
+
+class FileHashes:
+    """Hashes of files, relative to the folder of the .ini file. Reads each file once."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder.resolve()
+        self._hashes: dict[Path, tuple[str, str]] = {}
+
+    def of(self, files: Iterable[Path], others: Mapping[str, Path] = MappingProxyType({})) -> dict[str, str]:
+        """Return {name: hash}, sorted by name. Names are relative to the folder, or given in `others`."""
+        hashes = {self._named(file) for file in files}
+        hashes |= {(name, self._named(file)[1]) for name, file in others.items()}
+        return dict(sorted(hashes))
+
+    def _named(self, file: Path) -> tuple[str, str]:
+        known = self._hashes.get(file)
+        if known is None:
+            known = self._hashes[file] = (self._name(file.resolve()), hash_of(file))
+        return known
+
+    def _name(self, file: Path) -> str:
+        """Return a name that is the same if the user's folders are copied elsewhere."""
+        try:
+            return Path(os.path.relpath(file, self._folder)).as_posix()
+        except ValueError:  # another drive
+            return file.as_posix()
+
+
+def hash_of(file: Path) -> str:
+    """Return the hash of a file; "" if it cannot be read."""
+    try:
+        if not file.is_file():  # a missing file, or a pipe, whose content can be read only once
+            return ""
+        with file.open("rb") as content:
+            return hashlib.file_digest(content, "sha256").hexdigest()[:HASH_DIGITS]
+    except OSError:  # not readable, or an impossible name: what needs the file reports it
+        return ""
+
+
+def text_of_files(names: Sequence[str]) -> str:
+    """Return names of files for a sentence, "a.py and b.py"; of many only the first ones."""
+    left_out = len(names) - _MOST_NAMES
+    if left_out > 1:
+        return f"{', '.join(names[:_MOST_NAMES])} and {left_out} other files"
+    return " and ".join(names)
+
+
+@dataclass(frozen=True)
+class UnreadVariables:
+    """The iteration variables of one line that no run reads, since another line overrides it by another key.
+
+    `**.rtsThreshold = ${rts=3000B, 100B}` below `**.mac.dcf.rtsPolicy.rtsThreshold = 100B` makes runs of both
+    values, and these are alike. Of lines with the same key, `name_iterations` leaves the second one out.
+
+    Attributes:
+        source: The line.
+        names: Those of its variables that no other line refers to, either.
+        instead: A line that is in force for a parameter that this one matches, if one was found.
+    """
+
+    source: Source
+    names: tuple[str, ...]
+    instead: Source | None = None
+
+
+def unread_variables(
+    lines: Sequence[Entry], variables: Sequence[IterationVariable], read: Collection[Source]
+) -> dict[Source, tuple[str, ...]]:
+    """Return the lines that iterate over several values in vain, with the names of these variables.
+
+    `lines` have names for values, and `read` are the places of those that some run reads, without options.
+    """
+    by_name = {variable.name: variable for variable in variables}
+    used = {
+        name
+        for line in lines
+        if line.source in read or (is_option(line) and not is_ignored(line) and line.key not in OF_NO_RUN)
+        for name in _NAMES.findall(line.text)
+    }
+    if used & _OF_ALL:
+        return {}
+    for variable in variables:  # those that the used ones are in lock-step with
+        leader = variable
+        while leader.name in used and leader.follows in by_name and leader.follows not in used:
+            leader = by_name[leader.follows]
+            used.add(leader.name)
+    options = {line.source for line in lines if is_option(line)}
+    unread: dict[Source, tuple[str, ...]] = {}
+    for variable in variables:
+        if variable.name not in used and variable.source not in options and len(variable.values) > 1:
+            unread[variable.source] = (*unread.get(variable.source, ()), variable.name)
+    return unread
+
+
+def line_instead(
+    idle: Source, lookup: Lookup, nodes: Iterable[str], parameters: Iterable[str]
+) -> Source | None:
+    """Return a line that is in force where the line `idle` matches, too; None if there is none.
+
+    `nodes` are their names, `parameters` those that are read below them or below parts of the network.
+    """
+    found = next((found for found in lookup.found if found.entry.source == idle), None)
+    if found is None:
+        return None
+    for parameter in filter(found.may_end_in, sorted(parameters)):
+        for name in (*nodes, *NETWORK_MODULES):
+            if found.pattern.matches(f"{lookup.network}.{name}.{parameter}"):
+                first = lookup.first(name, parameter)
+                if first is not None and first.entry.source != idle:
+                    return first.entry.source
+    return None

@@ -1,0 +1,460 @@
+"""Parameter sweeps: iteration variables `${x=1, 2, 5}`, their combinations, and `${...}` replaced run by run.
+
+The grammar is OMNeT++'s: a configuration with iteration variables stands for the runs of all combinations of
+their values. `name_iterations` gives each variable a name and leaves `${NAME}` in its place; a variable
+without a name is called by its number: 0, 1, 2 and so on. `substitute` replaces names by values.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal, InvalidOperation, Overflow
+from itertools import product
+from pathlib import Path
+
+from gradysim.scenario.distributions import distribution_in
+from gradysim.scenario.errors import BadValue, ConfigError, Source, nearest
+from gradysim.scenario.expressions import parse_value
+from gradysim.scenario.functions import is_quoted, text_of, unquoted
+from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.lookup import is_ignored
+from gradysim.scenario.options import OPTIONS
+from gradysim.scenario.settings import read_scalar
+
+REPETITION = "repetition"
+"""The variable that counts the runs of one combination of values, from 0."""
+
+PREDEFINED = (
+    "runnumber",
+    REPETITION,
+    "configname",
+    "iterationvars",
+    "iterationvarsf",
+    "iterationvarsd",
+    "seedset",
+    "experiment",
+    "measurement",
+    "replication",
+    "inifile",
+    "network",
+)
+"""Variables that every run has: those of OMNeT++ that are the same when a run is repeated."""
+
+MAX_VALUES = 1_000_000
+"""Most values of one variable, and most runs of a configuration."""
+
+LABELS = {"experiment": "configname", "measurement": "iterationvars", "replication": REPETITION}
+"""{variable: its default, unless the option `experiment-label` and so on sets it}."""
+
+LABEL_OPTIONS = tuple(f"{name}-label" for name in LABELS)
+
+_SAME_IN_ALL_RUNS = ("configname", "inifile", "network")
+_HIDDEN_IN_HASH = {name: f"${{{name}}}" for name in ("runnumber", REPETITION, "seedset", "inifile")}
+"""Placeholders for variables in a settings hash: runs that differ only in these have the same settings."""
+
+_THE_OTHERS = "*"
+"""Stands for all other variables in `iteration-nesting-order`."""
+
+_MOST_DIGITS = 300
+"""Of the numbers of a range, which are written without exponents."""
+
+_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_DEFINITION = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)", re.ASCII | re.DOTALL)
+_LOCK_STEP = re.compile(r"(.*)!\s*([A-Za-z_]\w*)\s*", re.ASCII | re.DOTALL)
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})(?:\s+step\s+({_NUMBER}))?", re.ASCII)
+_LIKE_A_RANGE = re.compile(r"[-+]?\.?\d[^\"']*\.\.", re.ASCII)
+_VARIABLE = re.compile(r"\$\{([^{}]*)\}")
+_VARIABLE_OF_CONSTRAINT = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
+_NOT_IN_FILE_NAMES = re.compile(r"[^\w!()\[\];=+@~.#,-]", re.ASCII)
+
+
+@dataclass(frozen=True)
+class IterationVariable:
+    """One variable with the values that it takes.
+
+    Attributes:
+        name: As the file says, or a number.
+        values: Strings that take its place, in their order.
+        source: Where it is defined.
+        follows: Name of the variable that it is in lock-step with, or "".
+    """
+
+    name: str
+    values: tuple[str, ...]
+    source: Source
+    follows: str = ""
+
+
+def name_iterations(ranked: Iterable[Ranked]) -> tuple[list[Ranked], list[IterationVariable]]:
+    """Return the entries with `${NAME}` for each variable, and the variables in search order.
+
+    If an earlier entry has the same key, word for word, an entry is never in force: it is left out, with its
+    variables. An override thus fixes what the file iterates over.
+
+    Raises:
+        ConfigError: A variable is not understood, or defined twice.
+    """
+    named: list[Ranked] = []
+    left_out: list[Entry] = []
+    variables: dict[str, IterationVariable] = {}
+    seen: set[str] = set()
+    for rank, entry in ranked:
+        if "${" not in entry.text or is_ignored(entry):
+            named.append(Ranked(rank, entry))
+        elif entry.key not in seen:
+            named.append(Ranked(rank, _with_names(entry, variables)))
+        else:
+            left_out.append(entry)
+        seen.add(entry.key)
+    _check_names(named, variables, left_out)
+    return named, list(variables.values())
+
+
+def _with_names(entry: Entry, variables: dict[str, IterationVariable]) -> Entry:
+    """The entry with the name of each variable in its place. Adds the variables that it defines."""
+    text, start = "", 0
+    while (at := entry.text.find("${", start)) >= 0:
+        end = _closing_brace(entry, at + 2)
+        content = entry.text[at + 2 : end].strip()
+        name = content if _NAME.fullmatch(content) else _define(content, entry, variables)
+        text += f"{entry.text[start:at]}${{{name}}}"
+        start = end + 1
+    return replace(entry, text=text + entry.text[start:])
+
+
+def _closing_brace(entry: Entry, start: int) -> int:
+    end = start
+    while end < len(entry.text) and entry.text[end] != "}":
+        if entry.text.startswith("${", end):
+            raise ConfigError.at(entry.source, "a variable stands inside of another one; expected none there")
+        end += 2 if entry.text[end] == "\\" else 1
+    if end >= len(entry.text):
+        raise ConfigError.at(entry.source, "`${` is not closed; expected a `}`")
+    return end
+
+
+def _define(content: str, entry: Entry, variables: dict[str, IterationVariable]) -> str:
+    name, follows, listed = "", "", content
+    if match := _DEFINITION.fullmatch(listed):
+        name, listed = match[1], match[2]
+    if match := _LOCK_STEP.fullmatch(listed):
+        listed, follows = match[1], match[2]
+    if name in PREDEFINED:
+        raise ConfigError.at(entry.source, f"`${{{name}}}` is there in every run; expected another name")
+    if name in variables:
+        other = variables[name].source
+        place = f"line {other.line}" if other.line and other.file == entry.source.file else str(other)
+        raise ConfigError.at(
+            entry.source, f"`{name}` has its values at {place} already; expected `${{{name}}}` here"
+        )
+    name = name or str(sum(variable.isdigit() for variable in variables))
+    values = tuple(value for part in _split(listed) for value in _values(part, entry))
+    variables[name] = IterationVariable(name, values, entry.source, follows)
+    return name
+
+
+def _split(listed: str) -> list[str]:
+    """Split at commas, but not at those in quotes, in parentheses, or behind a backslash."""
+    parts, part, depth, quoted, position = [], "", 0, False, 0
+    while position < len(listed):
+        character = listed[position]
+        if character == "\\" and listed[position + 1 : position + 2] in (",", "}"):
+            position += 1
+            part += listed[position]
+        elif character == "\\" and quoted:
+            part += listed[position : position + 2]
+            position += 1
+        elif character == "," and depth <= 0 and not quoted:
+            parts.append(part.strip())
+            part = ""
+        else:
+            quoted ^= character == '"'
+            depth += 0 if quoted else (character in "([{") - (character in ")]}")
+            part += character
+        position += 1
+    return [*parts, part.strip()]
+
+
+def _values(part: str, entry: Entry) -> Iterator[str]:
+    if match := _RANGE.fullmatch(part):
+        try:
+            yield from _values_of_range(part, match[1], match[2], match[3] or "1")
+        except BadValue as error:
+            raise ConfigError.at(entry.source, str(error)) from None
+        return
+    problem = ""
+    if not part:
+        problem = "a value of `${...}` is empty; expected a list such as `${x=1, 2, 5}`"
+    elif _LIKE_A_RANGE.match(part):
+        numbers = "expected plain numbers, and the unit behind the brace: `${10..60 step 10}m`"
+        problem = f"`{part}` is no range; {numbers}"
+    elif function := distribution_in(part):
+        inside = "expected the variable inside of the function: `uniform(0s, ${1, 5}s)`"
+        for_a_run = "a value of `${...}` is for a whole run"
+        problem = f"`{function}` draws the value of one parameter, and {for_a_run}; {inside}"
+    if problem:
+        raise ConfigError.at(entry.source, problem)
+    yield part
+
+
+def _values_of_range(part: str, *numbers: str) -> Iterator[str]:
+    try:
+        first, last, step = map(Decimal, numbers)
+        if any(abs(number.adjusted()) > _MOST_DIGITS for number in (first, last, step)):
+            raise Overflow
+        count = (last - first) / step if step else Decimal(-1)
+    except (InvalidOperation, Overflow):  # an exponent beyond all bounds
+        expected = f"expected numbers of at most {_MOST_DIGITS} digits"
+        raise BadValue(f"`{part}` is out of range; {expected}") from None
+    if count < 0:
+        raise BadValue(f"`{part}` has no values; expected a step that leads from the first to the last")
+    if count >= MAX_VALUES:
+        raise BadValue(f"`{part}` has too many values; expected at most {MAX_VALUES}")
+    for index in range(int(count) + 1):
+        text = f"{first + index * step:f}"
+        yield text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def _check_names(
+    named: Iterable[Ranked], variables: Mapping[str, IterationVariable], left_out: Sequence[Entry]
+) -> None:
+    """Raise ConfigError for a name that is not a variable."""
+    known = [*(name for name in variables if not name.isdigit()), *PREDEFINED]
+    for _, entry in named:
+        for name in [] if is_ignored(entry) else _VARIABLE.findall(entry.text):
+            if name not in variables and name not in PREDEFINED:
+                raise _unknown(entry.source, name, known, left_out)
+    for variable in variables.values():
+        leader = variable.follows
+        if leader in PREDEFINED and leader != REPETITION:
+            expected = f"expected `{REPETITION}` or one that has"
+            raise ConfigError.at(variable.source, f"`{leader}` has no list of values; {expected}")
+        if leader and leader not in (*variables, REPETITION):
+            raise _unknown(variable.source, leader, known, left_out)
+
+
+def _unknown(source: Source, name: str, known: Sequence[str], left_out: Sequence[Entry]) -> ConfigError:
+    for entry in left_out:
+        if re.search(rf"\$\{{\s*{name}\s*=", entry.text):
+            problem = f"`{name}` has its values at {entry.source}"
+            problem += f", which another value of `{entry.key}` overrides"
+            expected = f"a value here that does without it, or `${{{name}=...}}` there"
+            return ConfigError.at(source, problem, expected=expected)
+    listed = ", ".join(f"`${{{other}}}`" for other in known)
+    expected = f"one of {listed}, or values such as `${{{name}=1, 2, 5}}`"
+    problem = f"there is no variable `{name}`"
+    return ConfigError.at(source, problem, expected=expected, suggestion=nearest(name, known))
+
+
+def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | None) -> list[IterationVariable]:
+    """Return the variables from the outermost to the innermost; by default in their order.
+
+    Raises ConfigError for an order that names an unknown variable, or one twice.
+    """
+    by_name = {variable.name: variable for variable in variables}
+    named = [name.strip() for name in wanted.text.strip('"').split(",") if name.strip()] if wanted else []
+    for place, name in enumerate(named):
+        if wanted and name in named[:place]:
+            raise ConfigError.at(wanted.source, f"`{name}` stands there twice; expected each once")
+        if wanted and name != _THE_OTHERS and name not in by_name:
+            raise ConfigError.at(
+                wanted.source,
+                f"there is no variable `{name}`",
+                expected=f"some of {', '.join(by_name)}, {_THE_OTHERS} for the others",
+                suggestion=nearest(name, by_name),
+            )
+    if _THE_OTHERS not in named:
+        named.append(_THE_OTHERS)
+    others = [name for name in by_name if name not in named]
+    at = named.index(_THE_OTHERS)
+    return [by_name[name] for name in [*named[:at], *others, *named[at + 1 :]]]
+
+
+def combinations(variables: Sequence[IterationVariable]) -> Iterator[dict[str, str]]:
+    """Return all combinations of values by name; the last variable changes fastest."""
+    by_name = {variable.name: variable for variable in variables}
+    leaders = {variable.name: _leader(variable, by_name).name for variable in variables}
+    free = [variable for variable in variables if not variable.follows]
+    for places in product(*(range(len(variable.values)) for variable in free)):
+        chosen = dict(zip([variable.name for variable in free], places, strict=True))
+        yield {variable.name: variable.values[chosen[leaders[variable.name]]] for variable in variables}
+
+
+def count_combinations(variables: Sequence[IterationVariable]) -> int:
+    """Return the number of combinations, without making them. ConfigError if there are too many."""
+    count = 1
+    for variable in variables:
+        count *= 1 if variable.follows else len(variable.values)
+        if count > MAX_VALUES:
+            problem = f"more than {MAX_VALUES} combinations of values; expected fewer"
+            raise ConfigError.at(variable.source, problem)
+    return count
+
+
+def check_lock_step(variables: Sequence[IterationVariable]) -> None:
+    """Raise ConfigError for a lock-step in a circle, or of variables with different numbers of values."""
+    by_name = {variable.name: variable for variable in variables}
+    for variable in variables:
+        leader = _leader(variable, by_name)
+        if len(leader.values) != len(variable.values):
+            raise ConfigError.at(
+                variable.source,
+                f"it has {len(variable.values)} values and is in lock-step with `{leader.name}`, which has"
+                f" {len(leader.values)}; expected as many",
+            )
+
+
+def _leader(variable: IterationVariable, by_name: Mapping[str, IterationVariable]) -> IterationVariable:
+    """The variable that this one is in lock-step with in the end; itself if there is none."""
+    passed = [variable.name]
+    while variable.follows:
+        if variable.follows in passed:
+            raise ConfigError.at(
+                variable.source, f"`{variable.follows}` is in lock-step with itself; expected no circle"
+            )
+        variable = by_name[variable.follows]
+        passed.append(variable.name)
+    return variable
+
+
+class Constraint:
+    """The option `constraint`: which combinations are runs, as in `$nodes * $rate < 500`.
+
+    It is an expression that is true or false. Variables are written `$x` or `${x}`, and their values take
+    their places. Each result is kept: repetitions ask for it again.
+    """
+
+    def __init__(self, entry: Entry) -> None:
+        self.source = entry.source
+        text = entry.text
+        if is_quoted(text):
+            text = text[1:-1].replace('\\"', '"')
+        self._text = text.strip()
+        self._known: dict[str, bool] = {"": True}  # that is the default
+
+    def holds(self, variables: Mapping[str, str]) -> bool:
+        """Whether a combination of values is wanted.
+
+        Raises:
+            ConfigError: The constraint is neither true nor false, or cannot be decided.
+        """
+
+        def value(match: re.Match[str]) -> str:
+            name = match[1] or match[2]
+            if name in variables:
+                return variables[name]
+            known = " or ".join(f"`${other}`" for other in variables) or "a configuration with `${x=1, 2}`"
+            raise ConfigError.at(self.source, f"there is no variable `{name}`; expected {known}")
+
+        text = _VARIABLE_OF_CONSTRAINT.sub(value, self._text)
+        if text not in self._known:
+            self._known[text] = self._decide(text)
+        return self._known[text]
+
+    def _decide(self, text: str) -> bool:
+        try:
+            value = parse_value(text)
+            if isinstance(value, bool):
+                return value
+            raise BadValue(f"`{text_of(value)}` is neither true nor false")
+        except BadValue as error:
+            error = error.with_problem(f"{error.problem} in `{text}`")
+            raise error.at(self.source, expected="comparisons such as `$x < $y && $y != 3`") from error
+
+
+def text_of_iterations(values: Mapping[str, object]) -> str:
+    """Write a combination as OMNeT++ does: `$x=1, $speed=5`."""
+    return ", ".join(f"${name}={value}" for name, value in values.items())
+
+
+def file_names_of_iterations(values: Mapping[str, str]) -> tuple[str, str]:
+    """Write a combination as OMNeT++ does for files, `x=1,speed=5-`, and for folders, `x=1/speed=5`."""
+    parts = [
+        f"{'' if name.isdigit() else f'{name}='}{_for_file_name(value)}" for name, value in values.items()
+    ]
+    return f"{','.join(parts)}-" if parts else "", "/".join(parts)
+
+
+def _for_file_name(value: str) -> str:
+    """A string without its quotes and without spaces, and a code for what some systems do not allow."""
+    if is_quoted(value):
+        value = unquoted(value)
+    return _NOT_IN_FILE_NAMES.sub(
+        lambda match: "".join(f"#{byte:02x}" for byte in match[0].encode(errors="surrogateescape")),
+        value.replace(" ", "_"),
+    )
+
+
+def run_variables(
+    file: Path, network: str, config: str, run_number: int, repetition: int, iterations: Mapping[str, str]
+) -> dict[str, str]:
+    """Return the variables of one run, without those that depend on seeds and labels: see `with_labels`."""
+    in_one_name, in_folders = file_names_of_iterations(iterations)
+    return {
+        **iterations,
+        "inifile": str(file),
+        "network": network,
+        "configname": config,
+        "runnumber": str(run_number),
+        REPETITION: str(repetition),
+        "iterationvars": text_of_iterations(iterations),
+        "iterationvarsf": in_one_name,
+        "iterationvarsd": in_folders,
+    }
+
+
+def with_labels(
+    variables: Mapping[str, str], seed: int, options: Mapping[str, Entry], *, for_hash: bool = False
+) -> dict[str, str]:
+    """Return the variables of one run with its seed and labels. A label may name those before it.
+
+    In `options` no variable has been replaced yet. `for_hash` puts placeholders in the place of numbers of
+    the run, and leaves labels as they are written, since expressions cannot be evaluated with placeholders.
+
+    Raises ConfigError for a label that is not a string, or that depends on itself.
+    """
+    known = {**variables, **_HIDDEN_IN_HASH} if for_hash else {**variables, "seedset": str(seed)}
+    for (name, default), option in zip(LABELS.items(), LABEL_OPTIONS, strict=True):
+        entry = options.get(option)
+        if entry is None:
+            known[name] = f"{'#' if default == REPETITION else ''}{known[default]}"
+        else:
+            label = substitute(entry, known)
+            known[name] = label.text if for_hash else free_text(label)
+    return known
+
+
+def free_text(entry: Entry) -> str:
+    """Return the string of an option that needs no quotes, as in OMNeT++."""
+    return str(read_scalar(entry, OPTIONS[entry.key])) if entry.text.startswith('"') else entry.text
+
+
+def substitute(entry: Entry, variables: Mapping[str, str]) -> Entry:
+    """Return the entry with its variables replaced by their values, also inside of strings.
+
+    Raises ConfigError for a variable that depends on this entry.
+    """
+    if "${" not in entry.text:
+        return entry
+
+    def value(match: re.Match[str]) -> str:
+        if match[1] not in variables:
+            raise ConfigError.at(
+                entry.source, f"`${{{match[1]}}}` follows from this value; expected one that does without it"
+            )
+        return variables[match[1]]
+
+    return replace(entry, text=_VARIABLE.sub(value, entry.text))
+
+
+def substituted(ranked: Iterable[Ranked], variables: Mapping[str, str]) -> list[Ranked]:
+    """Return the entries with their variables replaced, except in OMNeT++'s own entries."""
+    return [
+        Ranked(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked
+    ]
+
+
+def depends_on_run(entry: Entry) -> bool:
+    """Whether the value differs between the runs of a configuration."""
+    return any(match[1] not in _SAME_IN_ALL_RUNS for match in _VARIABLE.finditer(entry.text))
