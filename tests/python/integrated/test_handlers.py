@@ -153,7 +153,7 @@ def test_a_handler_that_waits_for_the_world_outside_is_refused(make_scenario):
     class Waiting(Watching, IAsyncNodeHandler):
         pass
 
-    with pytest.raises(ValueError, match=r"Waiting waits .*asyncio.* integrated mode"):
+    with pytest.raises(ValueError, match=r"Waiting .*asyncio.* integrated mode"):
         run(make_scenario(), handlers=[Waiting()])
 
 
