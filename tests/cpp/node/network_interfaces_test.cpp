@@ -219,9 +219,9 @@ TEST(Network, InterfacesOfTwoKindsCannotShareACentreFrequency) {
         network.add_node(config);
         FAIL();
     } catch (const ConfigError& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  "radio.carrier_hz = 2412000000 Hz: expected another one for sensor with its "
-                  "Ieee802154NarrowbandInterface, as a node with an Ieee80211Interface is at this one");
+        ASSERT_NE(error.problem(), nullptr);
+        EXPECT_EQ(error.problem()->field, "radio.carrier_hz");
+        EXPECT_NE(std::string(error.what()).find("sensor"), std::string::npos);
     }
     EXPECT_EQ(network.node_count(), 1);
 }

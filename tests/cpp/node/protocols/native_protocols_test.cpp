@@ -62,7 +62,7 @@ TEST_F(NativeProtocols, AnUnknownParameterIsRefusedWithTheNearest) {
 
 TEST_F(NativeProtocols, AValueOfAnotherKindIsRefused) {
     EXPECT_EQ(error_of("BeaconProtocol", {{"payload_bytes", 1.5}}),
-              "protocol.payload_bytes: expected a whole number");
+              "protocol.payload_bytes: expected an integer");
     EXPECT_EQ(error_of("BeaconProtocol", {{"interval", true}}), "protocol.interval: expected a number");
 }
 
