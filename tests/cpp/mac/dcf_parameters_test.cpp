@@ -55,9 +55,8 @@ TEST(DcfParameters, TheErrorNamesBothWindows) {
         of(mac);
         FAIL() << "no error";
     } catch (const ConfigError& error) {
-        EXPECT_EQ(
-            std::string(error.what()),
-            "mac.cw_max = 5: expected at least mac.cw_min, 31, of the operation mode g(mixed)");
+        EXPECT_EQ(std::string(error.what()),
+                  "mac.cw_max = 5: expected at least mac.cw_min, 31, of the operation mode g(mixed)");
     }
 }
 

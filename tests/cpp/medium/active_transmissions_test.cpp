@@ -18,8 +18,8 @@ protected:
     ActiveTransmissionsTest() {
         links.add(InterfaceId{0, 0}, {.trajectory = &place, .parameters = {.band = band}}, MountedAntenna(),
                   SimTime());
-        links.add(InterfaceId{1, 0}, {.trajectory = &elsewhere, .parameters = {.band = band}}, MountedAntenna(),
-                  SimTime());
+        links.add(InterfaceId{1, 0}, {.trajectory = &elsewhere, .parameters = {.band = band}},
+                  MountedAntenna(), SimTime());
     }
     ActiveTransmission& put(SimTime start, SimTime last_end) {
         Transmission transmission;
