@@ -1,6 +1,6 @@
 // The declaration of a configuration's fields: one row for each, next to its struct.
 //
-// All that knows a field is derived from its row: the check of its range, the Python binding and its type stub, the
+// Everything else about a field follows from its row: the check of its range, the Python binding and its type stub, the
 // keys that .ini files accept with their errors, the reference page of keys, and the values that the fuzzer tries.
 #pragma once
 

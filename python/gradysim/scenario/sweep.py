@@ -409,7 +409,7 @@ def with_labels(
 ) -> dict[str, str]:
     """Return the variables of one run with its seed and labels. A label may name those before it.
 
-    In `options` no variable has been replaced yet. `for_hash` puts placeholders in the place of numbers of
+    In `options` no variable has been replaced yet. `for_hash` puts placeholders instead of numbers of
     the run, and leaves labels as they are written, since expressions cannot be evaluated with placeholders.
 
     Raises ConfigError for a label that is not a string, or that depends on itself.
