@@ -14,8 +14,7 @@ from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTE
 from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import annotations_of, unit_of
-from gradysim.scenario.pattern_index import PatternIndex
-from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.patterns import Pattern, PatternIndex, compile_pattern
 from gradysim.scenario.runs import UnreadVariables
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.units import Dimension, Quantity

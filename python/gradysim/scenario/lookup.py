@@ -22,8 +22,7 @@ from gradysim.scenario.options import (
     NETWORK,
     OPTIONS,
 )
-from gradysim.scenario.pattern_index import PatternIndex
-from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.patterns import Pattern, PatternIndex, compile_pattern
 from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import Setting, SettingReader
 
@@ -76,7 +75,7 @@ class Found:
         return self.parts[2] if self.parts and len(self.parts) == 3 else None
 
 
-class _Candidate(NamedTuple):
+class Candidate(NamedTuple):
     """An entry that can match a rest, and the pattern for the name; None if only the whole path decides."""
 
     found: Found
@@ -87,19 +86,24 @@ _ANY_NAME = compile_pattern("*")
 
 
 class Candidates:
-    """The entries that can match one rest below some name."""
+    """The entries that can match one rest below some name.
 
-    def __init__(self, network: str, rest: str, candidates: Iterable[_Candidate]) -> None:
+    Attributes:
+        every: All of them, in search order.
+    """
+
+    def __init__(self, network: str, rest: str, candidates: Sequence[Candidate]) -> None:
         self._prefix = f"{network}."
         self._suffix = f".{rest}" if rest else ""
+        self.every = candidates
         self._by_name: dict[str, Found] = {}
-        self._patterns: list[_Candidate] = []
+        self._patterns: list[Candidate] = []
         for candidate in candidates:
             if candidate.name is None or candidate.name.literal is None:
                 self._patterns.append(candidate)
             else:
                 self._by_name.setdefault(candidate.name.literal, candidate.found)
-        self._of_group: dict[str, list[_Candidate]] = {}
+        self._of_group: dict[str, list[Candidate]] = {}
 
     def __bool__(self) -> bool:
         return bool(self._by_name or self._patterns)
@@ -117,7 +121,7 @@ class Candidates:
                 return found
         return best
 
-    def _patterns_for(self, group: str) -> list[_Candidate]:
+    def _patterns_for(self, group: str) -> list[Candidate]:
         """Return those that may match nodes of that group."""
         of_group = self._of_group.get(group)
         if of_group is None:
@@ -152,10 +156,10 @@ class Lookup:
                 with errors.collecting():
                     self.found.append(_compile(order, rank, entry))
         errors.raise_all()
-        self._below_names: PatternIndex[_Candidate] = PatternIndex()  # by the pattern of the rest
-        self._without_rest: list[_Candidate] = []
-        self._below_anything: PatternIndex[_Candidate] = PatternIndex()  # `**.` and what is below
-        self._uncertain: list[_Candidate] = []
+        self._below_names: PatternIndex[Candidate] = PatternIndex()  # by the pattern of the rest
+        self._without_rest: list[Candidate] = []
+        self._below_anything: PatternIndex[Candidate] = PatternIndex()  # `**.` and what is below
+        self._uncertain: list[Candidate] = []
         for found in self.found:
             self._add(found)
         self._candidates: dict[str, Candidates] = {}
@@ -167,14 +171,14 @@ class Lookup:
             name, rest = found.parts[1], found.rest_pattern()
         elif (below := found.pattern.below_anything) is not None:
             name, rest = below
-            self._below_anything.add(found.pattern, _Candidate(found, _ANY_NAME))
+            self._below_anything.add(found.pattern, Candidate(found, _ANY_NAME))
         else:
-            self._uncertain.append(_Candidate(found, None))
+            self._uncertain.append(Candidate(found, None))
             return
         if rest is None:
-            self._without_rest.append(_Candidate(found, name))
+            self._without_rest.append(Candidate(found, name))
         else:
-            self._below_names.add(rest, _Candidate(found, name))
+            self._below_names.add(rest, Candidate(found, name))
 
     def candidates(self, rest: str) -> Candidates:
         """Return the entries that can match `NETWORK.<name>.<rest>`; without a rest, `NETWORK.<name>`."""

@@ -13,6 +13,8 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
+from operator import itemgetter
+from typing import Generic, TypeVar
 
 from gradysim.scenario.errors import BadValue
 
@@ -108,6 +110,25 @@ class Pattern:
         if any(token.spans_dots for token in name):
             return None
         return Pattern(name), Pattern(rest) if dot < len(tokens) else None
+
+    @cached_property
+    def landmark(self) -> str:
+        """A name, or its part up to the bracket, that all matching paths have; "" if none is certain.
+
+        `uavs[3]` for `**.uavs[3].wlan[*].power`, `wlan[` for `**.wlan[*].power`, `power` for `**.power`.
+        """
+        parts: list[list[Token]] = [[]]
+        for token in self.tokens:
+            if token.literal == ".":
+                parts.append([])
+            else:
+                parts[-1].append(token)
+        landmark = ""
+        for pattern in map(Pattern, map(tuple, parts)):
+            if pattern.group is not None:
+                return pattern.literal or f"{pattern.group}["
+            landmark = pattern.literal or landmark
+        return landmark
 
     def split(self) -> "list[Pattern] | None":
         """The parts between the first two dots and after them, or None if `**` makes those dots uncertain.
@@ -253,3 +274,32 @@ def _same_length(low: str, high: str) -> str:
         alternatives.append(f"[{int(low[0]) + 1}-{int(high[0]) - 1}][0-9]{{{count}}}")
     alternatives.append(high[0] + _same_length("0" * count, high[1:]))
     return f"(?:{'|'.join(alternatives)})"
+
+
+Item = TypeVar("Item")
+
+
+class PatternIndex(Generic[Item]):
+    """Items, each with a pattern. A path is compared only with patterns whose landmark it has."""
+
+    def __init__(self) -> None:
+        """Start empty."""
+        self._count = 0
+        self._by_landmark: dict[str, dict[str, tuple[Pattern, list[tuple[int, Item]]]]] = {}
+
+    def add(self, pattern: Pattern, item: Item) -> None:
+        """Add an item. Several may have the same pattern."""
+        by_text = self._by_landmark.setdefault(pattern.landmark, {})
+        by_text.setdefault(pattern.text, (pattern, []))[1].append((self._count, item))
+        self._count += 1
+
+    def matching(self, path: str) -> list[Item]:
+        """Return the items whose patterns match, in the order in which they were added."""
+        names = path.split(".")
+        landmarks = {"", *names, *(f"{name.partition('[')[0]}[" for name in names if "[" in name)}
+        found: list[tuple[int, Item]] = []
+        for landmark in landmarks & self._by_landmark.keys():
+            for pattern, items in self._by_landmark[landmark].values():
+                if pattern.matches(path):
+                    found += items
+        return [item for _, item in sorted(found, key=itemgetter(0))]

@@ -7,6 +7,7 @@ loaded, which declare some of them. Each error has the nearest valid key, if the
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fnmatch import fnmatchcase
+from itertools import chain
 from typing import NamedTuple
 
 from gradysim.protocol.interface import IProtocol
@@ -29,10 +30,9 @@ from gradysim.scenario.keys import (
     obstacle_path,
     written_for,
 )
-from gradysim.scenario.lookup import Found, Lookup, is_ignored
+from gradysim.scenario.lookup import Candidate, Found, Lookup, is_ignored
 from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
 from gradysim.scenario.parameters import annotations_of, parameters_of
-from gradysim.scenario.pattern_index import TextIndex
 from gradysim.scenario.patterns import Pattern, compile_pattern
 
 
@@ -73,17 +73,40 @@ def check_option(entry: Entry) -> None:
     )
 
 
+class _Names:
+    """Names below the network, indexed by their parts before the bracket."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._groups: dict[str, dict[str, None]] = {}
+        for name in names:
+            self._groups.setdefault(name.partition("[")[0], {})[name] = None
+
+    def matching(self, pattern: Pattern) -> Iterator[str]:
+        """Yield the names that a pattern matches."""
+        if pattern.literal is not None:
+            group = self._groups.get(pattern.literal.partition("[")[0], {})
+            return iter([pattern.literal] if pattern.literal in group else [])
+        groups = self._groups.values() if pattern.group is None else [self._groups.get(pattern.group, {})]
+        return filter(pattern.matches, chain.from_iterable(groups))
+
+    def has_match(self, pattern: Pattern) -> bool:
+        """Return whether a pattern matches one of the names."""
+        return next(self.matching(pattern), None) is not None
+
+    def __iter__(self) -> Iterator[str]:
+        return chain.from_iterable(self._groups.values())
+
+
 def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> list[Source]:
     """Report keys that name no node, no group and no other part of the network.
 
     Returns the lines about nodes that this run does not have, and other runs may have.
     """
     elsewhere: list[Source] = []
-    names = TextIndex(
+    names = _Names(
         [
             *NETWORK_MODULES,
-            *(group.size_key for group in groups),
-            *(group.name for group in groups),
+            *(name for group in groups for name in (group.size_key, group.name)),
             *(name for group in groups for name in group.node_names() or [f"{group.name}[0]"]),
         ]
     )
@@ -91,16 +114,19 @@ def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> 
         name = found.name_pattern()
         if name is None:
             continue
-        is_known = names.has_match(name)
-        is_of_network = found.parts and found.parts[0].matches(lookup.network)
-        if is_of_network and (is_known or _is_beyond_overridden_size(found, groups)):
-            continue
-        if is_of_network and _is_beyond_drawn_size(found, groups):
-            continue
-        if is_of_network and _is_beyond_varying_size(found, groups):
-            elsewhere.append(found.entry.source)
-        else:
+        assert found.parts is not None
+        if not found.parts[0].matches(lookup.network):
             errors.add(_unknown_name(found, groups, lookup.network))
+        elif not names.has_match(name):
+            size = next((group.size_found for group in groups if group.name == name.group), None)
+            if size is None:
+                errors.add(_unknown_name(found, groups, lookup.network))
+            elif size.rank < found.rank or distribution_in(size.entry.text):
+                pass  # a more specific section has reduced the group, or another seed may draw the index
+            elif "${" in size.entry.source.value:
+                elsewhere.append(found.entry.source)
+            else:
+                errors.add(_unknown_name(found, groups, lookup.network))
     return elsewhere
 
 
@@ -120,110 +146,51 @@ def check_parameters(
         obstacles: The number of obstacles that have keys.
         errors: Takes the errors.
     """
-    check = _ParameterCheck(lookup.network, groups, kinds, obstacles)
+    of_node = [key.path for key in NODE_KEYS]
+    of_network = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
+    of_network += [obstacle_path(key, index) for index in range(obstacles) for key in OBSTACLE_KEYS]
+    modules: dict[str, list[str]] = {}
+    for path in of_network:
+        module, end = path.split(".", 1)
+        modules.setdefault(module, []).append(end)
+    nodes: dict[ProtocolAndInterfaces, list[str]] = {}
+    for node, kind in kinds.items():
+        nodes.setdefault(kind, []).append(node)
+    below: list[tuple[_Names, Iterable[str]]] = [
+        (_Names(group.size_key for group in groups), [""]),
+        (_Names(group.name for group in groups), [GROUP_SIZE.path]),
+        (_Names(f"{group.name}[0]" for group in groups if group.size == 0), of_node),
+        *((_Names([module]), rests) for module, rests in modules.items()),
+        *((_Names(names), _rests_of(kind)) for kind, names in nodes.items()),
+    ]
+    matched = {
+        candidate.found
+        for names, rests in below
+        for rest in rests
+        for candidate in lookup.candidates(rest).every
+        if _matches(candidate, names, rest, lookup.network)
+    }
+    of_any_node = {candidate.found for rest in of_node for candidate in lookup.candidates(rest).every}
+    all_nodes = _Names(kinds)
+    others = _Names([*NETWORK_MODULES, *(group.name for group in groups if group.size is not None)])
     for found in lookup.found:
-        if not check.matches(found):
-            errors.add(check.error(found))
-
-
-class _ParameterCheck:
-    def __init__(
-        self, network: str, groups: list[Group], kinds: Mapping[str, ProtocolAndInterfaces], obstacles: int
-    ) -> None:
-        self._network = network
-        self._network_paths = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
-        self._network_paths += [
-            obstacle_path(key, index) for index in range(obstacles) for key in OBSTACLE_KEYS
-        ]
-        self._groups = groups
-        self._kinds = kinds
-        rests = {kind: _rests_of(kind) for kind in dict.fromkeys(kinds.values())}
-        of_modules: dict[str, list[str]] = {}
-        for path in self._network_paths:
-            module, rest = path.split(".", 1)
-            of_modules.setdefault(module, []).append(rest)
-        self._rests = {kind: TextIndex(texts) for kind, texts in rests.items()}
-        self._of_modules = {module: TextIndex(texts) for module, texts in of_modules.items()}
-        self._of_any_node = TextIndex(key.path for key in NODE_KEYS)
-        self._size_keys = TextIndex(group.size_key for group in groups)
-        self._group_names = TextIndex(group.name for group in groups)
-        self._nodes = TextIndex(kinds)
-        self._first_of_empty_groups = TextIndex(f"{group.name}[0]" for group in groups if group.size == 0)
-        self._single_parts = TextIndex(
-            [*NETWORK_MODULES, *(group.name for group in groups if group.size is not None)]
-        )
-        self._below_any_name = TextIndex(
-            f".{rest}"
-            for texts in (
-                *of_modules.values(),
-                *rests.values(),
-                [GROUP_SIZE.path] if groups else [],
-                [key.path for key in NODE_KEYS] if any(group.size == 0 for group in groups) else [],
-            )
-            for rest in texts
-        )
-        self._kinds_of: dict[str, set[ProtocolAndInterfaces]] = {}
-
-    def matches(self, found: Found) -> bool:
+        if found in matched:
+            continue
         name, rest = found.name_pattern(), found.rest_pattern()
-        if name is None:
-            return self._matches_from_somewhere(found)
-        if rest is None:
-            return self._size_keys.has_match(name)
-        if self._is_below(name, rest):
-            return True
-        if self._kinds_named(name) or self._single_parts.has_match(name):
-            return False
-        # The group is empty, or smaller than this key was written for.
-        return rest.literal_prefix().startswith("protocol.") or self._of_any_node.has_match(rest)
+        named = {kinds[node] for node in all_nodes.matching(name)} if name else set()
+        is_elsewhere = name is not None and not named and not others.has_match(name)
+        if is_elsewhere and rest and (found in of_any_node or rest.literal_prefix().startswith(_PROTOCOL)):
+            continue  # the group is empty, or smaller than this key was written for
+        classes = sorted({kind.protocol for kind in named or nodes}, key=lambda cls: cls.__name__)
+        errors.add(_unknown_parameter(found, groups, classes))
 
-    def error(self, found: Found) -> ConfigError:
-        name = found.name_pattern()
-        kinds = (self._kinds_named(name) if name else set()) or set(self._rests)
-        classes = sorted({kind.protocol for kind in kinds}, key=lambda cls: cls.__name__)
-        return _unknown_parameter(found, self._groups, classes)
 
-    def _is_below(self, name: Pattern, rest: Pattern) -> bool:
-        """Return whether something with such a name has a parameter with that rest."""
-        return (
-            any(name.matches(module) and rests.has_match(rest) for module, rests in self._of_modules.items())
-            or (rest.matches(GROUP_SIZE.path) and self._group_names.has_match(name))
-            or any(self._rests[kind].has_match(rest) for kind in self._kinds_named(name))
-        )
-
-    def _matches_from_somewhere(self, found: Found) -> bool:
-        """Return whether a key matches whose `**` makes the place of the name uncertain."""
-        if found.pattern.below_anything is None:
-            return any(found.pattern.matches(path) for path in self._paths_like(found))
-        name, rest = found.pattern.below_anything
-        if self._below_any_name.has_match(found.pattern):
-            return True
-        if rest is None:
-            return self._size_keys.has_match(name)
-        if self._is_below(name, rest):
-            return True
-        return self._first_of_empty_groups.has_match(name) and self._of_any_node.has_match(rest)
-
-    def _kinds_named(self, name: Pattern) -> set[ProtocolAndInterfaces]:
-        if name.literal is not None:
-            return {self._kinds[name.literal]} if name.literal in self._kinds else set()
-        if name.text not in self._kinds_of:
-            self._kinds_of[name.text] = {self._kinds[node] for node in self._nodes.matches(name)}
-        return self._kinds_of[name.text]
-
-    def _paths_like(self, found: Found) -> Iterator[str]:
-        """Yield all paths, except those that end differently than the key."""
-        yield from (f"{self._network}.{path}" for path in self._network_paths)
-        for group in self._groups:
-            yield f"{self._network}.{group.size_key}"
-            yield f"{self._network}.{group.name}.{GROUP_SIZE.path}"
-            if group.size == 0:
-                yield from (f"{self._network}.{group.name}[0].{key.path}" for key in NODE_KEYS)
-        rests = {
-            kind: [rest for rest in texts if found.may_end_in(rest)] for kind, texts in self._rests.items()
-        }
-        for node, kind in self._kinds.items():
-            yield from (f"{self._network}.{node}.{rest}" for rest in rests[kind])
+def _matches(candidate: Candidate, names: _Names, rest: str, network: str) -> bool:
+    """Return whether an entry that can match a rest does so below one of the names."""
+    found, name = candidate
+    if name is not None:
+        return names.has_match(name)
+    return any(found.pattern.matches(f"{network}.{each}{'.' if rest else ''}{rest}") for each in names)
 
 
 def _rests_of(kind: ProtocolAndInterfaces) -> list[str]:
@@ -231,32 +198,6 @@ def _rests_of(kind: ProtocolAndInterfaces) -> list[str]:
     further = [at_interface(key.path, index) for index in range(1, kind.interface_count) for key in WLAN_KEYS]
     parameters = [f"protocol.{name}" for name in parameters_of(kind.protocol)]
     return [key.path for key in NODE_KEYS] + further + parameters
-
-
-def _is_beyond_overridden_size(found: Found, groups: list[Group]) -> bool:
-    """Return whether a key names an index that existed until a more specific section reduced the group."""
-    size = _size_of_indexed_group(found, groups)
-    return size is not None and size.rank < found.rank
-
-
-def _is_beyond_varying_size(found: Found, groups: list[Group]) -> bool:
-    """Return whether a key names an index of a group whose size depends on iteration variables."""
-    size = _size_of_indexed_group(found, groups)
-    return size is not None and "${" in size.entry.source.value
-
-
-def _is_beyond_drawn_size(found: Found, groups: list[Group]) -> bool:
-    """Return whether a key names an index of a group whose size is drawn: other seeds may have it."""
-    size = _size_of_indexed_group(found, groups)
-    return size is not None and bool(distribution_in(size.entry.text))
-
-
-def _size_of_indexed_group(found: Found, groups: list[Group]) -> Found | None:
-    """What says the size of the group of which a key names an index."""
-    name = found.name_pattern()
-    group_name, bracket, _ = name.literal_prefix().partition("[") if name else ("", "", "")
-    sizes = (group.size_found for group in groups if bracket and group.name == group_name)
-    return next((size for size in sizes if size), None)
 
 
 _PROTOCOL = "protocol."
@@ -270,7 +211,7 @@ def _unknown_name(found: Found, groups: Sequence[Group], network: str) -> Config
             f"`{key}` does not begin with `*.` or `**.`, nor with the network's name `{network}.`",
             source,
             expected="a key such as `*.uavs[*].mobility.speed`",
-            suggestion=nearest(key, _written_keys(key, groups, ())),
+            suggestion=_nearest_key(key, groups, ()),
         )
     problem = f"`{key}` matches no node"
     base, bracket, _ = found.parts[1].text.partition("[")
@@ -287,7 +228,7 @@ def _unknown_name(found: Found, groups: Sequence[Group], network: str) -> Config
     elif not hint and not bracket and is_misspelled_class(found.rest_pattern()):
         suggestion = f"{found.parts[0].text}.{base}.{PROTOCOL_CLASS.path}"
     elif not hint and not bracket:
-        suggestion = nearest(key, _written_keys(key, groups, ()))
+        suggestion = _nearest_key(key, groups, ())
     if group is not None and group.name == base:
         has = f"nodes {base}[0] to {base}[{group.size - 1}]" if group.size else "one node, without index"
         expected = f"`{base}` as it is, with {has}"
@@ -328,7 +269,7 @@ def _unknown_parameter(
         expected = "one of an obstacle that `*.environment.numObstacles` counts"
     if hint := _instead_of_module(key.split(".")[1 if key.startswith("**.") else 2 :]):
         return ConfigError(problem, source, expected=expected, hint=hint)
-    suggestion = written_for(_nearest_key(found, groups, classes), key)
+    suggestion = written_for(_nearest_key(key, groups, classes, _prefix_of_nodes(found, groups)), key)
     return ConfigError(problem, source, expected=expected, suggestion=suggestion)
 
 
@@ -338,22 +279,28 @@ def _is_of_first_interface(end: str) -> bool:
     return any(of_first.matches(key.path) for key in WLAN_KEYS)
 
 
-def _nearest_key(found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> str:
-    key = found.entry.key
-    rests = _written_rests(classes)
-    prefix = _prefix_of_nodes(found, groups)
-    if prefix:
-        complete = [prefix + rest for rest in rests]
-        similar = complete
-    else:
-        complete = [f"*.{network_key.written}" for network_key in NETWORK_KEYS]
-        if key.startswith("**."):
-            complete = [f"*{written}" for written in complete] + [f"**.{rest}" for rest in rests]
-        similar = _written_keys(key, groups, classes)
-    with_more_parts = [candidate for candidate in complete if _lacks_only_parts(key, candidate)]
-    if len(with_more_parts) == 1:
-        return with_more_parts[0]
-    return nearest(key, similar)
+def _nearest_key(
+    key: str, groups: Sequence[Group], classes: Sequence[type[IProtocol]], prefix: str = ""
+) -> str:
+    """Return the key that may be meant, as users write it: one with more parts, or a similar one.
+
+    It begins with `prefix`, if that is given, and otherwise as `key` does, with `*.` or `**.`.
+    """
+    rests = [node_key.written for node_key in NODE_KEYS]
+    rests += [f"{_PROTOCOL}{name}" for cls in classes for name in parameters_of(cls)]
+    keys = [prefix + rest for rest in rests]
+    if not prefix:
+        keys = [f"*.{network_key.written}" for network_key in NETWORK_KEYS]
+        for group in groups:
+            keys += [f"*.{group.size_key}", *(f"*.{group.written}.{rest}" for rest in rests)]
+    similar = keys
+    if key.startswith("**."):
+        keys = [f"**.{rest}" for rest in rests] + [f"*{written}" for written in keys]
+        parts = key.count(".")
+        similar = list(dict.fromkeys("**." + ".".join(written.split(".")[-parts:]) for written in keys))
+    longer = sorted((len(written.split(".")), written) for written in keys if _lacks_only_parts(key, written))
+    is_clear = len(longer) == 1 or (len(longer) > 1 and longer[0][0] < longer[1][0])
+    return longer[0][1] if is_clear else nearest(key, similar)
 
 
 def _prefix_of_nodes(found: Found, groups: Sequence[Group]) -> str:
@@ -403,24 +350,6 @@ def _has_no_value(cls: type[IProtocol], name: str) -> bool:
     names_in_constructor = getattr(getattr(cls.__init__, "__code__", None), "co_names", ())
     declared = any(name in annotations_of(base) for base in cls.__mro__ if base not in IProtocol.__mro__)
     return declared or hasattr(cls, name) or name in names_in_constructor
-
-
-def _written_rests(classes: Sequence[type[IProtocol]]) -> list[str]:
-    """Return all keys below a node, as users write them."""
-    parameters = [f"{_PROTOCOL}{name}" for cls in classes for name in parameters_of(cls)]
-    return [key.written for key in NODE_KEYS] + parameters
-
-
-def _written_keys(key: str, groups: Sequence[Group], classes: Sequence[type[IProtocol]]) -> list[str]:
-    """Return all keys as users write them; only their ends if `key` begins with `**.`."""
-    keys = [f"*.{network_key.written}" for network_key in NETWORK_KEYS]
-    for group in groups:
-        keys.append(f"*.{group.size_key}")
-        keys += [f"*.{group.written}.{rest}" for rest in _written_rests(classes)]
-    if not key.startswith("**."):
-        return keys
-    parts = key.count(".")
-    return list(dict.fromkeys("**." + ".".join(written.split(".")[-parts:]) for written in keys))
 
 
 # Modules of INET without keys: what to use instead.

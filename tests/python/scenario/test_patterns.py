@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.patterns import compile_pattern
+from gradysim.scenario.patterns import PatternIndex, compile_pattern
 
 
 def matches(pattern: str, path: str) -> bool:
@@ -207,3 +207,34 @@ def test_what_is_below_anything(pattern: str, parts: tuple[str, str | None] | No
 )
 def test_the_group_that_a_name_is_of(pattern: str, group: str | None) -> None:
     assert compile_pattern(pattern).group == group
+
+
+@pytest.mark.parametrize(
+    ("pattern", "landmark"),
+    [
+        ("a.b", "b"),
+        ("*.uavs[*].b", "uavs["),
+        ("**.uavs[3].wlan[*].b", "uavs[3]"),
+        ("*.n.**.c.**.b", "b"),
+        ("a.b**", "a"),
+        ("a{^x}b.c", "c"),
+        (r"a\.b", "b"),
+        ("**", ""),
+    ],
+)
+def test_a_name_that_all_matching_paths_have(pattern: str, landmark: str) -> None:
+    assert compile_pattern(pattern).landmark == landmark
+
+
+PIECES = ["a", "b", "[3]", "[", ".", "*", "**", "?", "{^a}", "[0..3]", r"\.", "[*]"]
+PATTERNS = st.lists(st.sampled_from(PIECES), max_size=7).map("".join)
+TEXTS = st.lists(st.sampled_from(["a", "b", "[3]", "["]) | st.just("."), max_size=7).map("".join)
+
+
+@given(st.lists(PATTERNS, max_size=8), TEXTS)
+def test_an_index_finds_all_that_match_in_their_order(patterns: list[str], text: str) -> None:
+    index: PatternIndex[int] = PatternIndex()
+    for number, pattern in enumerate(patterns):
+        index.add(compile_pattern(pattern), number)
+    expected = [number for number, each in enumerate(patterns) if compile_pattern(each).matches(text)]
+    assert index.matching(text) == expected
