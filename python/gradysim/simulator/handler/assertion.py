@@ -69,20 +69,7 @@ def assert_always_true_for_protocol(
         name: Of the check, for the message of its failure.
         description: More words for that message.
     """
-    _check_class(protocol_type)
-
-    def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
-        class Case(SimulationTestCase):
-            asked = protocol_type
-
-            def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
-                for node in _of_type(nodes, protocol_type):
-                    if not predicate(node):
-                        raise _failure(name, description, _when(iteration, timestamp), node)
-
-        return _named(Case, predicate)
-
-    return decorate
+    return _decorator(_Always, name, description, _checked_class(protocol_type))
 
 
 def assert_eventually_true_for_protocol(
@@ -93,28 +80,7 @@ def assert_eventually_true_for_protocol(
     The arguments are those of `assert_always_true_for_protocol`. Without such nodes, or any event, there
     is nothing to fail.
     """
-    _check_class(protocol_type)
-
-    def decorate(predicate: _NodePredicate[_P]) -> type[SimulationTestCase]:
-        class Case(SimulationTestCase):
-            asked = protocol_type
-
-            def __init__(self) -> None:
-                self._waiting: list[Node[Any]] | None = None
-
-            def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
-                if self._waiting is None:
-                    self._waiting = _of_type(nodes, protocol_type)
-                if self._waiting:
-                    self._waiting = [node for node in self._waiting if not predicate(node)]
-
-            def finalize(self) -> None:
-                if self._waiting:
-                    raise _failure(name, description, _NEVER, *self._waiting)
-
-        return _named(Case, predicate)
-
-    return decorate
+    return _decorator(_Eventually, name, description, _checked_class(protocol_type))
 
 
 def assert_always_true_for_simulation(
@@ -122,20 +88,9 @@ def assert_always_true_for_simulation(
 ) -> Callable[[_SimulationPredicate], type[SimulationTestCase]]:
     """Demand that the predicate is true of the list of all nodes after every event.
 
-    Args:
-        name: Of the check, for the message of its failure.
-        description: More words for that message.
+    The arguments are those of `assert_always_true_for_protocol`.
     """
-
-    def decorate(predicate: _SimulationPredicate) -> type[SimulationTestCase]:
-        class Case(SimulationTestCase):
-            def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
-                if not predicate(nodes):
-                    raise _failure(name, description, _when(iteration, timestamp))
-
-        return _named(Case, predicate)
-
-    return decorate
+    return _decorator(_Always, name, description)
 
 
 def assert_eventually_true_for_simulation(
@@ -143,24 +98,59 @@ def assert_eventually_true_for_simulation(
 ) -> Callable[[_SimulationPredicate], type[SimulationTestCase]]:
     """Demand that the predicate is true of the list of all nodes after at least one event.
 
-    The arguments are those of `assert_always_true_for_simulation`. Without any event it was never true.
+    The arguments are those of `assert_always_true_for_protocol`. Without any event it was never true.
     """
+    return _decorator(_Eventually, name, description)
 
-    def decorate(predicate: _SimulationPredicate) -> type[SimulationTestCase]:
-        class Case(SimulationTestCase):
-            def __init__(self) -> None:
-                self._met = False
 
-            def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
-                self._met = self._met or bool(predicate(nodes))
+_NAMES = ("__qualname__", "__module__", "__doc__")
 
-            def finalize(self) -> None:
-                if not self._met:
-                    raise _failure(name, description, _NEVER)
 
-        return _named(Case, predicate)
+def _decorator(
+    base: "type[_PredicateCase]", name: str, description: str, asked: type[IProtocol] | None = None
+) -> Callable[[Callable[..., bool]], type[SimulationTestCase]]:
+    title = f'Assertion "{name}"' + (f" ({description})" if description else "")
+
+    def decorate(predicate: Callable[..., bool]) -> type[SimulationTestCase]:
+        attributes = {"predicate": staticmethod(predicate), "title": title, "asked": asked}
+        named = {key: getattr(predicate, key) for key in _NAMES if hasattr(predicate, key)}
+        return type(getattr(predicate, "__name__", base.__name__), (base,), {**named, **attributes})
 
     return decorate
+
+
+class _PredicateCase(SimulationTestCase):
+    predicate: Callable[[Any], bool]
+    title: str
+
+    def _subjects(self, nodes: list[Node[Any]]) -> list[Any]:
+        """What the predicate is called with: each node of the protocol, or the list of all nodes."""
+        if self.asked is None:
+            return [nodes]
+        return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, self.asked)]
+
+    def _failure(self, when: str, subjects: list[Any]) -> FailedAssertionException:
+        at = "" if self.asked is None else " for node " + ", ".join(map(_node_name, subjects))
+        return FailedAssertionException(f"{self.title} failed{at}: {when}")
+
+
+class _Always(_PredicateCase):
+    def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
+        for subject in self._subjects(nodes):
+            if not self.predicate(subject):
+                raise self._failure(_when(iteration, timestamp), [subject])
+
+
+class _Eventually(_PredicateCase):
+    _waiting: list[Any] | None = None
+
+    def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
+        waiting = self._subjects(nodes) if self._waiting is None else self._waiting
+        self._waiting = [subject for subject in waiting if not self.predicate(subject)]
+
+    def finalize(self) -> None:
+        if self._waiting or (self._waiting is None and self.asked is None):
+            raise self._failure("the condition was never met during the simulation", self._waiting or [])
 
 
 class AssertionHandler(INodeHandler):
@@ -242,17 +232,11 @@ class AssertionHandler(INodeHandler):
             case.finalize()
 
 
-_NEVER = "the condition was never met during the simulation"
-
-
-def _of_type(nodes: list[Node[Any]], protocol_type: type[IProtocol]) -> list[Node[Any]]:
-    return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, protocol_type)]
-
-
-def _check_class(protocol_type: object) -> None:
+def _checked_class(protocol_type: type[_P]) -> type[_P]:
     """The name of a class, or an instance, would be found out after the first event only."""
     if not isinstance(protocol_type, type):
         raise TypeError(f"expected a protocol's class, got {protocol_type!r}")
+    return protocol_type
 
 
 def _check_not_loaded_twice(node: Node[Any], asked: type[IProtocol]) -> None:
@@ -277,20 +261,9 @@ def _file_of(cls: type) -> Path | None:
     return None if name is None else Path(name).resolve()
 
 
-def _named(case: type[SimulationTestCase], predicate: Callable[..., bool]) -> type[SimulationTestCase]:
-    """Let the case go by the name of its predicate."""
-    case.__name__ = getattr(predicate, "__name__", case.__name__)
-    case.__qualname__ = getattr(predicate, "__qualname__", case.__name__)
-    case.__module__ = predicate.__module__
-    case.__doc__ = predicate.__doc__
-    return case
-
-
 def _when(iteration: int, timestamp: float) -> str:
     return f"[iteration={iteration} | timestamp={readable_number(timestamp)}]"
 
 
-def _failure(name: str, description: str, when: str, *nodes: Node[Any]) -> FailedAssertionException:
-    about = f" ({description})" if description else ""
-    at = f" for node {', '.join(f'{node.id} ({label_node(node)})' for node in nodes)}" if nodes else ""
-    return FailedAssertionException(f'Assertion "{name}"{about} failed{at}: {when}')
+def _node_name(node: Node[Any]) -> str:
+    return f"{node.id} ({label_node(node)})"
