@@ -10,9 +10,10 @@ from functools import partial
 from random import Random
 from typing import Any
 
-from gradysim.encapsulator.interface import IEncapsulator, add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import TrackedVariables
+from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand

@@ -9,10 +9,11 @@ from collections.abc import Callable, Mapping, Sequence
 from random import Random
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from gradysim.encapsulator.interface import IEncapsulator, add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import CheckedProvider
 from gradysim.encapsulator.validation import geo_target
+from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (

@@ -5,9 +5,10 @@ from collections.abc import Mapping
 from random import Random
 from typing import Any, Protocol, cast
 
-from gradysim.encapsulator.interface import IEncapsulator, add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import CheckedProvider
+from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand

@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.encapsulator.interface import add_protocol_note
 from gradysim.encapsulator.netsim import NetsimEncapsulator
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
@@ -26,7 +25,7 @@ from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
 from gradysim.integrated.real_time import RealTimeRun
-from gradysim.protocol.errors import NativeProtocolError
+from gradysim.protocol.errors import NativeProtocolError, add_protocol_note
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.delays import Delays
 from gradysim.results.execution import ScenarioRun

@@ -1,9 +1,8 @@
-import asyncio
 from types import SimpleNamespace
 
 import pytest
 
-from gradysim.encapsulator.interface import IEncapsulator, NodePositions, add_protocol_note
+from gradysim.encapsulator.interface import IEncapsulator, NodePositions
 from gradysim.encapsulator.interop import InteropProvider
 from gradysim.encapsulator.python import PythonProvider
 
@@ -17,37 +16,6 @@ def test_an_encapsulator_must_have_every_method():
         "handle_telemetry",
         "finish",
     }
-
-
-class ZigZagMobile:
-    pass
-
-
-def notes_on(exception, time_s=12.5):
-    add_protocol_note(exception, node_id=3, protocol=ZigZagMobile, time_s=time_s, callback="handle_timer")
-    return getattr(exception, "__notes__", [])
-
-
-def test_the_note_names_callback_node_and_time():
-    assert notes_on(RuntimeError("x")) == [
-        "in handle_timer of node 3 (ZigZagMobile 3) at 12.5 s of simulated time"
-    ]
-
-
-@pytest.mark.parametrize(
-    ("time_s", "text"), [(0, "0"), (0.1 + 0.2, "0.3"), (28800, "28800"), (7199.990001, "7199.990001")]
-)
-def test_times_are_rounded_to_12_digits(time_s, text):
-    assert f"at {text} s of" in notes_on(RuntimeError(), time_s)[0]
-
-
-@pytest.mark.parametrize("exception", [SystemExit(3), asyncio.CancelledError(), GeneratorExit()])
-def test_other_base_exceptions_get_a_note(exception):
-    assert notes_on(exception) == notes_on(RuntimeError())
-
-
-def test_ctrl_c_gets_the_note_of_the_callback_that_does_not_return():
-    assert notes_on(KeyboardInterrupt()) == notes_on(ValueError())
 
 
 def test_in_prototype_mode_the_mobility_handler_has_the_positions():
