@@ -170,7 +170,7 @@ PORT = 14550
 
 
 class GroundStationPort(asyncio.DatagramProtocol):
-    """Connection of one vehicle to a ground station, from a port of its own."""
+    """Connection of one vehicle to a ground station, which may start later, from a port of its own."""
 
     def __init__(self, link: MavlinkLink) -> None:
         self._link = link
@@ -186,10 +186,6 @@ class GroundStationPort(asyncio.DatagramProtocol):
         """Forward a message of the ground station to the vehicle."""
         if self._link.lost is None:
             self._link.send_bytes(data)
-
-    def error_received(self, exc: Exception) -> None:
-        """Ignore errors. The ground station may start later."""
-        return
 
     def close(self) -> None:
         """Close the port."""

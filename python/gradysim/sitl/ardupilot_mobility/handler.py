@@ -17,7 +17,7 @@ from gradysim.sitl.ardupilot_mobility.configuration import (
 )
 from gradysim.sitl.ardupilot_mobility.lock_step import LockStep
 from gradysim.sitl.ardupilot_mobility.real_time import FreeRunning
-from gradysim.sitl.ardupilot_mobility.report import FILE_NAME, Flying, write_report
+from gradysim.sitl.ardupilot_mobility.report import FILE_NAME, write_report
 from gradysim.sitl.mavlink import load_dialect
 
 
@@ -39,7 +39,7 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
         self._event_loop: EventLoop | None = None
         self._asyncio_loop: asyncio.AbstractEventLoop | None = None
         self._real_time = 0.0
-        self._flying: Flying | None = None
+        self._flying: FreeRunning | LockStep | None = None
         self._has_begun = False
 
     @staticmethod
@@ -87,7 +87,12 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
             raise ArdupilotMobilityException("the handler has no simulation: inject_async was not called")
         load_dialect()
         try:
-            self._flying = self._new_flying(self._event_loop, self._asyncio_loop)
+            if self._real_time > 0:
+                self._flying = FreeRunning(
+                    self.nodes, self._configuration, self._event_loop, self._asyncio_loop, self._real_time
+                )
+            else:
+                self._flying = LockStep(self.nodes, self._configuration, self._event_loop)
             self._flying.begin()
         except SitlError as error:
             raise ArdupilotMobilityException(str(error)) from error
@@ -111,7 +116,7 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
         if self._flying is None or not self._has_begun:
             raise ArdupilotMobilityException(f"node {node.id} got {command!r} before its take-off")
         try:
-            self._flying.obey(command, node.id)
+            self._flying.handle_command(command, node)
         except (MasslessMobilityException, SitlError) as error:
             raise ArdupilotMobilityException(str(error)) from error.__cause__
 
@@ -137,11 +142,6 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
         raise ArdupilotMobilityException(
             f"{what} real time: set real_time=True, or a factor, in the SimulationConfiguration"
         )
-
-    def _new_flying(self, event_loop: EventLoop, asyncio_loop: asyncio.AbstractEventLoop) -> Flying:
-        if self._real_time > 0:
-            return FreeRunning(self.nodes, self._configuration, event_loop, asyncio_loop, self._real_time)
-        return LockStep(self.nodes, self._configuration, event_loop)
 
     def _close(self) -> None:
         """End the autopilots. Do nothing if they have ended."""

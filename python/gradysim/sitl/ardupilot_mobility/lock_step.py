@@ -7,7 +7,6 @@ from functools import partial
 from typing import Any
 
 from gradysim.protocol.defaults import UPDATE_S
-from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.mobility.massless import MasslessMobilityConfiguration
 from gradysim.simulator.log import label_node
@@ -25,8 +24,8 @@ from gradysim.sitl.flights import Flights
 _logger = logging.getLogger(__name__)
 
 
-class LockStep:
-    """All vehicles of a simulation, in lock-step with it."""
+class LockStep(AutopilotMobilityHandler):
+    """All vehicles of a simulation, in lock-step with it. Failures of autopilots in flight end it."""
 
     def __init__(
         self,
@@ -35,12 +34,10 @@ class LockStep:
         event_loop: EventLoop,
     ) -> None:
         """Create the vehicles of the nodes."""
-        self._nodes = nodes
-        self._event_loop = event_loop
+        self._telemetry_s = configuration.update_rate
         self._begin_s = event_loop.current_time
-        self._update_rate_s = configuration.update_rate
         self._reports: dict[int, NodeReport] = {}
-        self._flights = Flights(
+        flights = Flights(
             [
                 AutopilotNode(
                     id=node.id,
@@ -58,25 +55,29 @@ class LockStep:
             console_folder=configuration.uav_api_log_path,
             timeout_s=configuration.uav_api_startup_timeout,
         )
-        self._mobility = _Mobility(configuration, self._flights)
+        # A whole number of updates per telemetry.
+        update_s = self._telemetry_s / math.ceil(self._telemetry_s / UPDATE_S - 1e-9)
+        reference = configuration.reference_coordinates
+        super().__init__(
+            MasslessMobilityConfiguration(update_rate=update_s, reference_coordinates=reference), flights
+        )
+        self.inject(event_loop)
+        for node in nodes.values():
+            self.configure_node(node.id, telemetry_interval=self._telemetry_s)
+            self.register_node(node)
 
     def begin(self) -> None:
         """Start the autopilots and fly all nodes to their initial positions."""
-        self._mobility.inject(self._event_loop)
-        for node in self._nodes.values():
-            self._mobility.register_node(node)
-        self._mobility.take_off()
-        for identifier in self._nodes:
+        self.take_off()
+        for identifier in self.nodes:
             self._reports[identifier] = NodeReport(battery_start=self._flights.battery_percent(identifier))
-        self._mobility.initialize()
-
-    def obey(self, command: MobilityCommand, node_id: int) -> None:
-        """Send a command to the autopilot of a node."""
-        self._mobility.handle_command(command, self._nodes[node_id])
+        self.initialize()
 
     def end(self) -> Mapping[int, NodeReport]:
         """Return the reports. Telemetries are never dropped, and clocks have no error."""
-        telemetries = math.floor((self._event_loop.current_time - self._begin_s) / self._update_rate_s + 1e-6)
+        assert self._event_loop is not None
+        duration_s = self._event_loop.current_time - self._begin_s
+        telemetries = math.floor(duration_s / self._telemetry_s + 1e-6)
         for identifier, report in self._reports.items():
             report.requests = telemetries
             report.battery_end = self._flights.battery_percent(identifier)
@@ -86,30 +87,12 @@ class LockStep:
         """End the autopilots."""
         self._flights.close()
 
-
-def _log(level: int, name: str, text: str) -> None:
-    _logger.log(level, "%s says: %s", name, text)
-
-
-class _Mobility(AutopilotMobilityHandler):
-    """Converts SitlErrors to the exception of the handler."""
-
-    def __init__(
-        self,
-        configuration: ArdupilotMobilityConfiguration,
-        flights: Flights,
-    ) -> None:
-        rate_s = configuration.update_rate
-        mobility = MasslessMobilityConfiguration(
-            update_rate=rate_s / math.ceil(rate_s / UPDATE_S - 1e-9),  # so that telemetry is due at an update
-            reference_coordinates=configuration.reference_coordinates,
-        )
-        super().__init__(mobility, flights)
-        for identifier in flights.ids:
-            self.configure_node(identifier, telemetry_interval=rate_s)
-
     def _fly_on(self) -> None:
         try:
             super()._fly_on()
         except SitlError as error:
             raise ArdupilotMobilityException(str(error)) from error
+
+
+def _log(level: int, name: str, text: str) -> None:
+    _logger.log(level, "%s says: %s", name, text)

@@ -52,6 +52,7 @@ class Flight:
 
     Attributes:
         report: Counts of the node for the report.
+        pilot: Carries out commands.
     """
 
     def __init__(
@@ -73,7 +74,7 @@ class Flight:
         self._link = MavlinkLink(f"node {node.id} ({label_node(node)})")
         self._link.on_message = self._note
         self._vehicle = Vehicle(self._link)
-        self._pilot = Pilot(
+        self.pilot = Pilot(
             self._vehicle, self._place_of, node.position, configuration.default_speed, real_time
         )
         self._connection: Connection | None = None
@@ -120,11 +121,7 @@ class Flight:
 
     async def attend(self) -> None:
         """Keep the vehicle flying until cancelled. Raise SitlError if it ends or ignores commands."""
-        await asyncio.gather(self._pilot.watch(), self._pilot.attend(), self._keep_positions_coming())
-
-    def obey(self, command: MobilityCommand) -> None:
-        """Carry out a command of the protocol. Raise as `give_order`, and SitlError if the link is lost."""
-        give_order(command, self._node.id, self._reference, self._pilot)
+        await asyncio.gather(self.pilot.watch(), self.pilot.attend(), self._keep_positions_coming())
 
     def telemetry_is_due(self) -> None:
         """Deliver the position if it is new; otherwise when it arrives, if that is before the next telemetry.
@@ -253,9 +250,6 @@ class Flight:
         self.report.clock_error_s = max(self.report.clock_error_s, ahead_s - self._clock_offset_s, key=abs)
 
 
-_logger = logging.getLogger(__name__)
-
-
 class FreeRunning:
     """All vehicles of a simulation in real time. They do not wait for it."""
 
@@ -298,9 +292,10 @@ class FreeRunning:
             self._tasks.append(task)
         self._event_loop.schedule_event(self._event_loop.current_time, self._update, "ArduPilot")
 
-    def obey(self, command: MobilityCommand, node_id: int) -> None:
-        """Send a command to the autopilot of a node."""
-        self._flights[node_id].obey(command)
+    def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
+        """Let the autopilot of a node carry out a command. Raise as `give_order`."""
+        reference = self._configuration.reference_coordinates
+        give_order(command, node.id, reference, self._flights[node.id].pilot)
 
     def end(self) -> Mapping[int, NodeReport]:
         """Return the reports. Real vehicles stay in the air."""

@@ -5,9 +5,7 @@ import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
 
-from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.simulator.log import format_table
 
 _logger = logging.getLogger(__name__)
@@ -75,19 +73,3 @@ def _write(path: Path, nodes: Mapping[int, NodeReport]) -> None:
         for identifier, node in nodes.items():
             wasted = "" if node.battery_wasted is None else node.battery_wasted
             writer.writerow((identifier, node.requests, node.drops, wasted))
-
-
-class Flying(Protocol):
-    """All vehicles of a simulation. Their failures are SitlErrors."""
-
-    def begin(self) -> None:
-        """Take off and fly to the initial positions. Return when all have arrived."""
-
-    def obey(self, command: MobilityCommand, node_id: int) -> None:
-        """Carry out a command of a protocol. Raise as `give_order`."""
-
-    def end(self) -> Mapping[int, NodeReport]:
-        """Return the report of each node after the simulation."""
-
-    def close(self) -> None:
-        """End the autopilots. Do nothing if they have ended."""
