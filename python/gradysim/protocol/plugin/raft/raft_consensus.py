@@ -235,9 +235,7 @@ class RaftConsensusPlugin:
         """Return the ids of the members that do not answer; none in classic mode."""
         return set(self._node.membership.known - self._node.active_nodes())
 
-    def get_failed_nodes(self) -> set[int]:
-        """Same as `get_communication_failed_nodes`."""
-        return self.get_communication_failed_nodes()
+    get_failed_nodes = get_communication_failed_nodes
 
     def get_active_nodes(self) -> set[int]:
         """Return the ids of the members that answer and have no simulated failure."""
@@ -323,17 +321,13 @@ class RaftConsensusPlugin:
         """Whether a member does not answer. False for a node that is not a member."""
         return node_id in self.get_failed_nodes()
 
-    def is_communication_failed(self, node_id: int) -> bool:
-        """Same as `is_node_failed`."""
-        return self.is_node_failed(node_id)
+    is_communication_failed = is_node_failed
 
     def is_simulation_active(self, node_id: int) -> bool:
         """Whether a node has no simulated failure. Other nodes count as active, since it is not known."""
         return self._node.is_active if node_id == self._node.node_id else True
 
-    def get_is_active(self, node_id: int) -> bool:
-        """Same as `is_simulation_active`."""
-        return self.is_simulation_active(node_id)
+    get_is_active = is_simulation_active
 
     def set_simulation_active(self, node_id: int, active: bool) -> None:
         """Simulate a failure of this node, or its recovery.
@@ -359,9 +353,7 @@ class RaftConsensusPlugin:
             return
         self._node.set_active(active)
 
-    def set_is_active(self, node_id: int, active: bool) -> None:
-        """Same as `set_simulation_active`."""
-        self.set_simulation_active(node_id, active)
+    set_is_active = set_simulation_active
 
     def get_failure_detection_metrics(self) -> dict[str, Any]:
         """Return counters and times of the failure detection as plain data."""

@@ -162,26 +162,36 @@ def parse_message(text: str) -> RaftMessage:
     Raises:
         ValueError: The text is not JSON or not a message, or a field is missing or has a wrong type.
     """
-    try:
-        content = json.loads(text)
-    except ValueError as error:
-        raise ValueError(f"a message must be JSON: {error}") from None
-    if not isinstance(content, dict):
-        raise ValueError(f"a message must be a JSON object, got {text[:80]!r}")
-    kind = content.get("type")
-    message_type = _TYPES.get(kind) if isinstance(kind, str) else None
+    content = _content_of(text)
+    message_type = _TYPES.get(str(content.get("type")))
     if message_type is None:
-        raise ValueError(f"unknown type of message {kind!r}, expected one of {', '.join(_TYPES)}")
-    arguments = {name: _read(content, name) for name in _NAMES[message_type] if name in content}
+        raise ValueError(
+            f"unknown type of message {content.get('type')!r}, expected one of {', '.join(_TYPES)}"
+        )
+    arguments = {
+        each.name: _read(content, each.name, each.type)
+        for each in _FIELDS[message_type]
+        if each.name in content
+    }
     try:
         return message_type(**arguments)
     except TypeError as error:  # an argument without a default is missing
         raise ValueError(f"incomplete message: {error}") from None
 
 
-def _read(content: Mapping[str, Any], name: str) -> Any:
+def _content_of(text: str) -> Mapping[str, Any]:
+    try:
+        content = json.loads(text)
+    except ValueError as error:
+        raise ValueError(f"a message must be JSON: {error}") from None
+    if not isinstance(content, dict):
+        raise ValueError(f"a message must be a JSON object, got {text[:80]!r}")
+    return content
+
+
+def _read(content: Mapping[str, Any], name: str, kind: Any) -> Any:
     value = content[name]
-    check, expected = _CHECKS[name]
+    check, expected = _CHECKS[kind]
     if not check(value):
         raise ValueError(f"{name} of a {content['type']} must be {expected}, got {value!r}")
     return [Entry(*entry) for entry in value] if name == "entries" else value
@@ -204,28 +214,19 @@ def _is_entry(value: object) -> bool:
     )
 
 
-_Check = tuple[Callable[[Any], bool], str]
-_NATURAL: _Check = (_is_natural, "an integer >= 0")
-_OPTIONAL_NATURAL: _Check = (lambda value: value is None or _is_natural(value), "an integer >= 0 or null")
-_FLAG: _Check = (lambda value: isinstance(value, bool), "true or false")
-_IDS: _Check = (_is_ids, "a list of ids")
-_OPTIONAL_IDS: _Check = (lambda value: value is None or _is_ids(value), "a list of ids or null")
-
-_CHECKS: dict[str, _Check] = {
-    **dict.fromkeys(("term", "term_number", "commit_index", "commit_term"), _NATURAL),
-    **dict.fromkeys(("last_log_index", "last_log_term"), _NATURAL),
-    **dict.fromkeys(("candidate_id", "voter_id", "leader_id", "follower_id"), _NATURAL),
-    **dict.fromkeys(("discoverer_id", "responder_id"), _NATURAL),
-    **dict.fromkeys(("vote_granted", "success", "would_vote"), _FLAG),
-    **dict.fromkeys(("active_nodes_count", "cluster_id"), _OPTIONAL_NATURAL),
-    **dict.fromkeys(("known_nodes", "active_nodes_list"), _OPTIONAL_IDS),
-    "answered": _IDS,
-    "consensus_values": (lambda value: isinstance(value, dict), "an object"),
-    "entries": (
+_CHECKS: Mapping[Any, tuple[Callable[[Any], bool], str]] = {
+    int: (_is_natural, "an integer >= 0"),
+    int | None: (lambda value: value is None or _is_natural(value), "an integer >= 0 or null"),
+    bool: (lambda value: isinstance(value, bool), "true or false"),
+    list[int]: (_is_ids, "a list of ids"),
+    list[int] | None: (lambda value: value is None or _is_ids(value), "a list of ids or null"),
+    dict[str, Any]: (lambda value: isinstance(value, dict), "an object"),
+    list[Entry]: (
         lambda value: isinstance(value, list) and all(map(_is_entry, value)),
         "a list of [term, name, value]",
     ),
 }
+"""What a field of each type must be in a message."""
 
 _TYPES: dict[str, type[RaftMessage]] = {
     message_type.__name__: message_type
@@ -238,7 +239,7 @@ _TYPES: dict[str, type[RaftMessage]] = {
         DiscoveryHeartbeatResponse,
     )
 }
-_NAMES = {message_type: tuple(each.name for each in fields(message_type)) for message_type in _TYPES.values()}
+_FIELDS = {message_type: fields(message_type) for message_type in _TYPES.values()}
 
 
 class MessageFactory:
@@ -253,12 +254,7 @@ class MessageFactory:
         Raises:
             ValueError: The text is not JSON or not a message.
         """
-        try:
-            content = json.loads(json_str)
-        except ValueError as error:
-            raise ValueError(f"a message must be JSON: {error}") from None
-        kind = content.get("type") if isinstance(content, dict) else None
-        message_type = cls._message_types.get(kind) if isinstance(kind, str) else None
+        message_type = cls._message_types.get(str(_content_of(json_str).get("type")))
         return parse_message(json_str) if message_type is None else message_type.from_json(json_str)
 
     @classmethod

@@ -22,10 +22,6 @@ class _History:
     last_recovery_s: float | None = None
     response_times_ms: deque[float] = field(default_factory=lambda: deque(maxlen=_REMEMBERED_RESPONSE_TIMES))
 
-    @property
-    def recent_response_times(self) -> list[float]:
-        return list(self.response_times_ms)[-_SHOWN_RESPONSE_TIMES:]
-
 
 class HeartbeatDetector:
     """Detects failed and recovered nodes by the rules of a `FailureConfig`.
@@ -149,36 +145,17 @@ class HeartbeatDetector:
             "total_nodes": len(self._histories),
             "active_nodes": len(self.get_active_nodes()),
             "failed_nodes": len(self.get_failed_nodes()),
-            "performance": {
-                "total_heartbeats_sent": self._sent,
-                "total_responses_received": self._successes + self._failures,
-                "success_rate_percent": self._rate_percent(self._successes),
-                "average_response_time_ms": self._average_response_time_ms(),
-                "detection_latency_ms": self._latency_ms,
-            },
-            "detection_stats": {
-                "total_failures_detected": self._total("failure_count"),
-                "total_recoveries_detected": self._total("recovery_count"),
-            },
+            "performance": self._performance(),
+            "detection_stats": self._detections(),
             "node_details": {node_id: self._details(node_id) for node_id in sorted(self._histories)},
         }
 
     def get_detection_metrics(self) -> dict[str, Any]:
         """Return counters and times of the detection and of each node as plain data."""
         return {
-            "performance": {
-                "total_heartbeats_sent": self._sent,
-                "total_responses_received": self._successes + self._failures,
-                "total_successful_responses": self._successes,
-                "total_failed_responses": self._failures,
-                "success_rate_percent": self._rate_percent(self._successes),
-                "failure_rate_percent": self._rate_percent(self._failures),
-                "average_response_time_ms": self._average_response_time_ms(),
-                "detection_latency_ms": self._latency_ms,
-            },
+            "performance": self._performance(),
             "detection": {
-                "total_failures_detected": self._total("failure_count"),
-                "total_recoveries_detected": self._total("recovery_count"),
+                **self._detections(),
                 "heartbeat_counter": self._heartbeats,
                 "detection_interval": self._config.detection_interval,
             },
@@ -208,30 +185,33 @@ class HeartbeatDetector:
             "timeout_ms": self._config.get_timeout_ms(),
         }
 
-    def _total(self, counter: str) -> int:
-        return sum(getattr(history, counter) for history in self._histories.values())
-
-    def _rate_percent(self, count: int) -> float:
+    def _performance(self) -> dict[str, float]:
         total = self._successes + self._failures
-        return 100.0 * count / total if total else 0.0
+        times_ms = [time for history in self._histories.values() for time in history.response_times_ms]
+        return {
+            "total_heartbeats_sent": self._sent,
+            "total_responses_received": total,
+            "total_successful_responses": self._successes,
+            "total_failed_responses": self._failures,
+            "success_rate_percent": 100.0 * self._successes / total if total else 0.0,
+            "failure_rate_percent": 100.0 * self._failures / total if total else 0.0,
+            "average_response_time_ms": sum(times_ms) / len(times_ms) if times_ms else 0.0,
+            "detection_latency_ms": self._latency_ms,
+        }
 
-    def _average_response_time_ms(self) -> float:
-        times = [time for history in self._histories.values() for time in history.response_times_ms]
-        return sum(times) / len(times) if times else 0.0
+    def _detections(self) -> dict[str, int]:
+        histories = self._histories.values()
+        return {
+            "total_failures_detected": sum(history.failure_count for history in histories),
+            "total_recoveries_detected": sum(history.recovery_count for history in histories),
+        }
 
     def _details(self, node_id: int) -> dict[str, Any]:
-        history, now_s = self._histories[node_id], self._now_s()
-        statistics = self._state.get_statistics(node_id)
+        now_s = self._now_s()
         return {
-            "consecutive_failures": statistics["consecutive_failures"],
-            "consecutive_successes": statistics["consecutive_successes"],
-            "failure_count": history.failure_count,
-            "recovery_count": history.recovery_count,
-            "recent_response_times": history.recent_response_times,
+            **self._history(node_id),
+            **self._state.get_timeout_statistics(node_id, now_s),
             "status": self._state.get_node_status(node_id).name,
-            "time_since_response_ms": self._state.get_timeout_statistics(node_id, now_s)[
-                "time_since_response_ms"
-            ],
             "timeout_exceeded": self._state.is_overdue(node_id, self._config.get_timeout_ms(), now_s),
         }
 
@@ -242,7 +222,7 @@ class HeartbeatDetector:
             "recovery_count": history.recovery_count,
             "last_failure": history.last_failure_s,
             "last_recovery": history.last_recovery_s,
-            "recent_response_times": history.recent_response_times,
+            "recent_response_times": list(history.response_times_ms)[-_SHOWN_RESPONSE_TIMES:],
         }
         if history.last_failure_s is not None:
             shown["time_since_last_failure"] = (now_s - history.last_failure_s) * 1000
