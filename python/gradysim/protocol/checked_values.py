@@ -4,24 +4,18 @@ Each error names the value, its purpose and what is expected.
 """
 
 import math
-from collections.abc import Callable
-from contextlib import suppress
 from numbers import Real
 from typing import Any
 
 from gradysim.protocol.position import Position
 
 
-def is_plain_number(value: object) -> bool:
-    """Return whether `value` is an int or a float, as JSON has them, and not a bool."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
+def is_in_range(
+    value: object, low: float = -math.inf, high: float = math.inf, *, above: bool = False
+) -> bool:
+    """Return whether `value` is a finite number from `low` to `high`. A bool is not a number.
 
-
-def is_in_range(value: object, low: float, high: float = math.inf, *, above: bool = False) -> bool:
-    """Return whether `value` is a number from `low` to `high`. NaN, a bool and other types are not.
-
-    Without `high`, every finite number >= `low` is in the range. With `above`, `low` itself is not:
-    `is_in_range(value, -math.inf, above=True)` accepts every finite number.
+    With `above`, `low` itself is not in the range.
     """
     if not isinstance(value, Real) or isinstance(value, bool):
         return False
@@ -29,22 +23,35 @@ def is_in_range(value: object, low: float, high: float = math.inf, *, above: boo
         number = float(value)
     except OverflowError:
         return False
-    if number == math.inf or not low <= number <= high:
-        return False
-    return number > low if above else True
+    return math.isfinite(number) and low <= number <= high and not (above and number == low)
 
 
 def checked_number(
-    name: str, value: Any, accept: Callable[[float], bool], expected: str, error: type[Exception]
+    name: str,
+    value: Any,
+    low: float = -math.inf,
+    high: float = math.inf,
+    *,
+    above: bool = False,
+    infinite: bool = False,
+    unit: str = "",
+    error: type[Exception] = ValueError,
 ) -> float:
-    """Return `value` as a float if it is a number that `accept` accepts. Otherwise raise `error`.
+    """Return `value` as a float if it is in the range of `is_in_range`, otherwise raise `error`.
 
-    `accept` must reject NaN, as every comparison does. `expected` completes "... must be".
+    With `infinite`, infinity is valid, too. `name` and `unit` are for the message.
     """
-    with suppress(OverflowError):  # of an integer that no double can hold
-        if isinstance(value, Real) and not isinstance(value, bool) and accept(float(value)):
-            return float(value)
-    raise error(f"{name} must be {expected}, got {value!r}")
+    if is_in_range(value, low, high, above=above):
+        return float(value)
+    if infinite and isinstance(value, Real) and value == math.inf:
+        return math.inf
+    if high < math.inf:
+        expected = f"> {low} and <= {high} {unit}" if above else f"from {low} to {high} {unit}"
+    elif low > -math.inf:
+        expected = f"{'' if infinite else 'finite and '}{'>' if above else '>='} {low} {unit}"
+    else:
+        expected = f"a finite number of {unit}" if unit else "a finite number"
+    raise error(f"{name} must be {expected.rstrip()}, got {value!r}")
 
 
 def checked_point(name: str, value: Any, error: type[Exception]) -> Position:

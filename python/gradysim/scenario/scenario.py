@@ -85,13 +85,8 @@ class Scenario:
     def __post_init__(self) -> None:
         """Check values that scripts may replace. Raises TypeError and ValueError, which name the field."""
         object.__setattr__(self, "seed", checked_seed(self.seed))
-        limit_s = checked_number(
-            "sim_time_limit_s",
-            self.sim_time_limit_s,
-            lambda time_s: 0 < time_s <= LONGEST_RUN_S,
-            f"a number of seconds, more than 0 and at most {LONGEST_RUN_S}",
-            ValueError,
-        )
+        limit_s = self.sim_time_limit_s
+        limit_s = checked_number("sim_time_limit_s", limit_s, 0, LONGEST_RUN_S, above=True, unit="s")
         object.__setattr__(self, "sim_time_limit_s", limit_s)
         for place, node in enumerate(self.nodes):
             if node.id != place:

@@ -1,10 +1,9 @@
 """Configuration of a simulation in prototype mode."""
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from gradysim.protocol.checked_values import is_in_range
+from gradysim.protocol.checked_values import checked_number
 from gradysim.simulator.real_time import real_time_factor
 
 
@@ -38,8 +37,8 @@ class SimulationConfiguration:
 
     def validate(self) -> None:
         """Check all values. ValueError names the invalid one."""
-        if self.duration not in (None, math.inf) and not is_in_range(self.duration, 0):
-            raise ValueError(f"duration must be >= 0 s or None, got {self.duration!r}")
+        if self.duration is not None:
+            checked_number("duration", self.duration, 0, infinite=True, unit="s")
         if self.max_iterations is not None and not _is_natural(self.max_iterations):
             raise ValueError(f"max_iterations must be an integer >= 0 or None, got {self.max_iterations!r}")
         real_time_factor(self.real_time)

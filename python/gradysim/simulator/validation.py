@@ -1,6 +1,5 @@
 """Checks of what scripts pass to the simulator: configurations, protocols and reference coordinates."""
 
-import math
 from collections.abc import Iterable
 from typing import TypeVar
 
@@ -32,9 +31,7 @@ def check_reference(place: Iterable[object]) -> None:
         latitude, longitude, altitude = place
     except (TypeError, ValueError):
         latitude = longitude = altitude = None
-    if not is_in_range(latitude, -90, 90) or not all(
-        is_in_range(value, -math.inf, above=True) for value in (longitude, altitude)
-    ):
+    if not (is_in_range(latitude, -90, 90) and is_in_range(longitude) and is_in_range(altitude)):
         raise ValueError(
             "reference_coordinates must be (latitude -90 to 90 degrees, longitude degrees, altitude m), "
             f"got {place!r}"

@@ -11,7 +11,7 @@ class WrongError(Exception):
 
 
 def positive(value):
-    return checked_number("speed", value, lambda number: number > 0, "> 0 m/s", WrongError)
+    return checked_number("speed", value, 0, above=True, infinite=True, unit="m/s", error=WrongError)
 
 
 @pytest.mark.parametrize("value", [1, 0.5, math.inf])
@@ -24,6 +24,23 @@ def test_another_one_is_refused_by_name_and_value(value):
     with pytest.raises(WrongError) as caught:
         positive(value)
     assert str(caught.value) == f"speed must be > 0 m/s, got {value!r}"
+
+
+@pytest.mark.parametrize(
+    ("limits", "expected"),
+    [
+        ({}, "a finite number"),
+        ({"unit": "m"}, "a finite number of m"),
+        ({"low": 9}, "finite and >= 9"),
+        ({"low": 9, "high": 12}, "from 9 to 12"),
+        ({"low": 1, "high": 5, "above": True, "unit": "s"}, "> 1 and <= 5 s"),
+    ],
+)
+def test_the_range_is_named(limits, expected):
+    value = 6 if limits and "low" in limits else math.inf
+    with pytest.raises(ValueError) as caught:  # noqa: PT011 (the whole text is checked)
+        checked_number("speed", value, **limits)
+    assert str(caught.value) == f"speed must be {expected}, got {value}"
 
 
 def test_numbers_of_numpy_are_numbers():

@@ -6,9 +6,7 @@ import pytest
 
 @pytest.mark.parametrize("wrong", ["3", None, 0, -1.0, float("nan"), float("inf"), 9_200_001])
 def test_a_script_may_not_replace_the_time_limit_by_none(folder: Any, wrong: Any) -> None:
-    with pytest.raises(
-        ValueError, match=r"^sim_time_limit_s must be a number of seconds, more than 0 and at"
-    ):
+    with pytest.raises(ValueError, match=r"^sim_time_limit_s "):
         replace(folder.load(), sim_time_limit_s=wrong)
 
 

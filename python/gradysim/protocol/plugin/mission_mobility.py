@@ -1,7 +1,6 @@
 """Plugin that flies a node along a list of waypoints, once or in a loop."""
 
 import logging
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -231,13 +230,8 @@ class MissionMobilityPlugin:
 
 def _check_configuration(configuration: MissionMobilityConfiguration) -> None:
     for name, unit in (("speed", "m/s"), ("tolerance", "m")):
-        checked_number(
-            f"{name} of a mission",
-            getattr(configuration, name),
-            lambda value: 0 <= value < math.inf,
-            f"finite and >= 0 {unit}",
-            MissionMobilityPluginException,
-        )
+        value, error = getattr(configuration, name), MissionMobilityPluginException
+        checked_number(f"{name} of a mission", value, 0, unit=unit, error=error)
     if not isinstance(configuration.loop_mission, LoopMission):
         raise MissionMobilityPluginException(
             f"loop_mission must be one of LoopMission, got {configuration.loop_mission!r}"

@@ -1,7 +1,6 @@
 """Plugin that sends a node to random points of a box, once or on a trip from one to the next."""
 
 import logging
-import math
 from dataclasses import dataclass
 from random import Random
 
@@ -59,9 +58,7 @@ class RandomMobilityPlugin:
             checked_range(name, getattr(config, name), ValueError)
             for name in ("x_range", "y_range", "z_range")
         )
-        tolerance = checked_number(
-            "tolerance", config.tolerance, lambda m: 0 <= m < math.inf, "finite and >= 0 m", ValueError
-        )
+        tolerance = checked_number("tolerance", config.tolerance, 0, unit="m")
         self._squared_tolerance = tolerance * tolerance
         self._random: Random | None = None
         if getattr(protocol, "provider", None) is not None:

@@ -1,7 +1,6 @@
 """Plugin that writes the pace of the simulation and the tracked variables of a node to CSV files."""
 
 import csv
-import math
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -41,13 +40,7 @@ class StatisticsProtocolWrapper:
     def configure(self, file_name_part: str, collection_interval: float) -> None:
         """Change the name of the files, and the interval from the next sample on."""
         self._file_name_part = _checked_file_name_part(file_name_part)
-        self._interval = checked_number(
-            "collection_interval",
-            collection_interval,
-            lambda seconds: 0 < seconds < math.inf,
-            "finite and > 0 s",
-            ValueError,
-        )
+        self._interval = checked_number("collection_interval", collection_interval, 0, above=True, unit="s")
 
     def register(self) -> None:
         """Start to sample: one interval from now, and then every interval. No-op if it has started."""

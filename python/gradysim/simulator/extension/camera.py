@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypedDict
 
 from gradysim.encapsulator.interface import NodePositions
-from gradysim.protocol.checked_values import is_in_range
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.extension.extension import Extension, mode_of, provider_of
@@ -39,13 +39,10 @@ class CameraConfiguration:
     facing_rotation: float
 
     def __post_init__(self) -> None:
-        if self.camera_reach != math.inf and not is_in_range(self.camera_reach, 0):
-            raise ValueError(f"camera_reach must be >= 0 m, got {self.camera_reach!r}")
-        if not is_in_range(self.camera_theta, 0, 180):
-            raise ValueError(f"camera_theta must be from 0 to 180 degrees, got {self.camera_theta!r}")
+        checked_number("camera_reach", self.camera_reach, 0, infinite=True, unit="m")
+        checked_number("camera_theta", self.camera_theta, 0, 180, unit="degrees")
         for name in ("facing_elevation", "facing_rotation"):
-            if not is_in_range(getattr(self, name), -math.inf, above=True):
-                raise ValueError(f"{name} must be a finite number of degrees, got {getattr(self, name)!r}")
+            checked_number(name, getattr(self, name), unit="degrees")
 
 
 class CameraHardware(Extension):

@@ -1,7 +1,6 @@
 """The ideal network of prototype mode: every node in range gets a message, after a fixed delay."""
 
 import logging
-import math
 import random
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
@@ -10,7 +9,7 @@ from typing import Any
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.validation import checked_interface, wrong_communication
-from gradysim.protocol.checked_values import is_in_range
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.protocol.errors import CommunicationException as CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
@@ -142,12 +141,9 @@ class CommunicationMedium:
     failure_rate: float = 0
 
     def __post_init__(self) -> None:
-        if self.transmission_range != math.inf and not is_in_range(self.transmission_range, 0):
-            raise ValueError(f"transmission_range must be >= 0 m, got {self.transmission_range!r}")
-        if not is_in_range(self.delay, 0):
-            raise ValueError(f"delay must be finite and >= 0 s, got {self.delay!r}")
-        if not is_in_range(self.failure_rate, 0, 1):
-            raise ValueError(f"failure_rate must be from 0 to 1, got {self.failure_rate!r}")
+        checked_number("transmission_range", self.transmission_range, 0, infinite=True, unit="m")
+        checked_number("delay", self.delay, 0, unit="s")
+        checked_number("failure_rate", self.failure_rate, 0, 1)
 
 
 def can_transmit(

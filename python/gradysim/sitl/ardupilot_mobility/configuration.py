@@ -1,11 +1,10 @@
 """Settings and exception of the ArduPilot mobility handler."""
 
-import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from gradysim.protocol.checked_values import is_in_range
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import (
     AUTOPILOT_USER,
     LOWEST_AUTOPILOT_SPEED_MPS,
@@ -74,17 +73,14 @@ class ArdupilotMobilityConfiguration:
             ("simulation_startup_speedup", ""),
             ("mavlink_streamrate", "Hz"),
         ):
-            value = getattr(self, name)
-            if not is_in_range(value, 0, above=True):
-                raise ValueError(f"{name} must be finite and > 0 {unit}".rstrip() + f", got {value!r}")
+            checked_number(name, getattr(self, name), 0, above=True, unit=unit)
         if is_too_slow_for_autopilot(self.default_speed):
             raise ValueError(
                 f"default_speed must be at least {LOWEST_AUTOPILOT_SPEED_MPS:g} m/s for an autopilot, "
                 f"got {self.default_speed!r}"
             )
         for name, value in (self.autopilot_parameters or {}).items():
-            if not is_in_range(value, -math.inf, above=True):
-                raise ValueError(f"the autopilot's parameter {name} must be a finite number, got {value!r}")
+            checked_number(f"the autopilot's parameter {name}", value)
         check_reference(self.reference_coordinates)
         for address in (self.vehicle_addresses or {}).values():
             parse_address(address)

@@ -1,7 +1,6 @@
 """Plugin for a follower: the node keeps a position relative to a leader."""
 
 import logging
-import math
 from dataclasses import dataclass
 
 from gradysim.protocol.checked_values import checked_number, checked_point
@@ -68,7 +67,10 @@ class MobilityFollowerPlugin:
             FollowMobilityException: A number of the configuration is outside its range.
         """
         self._configuration = configuration_or_default(self, configuration, MobilityFollowerConfiguration)
-        _check(self._configuration)
+        interval, timeout = self._configuration.scanning_interval, self._configuration.leader_timeout
+        error = FollowMobilityException
+        checked_number("scanning_interval", interval, 0, above=True, unit="s", error=error)
+        checked_number("leader_timeout", timeout, 0, above=True, infinite=True, unit="s", error=error)
         self._provider = protocol.provider
         self._last_heard: dict[int, float] = {}
         self._leader: int | None = None
@@ -169,20 +171,3 @@ class MobilityFollowerPlugin:
         self._leader = leader
         self._leader_position = None
         self._leader_orientation = None
-
-
-def _check(configuration: MobilityFollowerConfiguration) -> None:
-    checked_number(
-        "scanning_interval",
-        configuration.scanning_interval,
-        lambda seconds: 0 < seconds < math.inf,
-        "finite and > 0 s",
-        FollowMobilityException,
-    )
-    checked_number(
-        "leader_timeout",
-        configuration.leader_timeout,
-        lambda seconds: seconds > 0,
-        "> 0 s",
-        FollowMobilityException,
-    )

@@ -77,7 +77,14 @@ class MobilityLeaderPlugin:
             FollowMobilityException: A number of the configuration is outside its range.
         """
         configuration = configuration_or_default(self, configuration, MobilityLeaderConfiguration)
-        interval, self._timeout, self._orientation, jitter = _checked(configuration)
+        error = FollowMobilityException
+        interval, timeout = configuration.broadcast_interval, configuration.follower_timeout
+        jitter = checked_number("broadcast_jitter", configuration.broadcast_jitter, 0, 1, error=error)
+        interval = checked_number("broadcast_interval", interval, 0, above=True, unit="s", error=error)
+        self._timeout = checked_number(
+            "follower_timeout", timeout, 0, above=True, infinite=True, unit="s", error=error
+        )
+        self._orientation = checked_orientation(configuration.initial_orientation)
         self._provider = protocol.provider
         self._position: Position | None = None
         self._last_answer: dict[int, float] = {}
@@ -168,27 +175,3 @@ class BroadcastClock:
         self._number = max(self._number + 1, elapsed)
         delay = self._random.uniform(0, self._jitter)
         return max(now, self._start + (self._number + delay) * self._interval)
-
-
-def _checked(configuration: MobilityLeaderConfiguration) -> tuple[float, float, float, float]:
-    error = FollowMobilityException
-    return (
-        checked_number(
-            "broadcast_interval",
-            configuration.broadcast_interval,
-            lambda seconds: 0 < seconds < math.inf,
-            "finite and > 0 s",
-            error,
-        ),
-        checked_number(
-            "follower_timeout", configuration.follower_timeout, lambda seconds: seconds > 0, "> 0 s", error
-        ),
-        checked_orientation(configuration.initial_orientation),
-        checked_number(
-            "broadcast_jitter",
-            configuration.broadcast_jitter,
-            lambda part: 0 <= part <= 1,
-            "0 to 1, a part of the interval",
-            error,
-        ),
-    )

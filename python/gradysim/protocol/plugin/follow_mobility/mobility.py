@@ -5,7 +5,6 @@ with `FOLLOWER_TAG:id`, to its leader alone.
 """
 
 import json
-import math
 from typing import NamedTuple
 
 from gradysim.protocol.checked_values import checked_number, checked_point
@@ -77,10 +76,4 @@ def decode_follower(message: str) -> int:
 
 def checked_orientation(orientation: object) -> float:
     """Return an angle in degrees as a float; FollowMobilityException if it is not finite."""
-    return checked_number(
-        "an orientation",
-        orientation,
-        math.isfinite,
-        "a finite number of degrees",
-        FollowMobilityException,
-    )
+    return checked_number("an orientation", orientation, unit="degrees", error=FollowMobilityException)

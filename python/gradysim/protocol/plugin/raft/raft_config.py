@@ -4,7 +4,7 @@ import random
 from enum import Enum
 from typing import Any, Self
 
-from gradysim.protocol.checked_values import is_plain_number
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
 
 _LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
@@ -42,12 +42,8 @@ class RaftConfig:
         Raises:
             ValueError: A bound is negative, or the lower one is not below the upper one.
         """
-        if not (is_plain_number(min_timeout) and is_plain_number(max_timeout)):
-            raise ValueError(
-                f"election timeouts must be numbers (ms), got {min_timeout!r} and {max_timeout!r}"
-            )
-        if min_timeout < 0 or max_timeout < 0:
-            raise ValueError(f"election timeouts must be >= 0 ms, got {min_timeout!r} and {max_timeout!r}")
+        for timeout in (min_timeout, max_timeout):
+            checked_number("an election timeout", timeout, 0, infinite=True, unit="ms")
         if not min_timeout < max_timeout:
             raise ValueError(
                 f"the shortest election timeout must be below the longest, got {min_timeout!r} and "

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from gradysim.encapsulator.validation import geo_target, three_numbers, wrong_mobility
-from gradysim.protocol.checked_values import is_in_range
+from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import SPEED_MPS, UPDATE_S
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
 from gradysim.protocol.messages.mobility import (
@@ -36,10 +36,8 @@ class MasslessMobilityConfiguration:
     reference_coordinates: Position = (0, 0, 0)
 
     def __post_init__(self) -> None:
-        if not is_in_range(self.update_rate, 0, above=True):
-            raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
-        if not is_in_range(self.default_speed, 0):
-            raise ValueError(f"default_speed must be finite and >= 0 m/s, got {self.default_speed!r}")
+        checked_number("update_rate", self.update_rate, 0, above=True, unit="s")
+        checked_number("default_speed", self.default_speed, 0, unit="m/s")
         check_reference(self.reference_coordinates)
 
 
@@ -99,15 +97,11 @@ class MasslessMobilityHandler(INodeHandler):
         """
         if node_id in self.nodes:
             raise MasslessMobilityException(f"node {node_id} is registered already: configure it before")
-        if speed is not None and not is_in_range(speed, 0):
-            raise ValueError(f"speed of node {node_id} must be finite and >= 0 m/s, got {speed!r}")
+        if speed is not None:
+            checked_number(f"speed of node {node_id}", speed, 0, unit="m/s")
         rate = self._configuration.update_rate
         if telemetry_interval is not None and telemetry_interval != 0:
-            if not is_in_range(telemetry_interval, 0):
-                raise ValueError(
-                    f"telemetry_interval of node {node_id} must be finite and >= 0 s, "
-                    f"got {telemetry_interval!r}"
-                )
+            checked_number(f"telemetry_interval of node {node_id}", telemetry_interval, 0, unit="s")
             if _in_updates(telemetry_interval, rate) < 1:
                 raise ValueError(
                     f"telemetry_interval of node {node_id} is {telemetry_interval!r} s: expected 0 or at "

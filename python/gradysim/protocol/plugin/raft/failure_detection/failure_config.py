@@ -2,7 +2,7 @@
 
 import warnings
 
-from gradysim.protocol.checked_values import is_plain_number
+from gradysim.protocol.checked_values import checked_number
 
 _MINIMUM_TIMEOUT_MS = 100
 _RISKY_TIMEOUT_MS = 50
@@ -58,8 +58,7 @@ class FailureConfig:
         Raises:
             ValueError: It is <= 0.
         """
-        if not is_plain_number(timeout_ms) or not timeout_ms > 0:
-            raise ValueError(f"an absolute timeout must be > 0 ms, got {timeout_ms!r}")
+        checked_number("an absolute timeout", timeout_ms, 0, above=True, infinite=True, unit="ms")
         if timeout_ms < _RISKY_TIMEOUT_MS:
             warnings.warn(
                 f"with a timeout of {timeout_ms} ms normal delays may look like failures", stacklevel=2
@@ -72,8 +71,7 @@ class FailureConfig:
         Raises:
             ValueError: It is <= 0, or the timeout would be shorter than 100 ms.
         """
-        if not is_plain_number(interval_ms) or not interval_ms > 0:
-            raise ValueError(f"a heartbeat interval must be > 0 ms, got {interval_ms!r}")
+        checked_number("a heartbeat interval", interval_ms, 0, above=True, infinite=True, unit="ms")
         if not self.is_using_absolute_timeout():
             _check_timeout(self._timeout_multiplier, interval_ms)
         self._heartbeat_interval_ms = interval_ms

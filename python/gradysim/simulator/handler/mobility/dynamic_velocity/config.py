@@ -1,9 +1,8 @@
 """Configuration and exception of vehicles that are steered by velocity."""
 
-import math
 from dataclasses import dataclass
 
-from gradysim.protocol.checked_values import is_in_range
+from gradysim.protocol.checked_values import checked_number
 
 
 class DynamicVelocityMobilityException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
@@ -38,17 +37,13 @@ class DynamicVelocityMobilityConfiguration:
     telemetry_decimation: int = 1
 
     def __post_init__(self) -> None:
-        if not is_in_range(self.update_rate, 0, above=True):
-            raise ValueError(f"update_rate must be finite and > 0 s, got {self.update_rate!r}")
+        checked_number("update_rate", self.update_rate, 0, above=True, unit="s")
         for name in ("max_speed_xy", "max_speed_z", "max_acc_xy", "max_acc_z"):
-            value = getattr(self, name)
-            if value != math.inf and not is_in_range(value, 0):
-                unit = "m/s" if name.startswith("max_speed") else "m/s²"
-                raise ValueError(f"{name} must be >= 0 {unit}, got {value!r}")
+            unit = "m/s" if name.startswith("max_speed") else "m/s²"
+            checked_number(name, getattr(self, name), 0, infinite=True, unit=unit)
         for name in ("tau_xy", "tau_z"):
-            value = getattr(self, name)
-            if value is not None and not is_in_range(value, 0, above=True):
-                raise ValueError(f"{name} must be finite and > 0 s or None, got {value!r}")
+            if (value := getattr(self, name)) is not None:
+                checked_number(name, value, 0, above=True, unit="s")
         decimation = self.telemetry_decimation
         if not isinstance(decimation, int) or isinstance(decimation, bool) or decimation < 1:
             raise ValueError(f"telemetry_decimation must be an integer >= 1, got {decimation!r}")
