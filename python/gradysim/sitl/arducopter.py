@@ -83,18 +83,12 @@ def options(
     help_text: str,
     physics_port: int | None = None,
 ) -> list[str]:
-    """Return the command-line options for one vehicle.
+    """Return the command-line options for one vehicle, which faces North.
 
-    Args:
-        home: (latitude deg, longitude deg, altitude m). The vehicle faces North.
-        speedup: Seconds of its clock per second of wall time.
-        parameters: Parameter file, relative to its working directory.
-        instance: Instance number. It shifts the ports that it opens by ten each.
-        system_id: MAVLink system id, 1 to 255.
-        port: TCP port of 127.0.0.1 that it connects to for MAVLink.
-        help_text: Output of the program for --help, since versions differ.
-        physics_port: UDP port of 127.0.0.1 for external physics; None for ArduPilot's own, at the rate of
-            `speedup`.
+    The path of its parameter file is relative to its working directory. Each instance opens ports ten higher
+    than the one before. It connects to `port` (TCP, of 127.0.0.1) for MAVLink, and to `physics_port` (UDP)
+    for external physics; without one it has ArduPilot's own, at the rate of `speedup`. Versions differ by
+    their output for --help.
     """
     is_ours = physics_port is not None
     latitude, longitude, altitude = home
@@ -133,13 +127,10 @@ _TRIES = 100
 
 
 def free_instance(taken: set[int]) -> int:
-    """Return an instance number, not in `taken`, whose ports are free.
+    """Return an instance number, not in `taken`, whose ports are free. Raise SitlError if none is found.
 
     It is drawn from the system's random numbers, not from the simulation's seed, so simulations that start
     at the same time rarely conflict.
-
-    Raises:
-        SitlError: No free number was found.
     """
     generator = random.SystemRandom()
     for _ in range(_TRIES):

@@ -67,8 +67,7 @@ def ground_temperature(altitude_m: float) -> dict[str, float]:
 def wind_mps(name: str, parameters: Mapping[str, float]) -> Vector:
     """Return the wind velocity (North, East, down) from ArduCopter's parameters.
 
-    Raises:
-        SitlError: A wind parameter is not supported, such as turbulence.
+    Raise SitlError for a wind parameter that is not supported, such as turbulence.
     """
     unknown = [key for key in parameters if key.startswith(_WIND) and key not in (_WIND_SPEED, _WIND_FROM)]
     if unknown:

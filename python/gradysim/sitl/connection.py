@@ -108,8 +108,7 @@ Connection = StreamConnection | DatagramConnection
 def parse_address(text: str) -> tuple[str, str, int]:
     """Return (kind, host, port) of "tcp:HOST:PORT", "udpin:HOST:PORT" or "udpout:HOST:PORT".
 
-    Raises:
-        ValueError: The text has another form.
+    The kinds are to connect to, to listen on and to send to. Raise ValueError for another text.
     """
     kind, _, rest = text.partition(":")
     host, _, port = rest.rpartition(":")
@@ -121,16 +120,9 @@ def parse_address(text: str) -> tuple[str, str, int]:
 
 
 async def connect(link: MavlinkLink, address: str, timeout_s: float) -> Connection:
-    """Connect a link to a running vehicle.
+    """Connect a link to a running vehicle at an address of `parse_address`.
 
-    Args:
-        link: A link without a connection.
-        address: "tcp:HOST:PORT" to connect to, "udpin:HOST:PORT" to listen on, "udpout:HOST:PORT" to send to.
-        timeout_s: Limit of wall time.
-
-    Raises:
-        ValueError: The address is not valid.
-        SitlError: The vehicle does not answer.
+    Raise SitlError if the vehicle does not answer within `timeout_s` of wall time.
     """
     kind, host, port = parse_address(address)
     loop = asyncio.get_running_loop()

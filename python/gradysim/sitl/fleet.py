@@ -79,16 +79,8 @@ class Fleet:
     ) -> StreamConnection:
         """Start an autopilot and connect it to a link. The link is lost when the autopilot ends.
 
-        Args:
-            link: A link without a connection.
-            identifier: Number in its file names. Its MAVLink system id is one more, modulo 255.
-            home: Position on the ground (latitude deg, longitude deg, altitude m).
-            speedup: Seconds of its clock per second of wall time.
-            timeout_s: Limit of wall time until it connects.
-            parameters: Further ArduCopter parameters by name.
-
-        Raises:
-            SitlError: It does not start or connect.
+        Raise SitlError if it does not start, or does not connect within `timeout_s` of wall time. The other
+        arguments are those of `start`.
         """
         connection = StreamConnection(link)
         # The autopilot connects to us, so its port need not be known and no other program can interfere.
@@ -123,14 +115,14 @@ class Fleet:
         physics_port: int | None = None,
         parameters: Mapping[str, float] | None = None,
     ) -> AutopilotProcess:
-        """Start an autopilot that connects to `mavlink_port`.
+        """Start an autopilot that connects to a TCP port of 127.0.0.1.
 
         Args:
             name: Name of the vehicle in messages.
-            identifier: As for `launch`, like `home`, `speedup` and `parameters`.
-            home: Position on the ground.
-            mavlink_port: TCP port of 127.0.0.1 that is open for connections.
-            speedup: Ignored with external physics.
+            identifier: Number in its file names. Its MAVLink system id is one more, modulo 255.
+            home: Position on the ground (latitude deg, longitude deg, altitude m).
+            mavlink_port: Port that is open for connections.
+            speedup: Seconds of its clock per second of wall time. Ignored with external physics.
             physics_port: UDP port of 127.0.0.1 for external physics; None for ArduPilot's own.
             parameters: Further ArduCopter parameters by name.
 

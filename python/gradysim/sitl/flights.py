@@ -33,14 +33,7 @@ _PARAMETERS: Mapping[str, float] = {
 
 
 class LockStepFlight:
-    """Flight of one node: its autopilot, vehicle and pilot.
-
-    Attributes:
-        name: Name in messages.
-        autopilot: Its autopilot.
-        vehicle: The vehicle, for commands with confirmation.
-        pilot: Takes commands after `prepare`.
-    """
+    """Flight of one node: its autopilot, its vehicle, and the pilot that takes commands after `prepare`."""
 
     def __init__(
         self, node: AutopilotNode, reference: Position, on_text: Callable[[str, str], None] | None
@@ -150,11 +143,7 @@ class Flights:
     def begin(self) -> None:
         """Start all autopilots, take off and fly to the starts. Simulated time is 0 then.
 
-        All autopilots are ended if this fails or is interrupted.
-
-        Raises:
-            SitlError: An autopilot cannot be started, or a step failed.
-            ModuleNotFoundError: The extra `sitl` is not installed.
+        All are ended if this fails (SitlError) or is interrupted.
         """
         try:
             self._begin()
@@ -187,8 +176,7 @@ class Flights:
     def advance_to(self, time_s: float) -> None:
         """Fly until `time_s` of simulated time.
 
-        Raises:
-            SitlError: An autopilot has ended, hangs, or ignores commands.
+        Raise SitlError if an autopilot has ended, hangs, or ignores commands.
         """
         self._advance(self._begin_s + time_s)
 

@@ -17,15 +17,8 @@ def cartesian_to_geo(ref_coord: Position, position: Position) -> Position:
     It inverts the haversine formula along the meridian and along the parallel of the origin
     (R. W. Sinnott, Virtues of the Haversine, Sky and Telescope 68, 1984).
 
-    Args:
-        ref_coord: (latitude deg, longitude deg, altitude m) of the origin.
-        position: (x, y, z) in metres: North, East and up of the origin.
-
-    Returns:
-        (latitude deg, longitude deg, altitude m).
-
-    Raises:
-        ValueError: There is no such point on Earth.
+    Both geographic positions are (latitude deg, longitude deg, altitude m). Raise ValueError if there is no
+    such point on Earth.
     """
     latitude, longitude, altitude = ref_coord
     north, east, up = position
@@ -67,17 +60,9 @@ def check_same_hemisphere(home: Position, longitude: float) -> None:
 
 
 def autopilots_place(home: Position, offset: Position) -> Position:
-    """Return the position at an offset from home as ArduPilot computes it, with a flat Earth.
+    """Return (latitude deg, longitude deg, height above home m) at an offset (North, East, up; m) from home.
 
-    Args:
-        home: (latitude deg, longitude deg, altitude m).
-        offset: (x, y, z) in metres: North, East and up of home.
-
-    Returns:
-        (latitude deg, longitude deg, height above home m).
-
-    Raises:
-        ValueError: The position is across the date line.
+    ArduPilot computes it with a flat Earth. Raise ValueError if the place is across the date line.
     """
     latitude, longitude, _ = home
     north, east, up = offset

@@ -72,8 +72,7 @@ class LockStepAutopilot:
     def meet(self, process: AutopilotProcess, timeout_s: float) -> None:
         """Wait until a started autopilot waits for its first step.
 
-        Raises:
-            SitlError: It ends, or does not connect within `timeout_s` of wall time.
+        Raise SitlError if it ends, or does not connect within `timeout_s` of wall time.
         """
         self._process = process
         self.link.last_output = process.last_output
@@ -141,12 +140,9 @@ class LockStepAutopilot:
         return True
 
     def listen(self) -> bool:
-        """Read MAVLink messages. Return whether there were any.
+        """Read MAVLink messages. Return whether there were any. Raise SitlError if the autopilot has ended.
 
         The autopilot waits for its next step, so all its messages have arrived.
-
-        Raises:
-            SitlError: The autopilot has ended.
         """
         assert self._mavlink is not None
         try:
@@ -228,10 +224,7 @@ class LockStepGroup:
         """Run all autopilots to the step nearest to `time_s`. Return whether there were messages.
 
         Messages are handled when all have arrived, in their order, so the result does not depend on which one
-        is fastest.
-
-        Raises:
-            SitlError: An autopilot has ended, or hangs.
+        is fastest. Raise SitlError if an autopilot has ended or hangs.
         """
         behind = [each for each in self._autopilots if each.is_at_work or each.is_behind(time_s)]
         for autopilot in behind:

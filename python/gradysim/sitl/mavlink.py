@@ -102,8 +102,7 @@ class MavlinkLink:
     async def wait_for(self, accept: Callable[[Message], bool], timeout_s: float | None) -> Message | None:
         """Return the next message that `accept` accepts, or None after `timeout_s` (None: no limit).
 
-        Raises:
-            SitlError: The link is lost.
+        Raise SitlError if the link is lost.
         """
         if self.lost is not None:
             raise SitlError(f"{self.name}: {self.lost}")

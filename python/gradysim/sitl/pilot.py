@@ -49,11 +49,7 @@ class _Phase(Enum):
 
 
 class Pilot:
-    """Carries out the latest command.
-
-    Attributes:
-        vehicle: The vehicle.
-    """
+    """Carries out the latest command for a `vehicle`."""
 
     def __init__(
         self,
@@ -63,15 +59,10 @@ class Pilot:
         speed_mps: float,
         pace: float = 1.0,
     ) -> None:
-        """Create a pilot for a vehicle that holds its position before the first command.
+        """Create a pilot for a vehicle that holds the point `start` before the first command.
 
-        Args:
-            vehicle: The vehicle.
-            place_of: Returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in
-                metres. Raises ValueError if there is no such place.
-            start: Position (x, y, z) that the vehicle holds, in metres.
-            speed_mps: Ground speed, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
-            pace: Seconds of the autopilot's time per second of the asyncio loop.
+        `place_of` returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in metres,
+        or raises ValueError. `pace` is seconds of the autopilot's time per second of the asyncio loop.
         """
         self.vehicle = vehicle
         self._place_of = place_of
@@ -87,9 +78,7 @@ class Pilot:
     def go_to(self, target: Position) -> None:
         """Fly to a point (x, y, z) in metres. For z < 0 land at x and y.
 
-        Raises:
-            ValueError: There is no such place on Earth.
-            SitlError: The link to the vehicle is lost.
+        Raise ValueError if there is no such place on Earth, and SitlError if the link is lost.
         """
         x, y, z = target
         place = self._place_of((x, y, max(0.0, z)))
@@ -111,11 +100,7 @@ class Pilot:
     def set_speed(self, speed_mps: float) -> None:
         """Set the ground speed. `attend` sends it and waits for the confirmation.
 
-        Args:
-            speed_mps: 0 to stop, or >= `LOWEST_AUTOPILOT_SPEED_MPS`.
-
-        Raises:
-            ValueError: Any other speed.
+        Raise ValueError for a speed that is neither 0, to stop, nor >= `LOWEST_AUTOPILOT_SPEED_MPS`.
         """
         if speed_mps != 0 and is_too_slow_for_autopilot(speed_mps):
             raise ValueError(
@@ -140,11 +125,7 @@ class Pilot:
         return self._speed_is_new.is_set()
 
     async def attend(self) -> None:
-        """Send speeds, renew velocities, take off and land, until cancelled.
-
-        Raises:
-            SitlError: One of these fails.
-        """
+        """Send speeds, renew velocities, take off and land, until cancelled or one fails by SitlError."""
         await asyncio.gather(self._send_speeds(), self._renew_velocities(), self._take_off_and_land())
 
     async def watch(self) -> None:

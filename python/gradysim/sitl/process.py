@@ -25,16 +25,9 @@ class AutopilotProcess:
     """A running program in its own session, so that Ctrl-C in the terminal does not reach it."""
 
     def __init__(self, name: str, command: Sequence[str], folder: Path, console: Path) -> None:
-        """Start the program.
+        """Start a program with arguments in the directory `folder`, with its output in the file `console`.
 
-        Args:
-            name: Name of the vehicle in messages.
-            command: Path of the program and its arguments, used without a shell.
-            folder: Working directory.
-            console: File for its output.
-
-        Raises:
-            SitlError: The program cannot be started.
+        `name` is that of the vehicle in messages. Raise SitlError if the program cannot be started.
         """
         self.name = name
         self._console = console
@@ -110,8 +103,7 @@ def stop_all(processes: Iterable[AutopilotProcess], grace_s: float = GRACE_S) ->
 def user_for(wanted: str | None) -> str | None:
     """Return the user for a program: the wanted one if this process runs as root, otherwise None.
 
-    Raises:
-        SitlError: The user or a required command does not exist.
+    Raise SitlError if the user or a required command does not exist.
     """
     if wanted is None or os.geteuid() != 0:
         return None

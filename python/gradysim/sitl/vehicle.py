@@ -368,19 +368,10 @@ async def prepare(
     parameters: Mapping[str, float],
     check: Callable[[], None] = lambda: None,
 ) -> None:
-    """Wait for a position, take off and fly to the start.
+    """Wait for a position, take off and fly to the start: (latitude deg, longitude deg, height above home m).
 
-    Args:
-        vehicle: Its link is connected.
-        start: (latitude deg, longitude deg, height above home m).
-        position_hz: Rate of position messages, by the autopilot's clock.
-        speed_mps: Ground speed, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
-        timeout_s: Limit for each step.
-        parameters: Parameters of the autopilot by name. It has to confirm each.
-        check: Called when its position is known, before it moves. May raise SitlError.
-
-    Raises:
-        SitlError: A step failed.
+    The autopilot has to confirm each of its `parameters`. `check` is called when its position is known,
+    before it moves. Raise SitlError if a step fails or takes longer than `timeout_s`.
     """
     await vehicle.meet(timeout_s)
     for name, value in parameters.items():

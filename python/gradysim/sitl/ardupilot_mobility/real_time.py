@@ -48,12 +48,7 @@ _RESTORE_S = 1.0
 
 
 class Flight:
-    """One node and its autopilot: connects it, flies it to its start and carries out commands.
-
-    Attributes:
-        report: Counts of the node for the report.
-        pilot: Carries out commands.
-    """
+    """One node and its autopilot: connects it, flies it to its start and counts for the report."""
 
     def __init__(
         self,
@@ -87,11 +82,7 @@ class Flight:
         self._clock_offset_s: float | None = None
 
     async def prepare(self, fleet: Fleet | None) -> None:
-        """Take off and fly to the initial position. Without a fleet, use a running vehicle.
-
-        Raises:
-            SitlError: A step failed.
-        """
+        """Take off and fly to the initial position. Without a fleet, use a running vehicle."""
         configuration = self._configuration
         timeout_s = configuration.uav_api_startup_timeout
         vehicle = self._vehicle
@@ -126,8 +117,7 @@ class Flight:
     def telemetry_is_due(self) -> None:
         """Deliver the position if it is new; otherwise when it arrives, if that is before the next telemetry.
 
-        Raises:
-            SitlError: There was no position for a long time.
+        Raise SitlError if there was no position for a long time.
         """
         configuration = self._configuration
         self.report.requests += 1
