@@ -1,6 +1,6 @@
 """The tracked variables of a protocol: validation, and reports of each change."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from functools import cache
 from typing import Any, Self
 
@@ -47,16 +47,8 @@ class TrackedVariables(dict[str, Any]):
         super().__delitem__(name)
         self._on_change(name, None)
 
-    def setdefault(self, name: str, default: Any = None) -> Any:
-        """Like `dict.setdefault`; reported if the item is new."""
-        if name not in self:
-            self[name] = default
-        return self[name]
-
-    def update(self, *others: Any, **items: Any) -> None:
-        """Like `dict.update`; each item is reported."""
-        for name, value in dict(*others, **items).items():
-            self[name] = value
+    setdefault = MutableMapping.setdefault  # sets one item, by __setitem__
+    update = MutableMapping.update  # sets one item after another
 
     def __ior__(self, other: Any) -> Self:  # type: ignore[override, misc]  # dict declares two overloads
         self.update(other)
@@ -64,10 +56,10 @@ class TrackedVariables(dict[str, Any]):
 
     def pop(self, name: str, *default: Any) -> Any:
         """Like `dict.pop`; reported if the item was there."""
-        present = name in self
-        value = super().pop(name, *default)
-        if present:
-            self._on_change(name, None)
+        if name not in self and default:
+            return default[0]
+        value = self[name]
+        del self[name]
         return value
 
     def popitem(self) -> tuple[str, Any]:
@@ -78,10 +70,8 @@ class TrackedVariables(dict[str, Any]):
 
     def clear(self) -> None:
         """Like `dict.clear`; each item is reported."""
-        names = list(self)
-        super().clear()
-        for name in names:
-            self._on_change(name, None)
+        for name in list(self):
+            del self[name]
 
     def replace(self, variables: Mapping[str, Any]) -> None:
         """Become equal to `variables`, which a protocol has assigned. Removals are reported first.

@@ -1,8 +1,8 @@
 """Simulated time at the pace of the wall clock, for both modes."""
 
 import time
-from types import TracebackType
-from typing import Self
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 from gradysim.protocol.checked_values import is_in_range
 
@@ -54,24 +54,17 @@ class RealTimePacer:
 _contexts = 0
 
 
-class FullSpeed:
-    """Context in which simulations start at full speed, for scripts that test or train.
+@contextmanager
+def full_speed() -> Iterator[None]:
+    """Let simulations start at full speed inside the block, for scripts that test or train.
 
     The state is global, as in the published package: the code that makes a simulation need not know of it.
     """
-
-    def __enter__(self) -> Self:
-        global _contexts
-        _contexts += 1
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        exception: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        global _contexts
+    global _contexts
+    _contexts += 1
+    try:
+        yield
+    finally:
         _contexts -= 1
 
 

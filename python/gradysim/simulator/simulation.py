@@ -12,7 +12,7 @@ from gradysim.simulator.event import EventLoop as EventLoop  # Scripts of 0.8 im
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.registry import label_of
 from gradysim.simulator.node import Node as Node
-from gradysim.simulator.real_time import FullSpeed
+from gradysim.simulator.real_time import full_speed
 from gradysim.simulator.simulator import Simulator
 from gradysim.simulator.validation import checked_configuration, checked_protocol_class
 
@@ -41,7 +41,7 @@ class PositionScheme:
 
 __all__ = ["PositionScheme", "SimulationBuilder", "SimulationConfiguration", "Simulator"]
 
-_ForceFastExecution = FullSpeed  # the published name
+_ForceFastExecution = full_speed  # the published name
 
 
 class SimulationBuilder:

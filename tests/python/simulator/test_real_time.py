@@ -1,7 +1,7 @@
 import pytest
 
 from gradysim.simulator import real_time
-from gradysim.simulator.real_time import FullSpeed, is_full_speed
+from gradysim.simulator.real_time import full_speed, is_full_speed
 
 
 @pytest.mark.parametrize(("factor", "wall_s"), [(1.0, 10.0), (2.0, 5.0), (0.5, 20.0)])
@@ -50,8 +50,8 @@ def test_a_factor_that_is_none(given):
 
 def test_it_ends_with_the_outermost_context() -> None:
     seen = [is_full_speed()]
-    with FullSpeed():
-        with FullSpeed():
+    with full_speed():
+        with full_speed():
             seen.append(is_full_speed())
         seen.append(is_full_speed())
     seen.append(is_full_speed())

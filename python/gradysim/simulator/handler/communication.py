@@ -2,6 +2,7 @@
 
 import logging
 import random
+from collections import defaultdict
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import partial
@@ -41,17 +42,8 @@ class _Counts:
     """Counts of one kind of message and its deliveries."""
 
     def __init__(self) -> None:
-        self.sent = 0
-        self.carried = 0
-        self.delivered: dict[float, _Arrivals] = {}  # by their delays; s
-        self.out_of_range = 0
-        self.lost = 0
-
-    def after(self, delay_s: float) -> _Arrivals:
-        arrivals = self.delivered.get(delay_s)
-        if arrivals is None:
-            arrivals = self.delivered[delay_s] = _Arrivals()
-        return arrivals
+        self.sent = self.carried = self.out_of_range = self.lost = 0
+        self.delivered: dict[float, _Arrivals] = defaultdict(_Arrivals)  # by their delays; s
 
 
 class DeliveryLedger:
@@ -73,23 +65,10 @@ class DeliveryLedger:
         out_of_range: int,
         delay_s: float,
     ) -> list[ScheduledEvent]:
-        """Count a message that is sent, and its deliveries.
-
-        Args:
-            kind: To one node or to all.
-            copies: Delivery events, one per receiver.
-            lost: Number of deliveries lost by the medium's failure rate.
-            out_of_range: Number of receivers out of range.
-            delay_s: Delay of the deliveries.
-
-        Returns:
-            Delivery events that count themselves when they run.
-        """
+        """Count a message, and return its delivery events so that they count themselves when they run."""
         counts = self._counts[kind]
-        arrivals = counts.after(delay_s)
-        counted: list[ScheduledEvent] = [
-            (partial(arrivals.deliver, receive), context) for receive, context in copies
-        ]
+        deliver = counts.delivered[delay_s].deliver
+        counted: list[ScheduledEvent] = [(partial(deliver, receive), context) for receive, context in copies]
         counts.sent += 1
         counts.carried += len(counted)
         counts.lost += lost
@@ -113,17 +92,17 @@ class DeliveryLedger:
         "out_of_range" and "lost" (by the medium's failure rate) are decided at sending. "in_air" is not
         delivered yet; at the end of the run, it is never delivered.
         """
-        return {name: _fates(self._counts[kind]) for kind, name in KINDS.items()}
-
-
-def _fates(counts: _Counts) -> dict[str, int]:
-    delivered = sum(arrivals.count for arrivals in counts.delivered.values())
-    return {
-        "delivered": delivered,
-        "out_of_range": counts.out_of_range,
-        "lost": counts.lost,
-        "in_air": counts.carried - delivered,
-    }
+        fates: dict[str, dict[str, int]] = {}
+        for kind, name in KINDS.items():
+            counts = self._counts[kind]
+            delivered = sum(arrivals.count for arrivals in counts.delivered.values())
+            fates[name] = {
+                "delivered": delivered,
+                "out_of_range": counts.out_of_range,
+                "lost": counts.lost,
+                "in_air": counts.carried - delivered,
+            }
+        return fates
 
 
 @dataclass
