@@ -101,7 +101,7 @@ def calibrate(
     for argument, value, kind, expected in (
         ("range_m", range_m, Real, "a number of metres"),
         ("ratio", ratio, Real, "a number"),
-        ("message_bytes", message_bytes, Integral, "a whole number"),
+        ("message_bytes", message_bytes, Integral, "an integer"),
         ("sender", sender, str | None, "the name of a node or interface"),
         ("receiver", receiver, str | None, "the name of a node or interface"),
     ):

@@ -6,6 +6,7 @@ one by one; what the engine's own check then finds wrong is reported where the .
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
@@ -93,9 +94,20 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
     with errors_at(settings_by_target("medium", scenario.medium)):
         config: MediumConfig = netsim.MediumConfig() if chosen is None else netsim.MediumConfig(chosen.value)
         set_fields(config, settings)
-        config.obstacles = [obstacle_config(spec) for spec in scenario.obstacles]
+        config.obstacles = _obstacle_configs(scenario)
         config.validate()
     return config
+
+
+def _obstacle_configs(scenario: Scenario) -> "list[ObstacleConfig]":
+    """Return the checked configurations of all obstacles. Raises ConfigError for all that are wrong."""
+    errors = ErrorCollector()
+    configs = []
+    for spec in scenario.obstacles:
+        with errors.collecting():
+            configs.append(obstacle_config(spec))
+    errors.raise_all()
+    return configs
 
 
 def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
@@ -112,7 +124,9 @@ def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
     try:
         config.validate()
     except netsim.ConfigError as error:
-        raise ConfigError.at(spec.source, f"{spec.name}: {text_of(error)}") from error
+        raise ConfigError.at(
+            replace(spec.source, part=spec.name), f"{spec.name}: {text_of(error)}"
+        ) from error
     return config
 
 

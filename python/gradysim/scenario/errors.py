@@ -40,6 +40,7 @@ class Source:
         key: The key as it is written, or "" if the place is not that of an entry.
         value: The value as it is written.
         option: The option that gave an override, such as `--set`; "" for the lines of a file.
+        part: What the value describes, if it describes several things that may be wrong, or "".
     """
 
     file: Path
@@ -47,6 +48,7 @@ class Source:
     key: str = ""
     value: str = ""
     option: str = ""
+    part: str = ""
 
     @property
     def is_override(self) -> bool:
@@ -109,20 +111,26 @@ class ConfigError(ValueError):
     def __str__(self) -> str:
         return f"{self.source}: {self.message}" if self.source else self.message
 
+    def with_hint(self, hint: str) -> Self:
+        """Return the same error with more advice at its end."""
+        return type(self)(self.problem, self.source, **(self._details() | {"hint": self.hint + hint}))
+
+    def _details(self) -> dict[str, str]:
+        return {"expected": self.expected, "suggestion": self.suggestion, "hint": self.hint}
+
     def __reduce__(self) -> tuple[object, ...]:
         """For pickle, which knows no keyword arguments."""
-        parts = (self.problem, self.source, self.expected, self.suggestion, self.hint)
-        return _restored, (type(self), *parts)
+        return _restored, (type(self), self.problem, self.source, self._details())
 
 
 def _restored(
-    cls: type[ConfigError], problem: str, source: Source | None, expected: str, suggestion: str, hint: str
+    cls: type[ConfigError], problem: str, source: Source | None, details: dict[str, str]
 ) -> ConfigError:
-    return cls(problem, source, expected=expected, suggestion=suggestion, hint=hint)
+    return cls(problem, source, **details)
 
 
 class ConfigErrors(ConfigError):  # noqa: N818 - several of them
-    """All mistakes of a file, one for each entry. As an error by itself it is the first of them.
+    """All mistakes of a file, one for each entry or part of one. As an error by itself, it is the first.
 
     Attributes:
         errors: The mistakes, by file and line.
@@ -135,13 +143,7 @@ class ConfigErrors(ConfigError):  # noqa: N818 - several of them
             unique.setdefault(error.source if error.key else str(error), error)
         self.errors = sorted(unique.values(), key=_place)
         first = self.errors[0]
-        super().__init__(
-            first.problem,
-            first.source,
-            expected=first.expected,
-            suggestion=first.suggestion,
-            hint=first.hint,
-        )
+        super().__init__(first.problem, first.source, **first._details())
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.errors))

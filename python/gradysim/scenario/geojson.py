@@ -16,11 +16,12 @@ the scene. They are x and y of the scene in meters if the file says
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
-from gradysim.scenario.errors import ConfigError, Source, did_you_mean, nearest, nearest_file
+from gradysim.scenario.errors import ConfigError, ErrorCollector, Source, did_you_mean, nearest, nearest_file
 from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
 from gradysim.scenario.lookup import Lookup
 from gradysim.scenario.obstacles import (
@@ -66,27 +67,31 @@ def read_obstacle_files(
         reference: Latitude and longitude (degrees) and altitude (m) of the origin, if the scenario has them.
 
     Raises:
-        ConfigError: The file is missing or wrong. The error names the file and the feature.
+        ConfigError: The file is missing, or features of it are wrong; all of these are reported.
     """
     setting = read_setting(lookup, settings, OBSTACLE_FILE, OBSTACLE_FILE.path)
     if setting is None:
         return {}
     path, source = str(setting.value), setting.source
     file = source.file.parent / path
-    where = path
-    obstacles: list[ObstacleSpec] = []
     try:
         content = _parse(file)
         features = _features(content)
         place = _placing(content, reference)
-        for index, feature in enumerate(features):
-            properties = feature.get("properties")
-            properties = properties if isinstance(properties, dict) else {}
-            name = properties.get("name")
-            where = f"{path}, feature {index}" + (f' ("{name}")' if isinstance(name, str) else "")
-            obstacles += _obstacles(where, feature.get("geometry"), properties, place, source)
     except _BadGeojsonError as error:
-        raise ConfigError.at(source, f"{where}: {error}") from error
+        raise ConfigError.at(source, f"{path}: {error}") from error
+    errors = ErrorCollector()
+    obstacles: list[ObstacleSpec] = []
+    for index, feature in enumerate(features):
+        properties = feature.get("properties")
+        properties = properties if isinstance(properties, dict) else {}
+        name = properties.get("name")
+        where = f"{path}, feature {index}" + (f' ("{name}")' if isinstance(name, str) else "")
+        try:
+            obstacles += _obstacles(where, feature.get("geometry"), properties, place, source)
+        except _BadGeojsonError as error:
+            errors.add(ConfigError.at(replace(source, part=where), f"{where}: {error}"))
+    errors.raise_all()
     return {file: tuple(obstacles)}
 
 

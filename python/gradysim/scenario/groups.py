@@ -28,12 +28,14 @@ class Group:
         size: The number of nodes, or None for a single node without an index.
         size_found: The entry that sets the number; None for a single node.
         size_key: The key below the network that sets the size: "numUavs".
+        has_wrong_size: Whether that number is wrong, and the size 1 stands for it.
     """
 
     name: str
     size: int | None
     size_found: Found | None
     size_key: str
+    has_wrong_size: bool = False
 
     def node_names(self) -> list[str]:
         """Return the names of the nodes by index."""
@@ -45,21 +47,20 @@ class Group:
         return self.name if self.size is None else f"{self.name}[*]"
 
 
-def find_groups(lookup: Lookup, settings: SettingReader) -> list[Group]:
-    """Return all groups, in the order of their node ids. Raises ConfigError for bad numbers of nodes."""
+def find_groups(lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> list[Group]:
+    """Return all groups, in the order of their node ids. `errors` takes the errors of numbers of nodes."""
     mentions = _Mentions(sorted(lookup.found, key=lambda found: (-found.rank, found.order)))
     groups = []
-    errors = ErrorCollector()
     for name, size_key in mentions.size_keys().items():
         entries = [lookup.first(size_key), lookup.first(name, GROUP_SIZE.path)]
         given = sorted((found for found in entries if found), key=lambda found: found.order)
         if given and not given[0].is_default:
+            size = None
             with errors.collecting():
                 size = int(settings.scalar(given[0].entry, GROUP_SIZE.kind, f"{name}.{GROUP_SIZE.path}"))
-                groups.append(Group(name, size, given[0], size_key))
+            groups.append(Group(name, 1 if size is None else size, given[0], size_key, size is None))
         elif name in mentions.with_class:
             groups.append(Group(name, None, None, size_key))
-    errors.raise_all()
     return groups
 
 

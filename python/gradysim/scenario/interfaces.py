@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from gradysim.scenario.bands import BAND, CHANNELS
 from gradysim.scenario.errors import ConfigError, ErrorCollector
-from gradysim.scenario.groups import Group
 from gradysim.scenario.keys import (
     BAND_BESIDE_FREQUENCY,
     BAND_NAME,
@@ -28,22 +27,14 @@ from gradysim.scenario.schema import Key
 from gradysim.scenario.settings import SettingReader
 
 
-def interface_counts(lookup: Lookup, groups: list[Group], settings: SettingReader) -> dict[str, int]:
-    """Return the number of interfaces of each node, by name. Raises ConfigError for all bad numbers."""
-    given = lookup.candidates(NUM_WLAN_INTERFACES.path)
-    counts: dict[str, int] = {}
-    errors = ErrorCollector()
-    for group in groups:
-        for name in group.node_names():
-            found = given.first(name)
-            if found is None or found.is_default:
-                counts[name] = 1
-            else:
-                path = f"{name}.{NUM_WLAN_INTERFACES.path}"
-                with errors.collecting():
-                    counts[name] = int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind, path))
-    errors.raise_all()
-    return counts
+def interface_count(name: str, lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> int:
+    """Return the number of interfaces of a node. `errors` takes the error of a bad number."""
+    found = lookup.first(name, NUM_WLAN_INTERFACES.path)
+    if found is not None and not found.is_default:
+        with errors.collecting():
+            path = f"{name}.{NUM_WLAN_INTERFACES.path}"
+            return int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind, path))
+    return 1
 
 
 class InterfaceBuilder:
@@ -146,13 +137,7 @@ def _of_one_kind_only(error: ConfigError, node: str, index: int, count: int, is_
     group, bracket, _ = node.partition("[")
     line = f"*.{group}{bracket and '[*]'}.{at_interface(CHANNEL_NUMBER.path, index)} = default"
     hint = f", since wlan[{index}] of {node} is of {kind}; the line `{line}` before it leaves it to {other}"
-    return ConfigError(
-        error.problem,
-        error.source,
-        expected=error.expected,
-        suggestion=error.suggestion,
-        hint=error.hint + hint,
-    )
+    return error.with_hint(hint)
 
 
 def _range_comes_first(found: Mapping[Key, Found]) -> bool:

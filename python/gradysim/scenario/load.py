@@ -125,9 +125,11 @@ class CheckedScenarios:
             if len(failed) == _MOST_FAILED:
                 break
             values = run_variables(file, network_of_file, config, number, repetition, iterations)
-            limit_s = 1.0
-            try:
-                of_file = seed_of_file(as_written, number, values)
+            limit_s, of_file = 1.0, 0
+            error_count = len(errors.errors)
+            with errors.collecting():
+                with errors.collecting():
+                    of_file = seed_of_file(as_written, number, values)
                 seed_of_run = of_file if seed is None else seed + number
                 if key not in hashes:
                     hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
@@ -138,8 +140,7 @@ class CheckedScenarios:
                     limit_s = _sim_time_limit_s(options, config, source)
                 description = _description(options)
                 network, is_its_own = networks.checked(values, seed_of_run)
-            except ConfigError as error:
-                errors.add(error)
+            if len(errors.errors) > error_count:
                 failed.add(key)
                 continue
             if not is_its_own:

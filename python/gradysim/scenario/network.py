@@ -11,7 +11,7 @@ from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.geojson import read_obstacle_files
 from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry, Ranked
-from gradysim.scenario.interfaces import interface_counts
+from gradysim.scenario.interfaces import interface_count
 from gradysim.scenario.keys import NETWORK_KEYS
 from gradysim.scenario.lookup import Lookup, is_ignored, is_option, read_struct
 from gradysim.scenario.native_protocols import file_of_native
@@ -74,22 +74,19 @@ def read_network(
     """
     errors = ErrorCollector()
     lookup = Lookup(ranked)
-    groups = find_groups(lookup, settings)
+    groups = find_groups(lookup, settings, errors)
     lines_of_other_runs = check_names(lookup, groups, errors)
-    errors.errors = [_with_hint(error, instead) for error in errors.errors]
+    errors.errors = [
+        error.with_hint(instead) if isinstance(error, NoSuchNodeError) else error for error in errors.errors
+    ]
     protocols = load_protocols(lookup, groups, settings, loader, errors)
     if not protocols:
         errors.raise_all()
         raise _no_nodes(groups, instead, source)
-    counts: dict[str, int] = {}
-    obstacle_keys = 0
-    with errors.collecting():
-        counts = interface_counts(lookup, groups, settings)
-        obstacle_keys = obstacle_count(lookup, settings)
-    if not counts:
-        errors.raise_all()
+    counts = {name: interface_count(name, lookup, settings, errors) for name in protocols}
+    obstacles_below = obstacle_count(lookup, settings, errors)
     kinds = {name: ProtocolAndInterfaces(protocol.cls, counts[name]) for name, protocol in protocols.items()}
-    check_parameters(lookup, groups, kinds, obstacle_keys, errors)
+    check_parameters(lookup, groups, kinds, obstacles_below, errors)
 
     found = {
         key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None
@@ -102,11 +99,10 @@ def read_network(
     )
     nodes = build_nodes(lookup, groups, protocols, counts, settings, errors)
     medium = read_struct("medium", found, settings, _path_of, errors)
-    obstacles: tuple[ObstacleSpec, ...] = ()
+    obstacles = read_obstacles(obstacles_below, lookup, settings, errors)
     obstacle_files: dict[Path, tuple[ObstacleSpec, ...]] = {}
     with errors.collecting():
         is_placed = {"latitude_deg", "longitude_deg"} <= reference.keys()
-        obstacles = read_obstacles(lookup, settings)
         obstacle_files = read_obstacle_files(
             lookup, settings, (latitude, longitude, altitude) if is_placed else None
         )
@@ -125,18 +121,6 @@ def read_network(
         file_hashes=hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
         lines_of_other_runs=lines_of_other_runs,
         lookup=lookup,
-    )
-
-
-def _with_hint(error: ConfigError, hint: str) -> ConfigError:
-    if not isinstance(error, NoSuchNodeError):
-        return error
-    return NoSuchNodeError(
-        error.problem,
-        error.source,
-        expected=error.expected,
-        suggestion=error.suggestion,
-        hint=error.hint + hint,
     )
 
 

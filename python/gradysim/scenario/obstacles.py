@@ -2,14 +2,15 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
-from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.lookup import Lookup
-from gradysim.scenario.schema import Key
+from gradysim.scenario.lookup import Lookup, read_struct
+from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.settings import Setting, SettingReader
 
 Corner = tuple[float, float]
@@ -58,30 +59,33 @@ class ObstacleSpec:
     sources: Mapping[str, Source] = field(default_factory=dict)
 
 
-def obstacle_count(lookup: Lookup, settings: SettingReader) -> int:
-    """Return `environment.numObstacles`, the number of obstacles in the .ini file."""
-    setting = read_setting(lookup, settings, NUM_OBSTACLES, NUM_OBSTACLES.path)
-    return int(setting.value) if setting else 0
+def obstacle_count(lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> int:
+    """Return `environment.numObstacles`. `errors` takes the error of a bad number, which counts as 0."""
+    with errors.collecting():
+        setting = read_setting(lookup, settings, NUM_OBSTACLES, NUM_OBSTACLES.path)
+        return int(setting.value) if setting else 0
+    return 0
 
 
-def read_obstacles(lookup: Lookup, settings: SettingReader) -> tuple[ObstacleSpec, ...]:
-    """Return the obstacles that the .ini file describes.
-
-    Raises:
-        ConfigError: A value is missing or wrong.
-    """
-    count = lookup.first(*NUM_OBSTACLES.path.split(".", 1))
-    count_source = count.entry.source if count else None
+def read_obstacles(
+    count: int, lookup: Lookup, settings: SettingReader, errors: ErrorCollector
+) -> tuple[ObstacleSpec, ...]:
+    """Return the obstacles that the .ini file describes. `errors` takes what is missing or wrong."""
+    counted_at = lookup.first(*NUM_OBSTACLES.path.split(".", 1))
     obstacles = []
-    for index in range(obstacle_count(lookup, settings)):
-        values = {
-            key.field: setting
+    for index in range(count):
+        assert counted_at is not None
+        found = {
+            key: entry
             for key in OBSTACLE_KEYS
-            if (setting := read_setting(lookup, settings, key, obstacle_path(key, index)))
+            if (entry := lookup.first(*obstacle_path(key, index).split(".", 1))) is not None
         }
-        source = next(iter(values.values())).source if values else count_source
-        assert source is not None
-        obstacles.append(_obstacle(f"obstacle[{index}]", values, source))
+        wrong = ErrorCollector()
+        values = read_struct("obstacle", found, settings, partial(obstacle_path, index=index), wrong)
+        source = next((setting.source for setting in values.values()), counted_at.entry.source)
+        with errors.collecting():
+            wrong.raise_all()
+            obstacles.append(_obstacle(f"obstacle[{index}]", values, source))
     return tuple(obstacles)
 
 
@@ -92,46 +96,46 @@ def read_setting(lookup: Lookup, settings: SettingReader, key: Key, path: str) -
 
 
 def _obstacle(name: str, values: Mapping[str, Setting], source: Source) -> ObstacleSpec:
-    base_m, top_m = _span(name, values, "z", source)
-    if "typename" not in values or values["typename"].value == "box":
-        _refuse(name, values, ("points",), 'only a prism has points; expected `typename = "prism"`')
-        ring = _box(name, values, source)
-    else:
-        _refuse(name, values, _BOX_ONLY, 'a prism has points; expected `typename = "box"`, or points')
-        if "points" not in values:
-            expected = f'`*.environment.{name}.points = "0 0 10 0 10 5"`'
-            raise ConfigError(f"{name} has no points; expected {expected}", source)
-        ring = _prism(values["points"])
+    is_box = "typename" not in values or values["typename"].value == "box"
+    errors = ErrorCollector()
+    idle: tuple[str, ...] = ("points",)
+    why = 'only a prism has points; expected `typename = "prism"`'
+    if not is_box:
+        idle, why = _BOX_ONLY, 'a prism has points; expected `typename = "box"`, or points'
+    for name_of_field in idle:
+        if name_of_field in values:
+            errors.add(ConfigError.at(values[name_of_field].source, f"{name}: {why}"))
+    needed = [key for key in OBSTACLE_KEYS if key.default == HAS_TO_BE_GIVEN and key.field not in idle]
+    if missing := [key.path.rpartition(".")[2] for key in needed if key.field not in values]:
+        example = '"0 0 10 0 10 5"' if missing[0] == "points" else "10m"
+        problem = f"{name} has no {' and no '.join(missing)}"
+        expected = f"`*.environment.{name}.{missing[0]} = {example}`"
+        errors.add(ConfigError(problem, replace(source, part=name), expected=expected))
+    for axis in "xyz" if is_box else "z":
+        low, high = values.get(f"min_{axis}"), values.get(f"max_{axis}")
+        if low and high and not float(low.value) < float(high.value):
+            text = f"expected more than min{axis.upper()}, {low.value:g}m"
+            errors.add(ConfigError.at(high.source, text))
+    errors.raise_all()
     own = {
         property_name: float(values[property_name].value)
         for property_name in ("relative_permittivity", "conductivity_spm")
         if property_name in values
     }
-    material = str(values["material"].value) if "material" in values else DEFAULT_MATERIAL
-    sources = {f"obstacle.{target}": setting.source for target, setting in values.items()}
-    return ObstacleSpec(name, (ring,), base_m, top_m, source, material, **own, sources=sources)
+    return ObstacleSpec(
+        name,
+        (_box(values) if is_box else _prism(values["points"]),),
+        float(values["min_z"].value),
+        float(values["max_z"].value),
+        source,
+        str(values["material"].value) if "material" in values else DEFAULT_MATERIAL,
+        **own,
+        sources={f"obstacle.{target}": setting.source for target, setting in values.items()},
+    )
 
 
-def _span(name: str, values: Mapping[str, Setting], axis: str, source: Source) -> tuple[float, float]:
-    """Return the two limits of an obstacle along an axis, in meters."""
-    for end in ("min", "max"):
-        if f"{end}_{axis}" not in values:
-            key = f"{end}{axis.upper()}"
-            raise ConfigError(f"{name} has no {key}; expected `*.environment.{name}.{key} = 10m`", source)
-    low, high = (float(values[f"{end}_{axis}"].value) for end in ("min", "max"))
-    if not low < high:
-        text = f"expected more than min{axis.upper()}, {low:g}m"
-        raise ConfigError.at(values[f"max_{axis}"].source, text)
-    return low, high
-
-
-def _refuse(name: str, values: Mapping[str, Setting], fields: tuple[str, ...], why: str) -> None:
-    for setting in (values[name] for name in fields if name in values):
-        raise ConfigError.at(setting.source, f"{name}: {why}")
-
-
-def _box(name: str, values: Mapping[str, Setting], source: Source) -> Ring:
-    (west, east), (south, north) = (_span(name, values, axis, source) for axis in "xy")
+def _box(values: Mapping[str, Setting]) -> Ring:
+    west, east, south, north = (float(values[field].value) for field in ("min_x", "max_x", "min_y", "max_y"))
     corners = ((west, south), (east, south), (east, north), (west, north))
     heading = values.get("heading_rad")
     if heading is None or heading.value == 0:

@@ -32,7 +32,7 @@ class ParameterType:
         is_text: Whether it is a string: an override needs no quotes.
         names: The strings that are allowed, if not all are.
         is_file: Whether the string is the name of a file, relative to the .ini file.
-        unit: For a list of keys: the unit, or what it is instead ("whole number").
+        unit: For a list of keys: the unit, or what it is instead ("integer").
         show: Writes what is stored as it would stand in a file, in `unit`.
         has_all_between: Whether every value between two valid values is valid, whatever else the file says.
     """
@@ -180,21 +180,21 @@ def integer(
             if math.isfinite(result) and result == int(result):
                 hint = f"; did you mean `{int(result)}`, or `int(...)` of an expression?"
                 raise BadValue("it is a floating-point number", hint)
-            raise BadValue(f"`{text_of(value)}` is no whole number")
+            raise BadValue(f"`{text_of(value)}` is not an integer")
         limits.check(result, value)
         return result
 
-    return ParameterType(f"a whole number{limits.text()}", convert, unit="whole number")
+    return ParameterType(f"an integer{limits.text()}", convert, unit="integer")
 
 
 def whole_bytes(at_least: int = 0, at_most: int = MAX_INTEGER) -> ParameterType:
-    """Return the type of sizes, converted to a whole number of bytes."""
+    """Return the type of sizes, converted to an integer number of bytes."""
     size = quantity("B", at_least=at_least, at_most=at_most)
 
     def convert(value: Value) -> int:
         result = float(size.convert(value))
         if not result.is_integer():
-            raise BadValue(f"`{text_of(value)}` is no whole number of bytes")
+            raise BadValue(f"`{text_of(value)}` is not an integer number of bytes")
         return int(result)
 
     return replace(size, convert=convert)

@@ -187,7 +187,7 @@ def whole_seed(seed: object) -> int:
     try:
         return index(seed)  # type: ignore[arg-type]
     except TypeError:
-        raise TypeError(f"seed = {seed!r}: expected a whole number") from None
+        raise TypeError(f"seed = {seed!r}: expected an integer") from None
 
 
 def checked_seed(seed: object) -> int:

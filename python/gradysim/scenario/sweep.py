@@ -13,7 +13,7 @@ from itertools import product
 from pathlib import Path
 
 from gradysim.scenario.distributions import distribution_in
-from gradysim.scenario.errors import BadValue, ConfigError, Source, nearest
+from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.functions import is_quoted, text_of, unquoted
 from gradysim.scenario.ini import Entry, Ranked
@@ -93,21 +93,25 @@ def name_iterations(ranked: Iterable[Ranked]) -> tuple[list[Ranked], list[Iterat
     variables. An override thus fixes what the file iterates over.
 
     Raises:
-        ConfigError: A variable is not understood, or defined twice.
+        ConfigError: Variables are not understood, or defined twice; all of them are reported.
     """
     named: list[Ranked] = []
     left_out: list[Entry] = []
     variables: dict[str, IterationVariable] = {}
     seen: set[str] = set()
+    errors = ErrorCollector()
     for rank, entry in ranked:
         if "${" not in entry.text or is_ignored(entry):
             named.append(Ranked(rank, entry))
         elif entry.key not in seen:
-            named.append(Ranked(rank, _with_names(entry, variables)))
+            with errors.collecting():
+                named.append(Ranked(rank, _with_names(entry, variables)))
         else:
             left_out.append(entry)
         seen.add(entry.key)
-    _check_names(named, variables, left_out)
+    if not errors.errors:  # the names of variables that are not understood would be unknown
+        _check_names(named, variables, left_out, errors)
+    errors.raise_all()
     return named, list(variables.values())
 
 
@@ -217,21 +221,25 @@ def _values_of_range(part: str, *numbers: str) -> Iterator[str]:
 
 
 def _check_names(
-    named: Iterable[Ranked], variables: Mapping[str, IterationVariable], left_out: Sequence[Entry]
+    named: Iterable[Ranked],
+    variables: Mapping[str, IterationVariable],
+    left_out: Sequence[Entry],
+    errors: ErrorCollector,
 ) -> None:
-    """Raise ConfigError for a name that is not a variable."""
+    """Report names that are not variables."""
     known = [*(name for name in variables if not name.isdigit()), *PREDEFINED]
     for _, entry in named:
         for name in [] if is_ignored(entry) else _VARIABLE.findall(entry.text):
             if name not in variables and name not in PREDEFINED:
-                raise _unknown(entry.source, name, known, left_out)
+                errors.add(_unknown(entry.source, name, known, left_out))
     for variable in variables.values():
         leader = variable.follows
         if leader in PREDEFINED and leader != REPETITION:
             expected = f"expected `{REPETITION}` or one that has"
-            raise ConfigError.at(variable.source, f"`{leader}` has no list of values; {expected}")
-        if leader and leader not in (*variables, REPETITION):
-            raise _unknown(variable.source, leader, known, left_out)
+            problem = f"`{leader}` has no list of values; {expected}"
+            errors.add(ConfigError.at(variable.source, problem))
+        elif leader and leader not in (*variables, REPETITION):
+            errors.add(_unknown(variable.source, leader, known, left_out))
 
 
 def _unknown(source: Source, name: str, known: Sequence[str], left_out: Sequence[Entry]) -> ConfigError:

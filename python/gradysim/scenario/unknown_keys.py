@@ -118,10 +118,11 @@ def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> 
         if not found.parts[0].matches(lookup.network):
             errors.add(_unknown_name(found, groups, lookup.network))
         elif not names.has_match(name):
-            size = next((group.size_found for group in groups if group.name == name.group), None)
-            if size is None:
+            group = next((group for group in groups if group.name == name.group), None)
+            size = group.size_found if group else None
+            if group is None or size is None:
                 errors.add(_unknown_name(found, groups, lookup.network))
-            elif size.rank < found.rank or distribution_in(size.entry.text):
+            elif size.rank < found.rank or distribution_in(size.entry.text) or group.has_wrong_size:
                 pass  # a more specific section has reduced the group, or another seed may draw the index
             elif "${" in size.entry.source.value:
                 elsewhere.append(found.entry.source)

@@ -130,7 +130,8 @@ def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
         ),
         (
             ["--range", "50m", "--message", "50.4B"],
-            "--message 50.4B: `50.4B` is no whole number of bytes; expected a size such as 100B, at least 0B",
+            "--message 50.4B: `50.4B` is not an integer number of bytes;"
+            " expected a size such as 100B, at least 0B",
         ),
         (
             ["--range", "50kmm"],

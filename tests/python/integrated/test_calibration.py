@@ -160,7 +160,7 @@ def test_a_mistake_is_named(options: dict[str, object], text: str) -> None:
     [
         ({"range_m": "50m"}, "range_m = '50m': expected a number of metres"),
         ({"ratio": None}, "ratio = None: expected a number"),
-        ({"message_bytes": 1.5}, r"message_bytes = 1\.5: expected a whole number"),
+        ({"message_bytes": 1.5}, r"message_bytes = 1\.5: expected an integer"),
         ({"sender": 0}, "sender = 0: expected the name of a node or interface"),
         ({"receiver": 0}, "receiver = 0: expected the name of a node or interface"),
     ],

@@ -187,3 +187,11 @@ def test_a_file_that_is_not_utf_8_is_refused(folder: Any) -> None:
 def test_a_file_with_nearly_the_name_of_a_missing_one_is_suggested(folder: Any) -> None:
     folder.write("twon.geojson", "")
     assert error_of(folder, None).message.endswith("did you mean `twon.geojson`?")
+
+
+def test_all_wrong_features_are_reported_at_once(folder: Any) -> None:
+    error = error_of(folder, town(feature(height=-1), feature(), feature("Point")))
+    assert [each.source.part for each in error.errors] == [  # type: ignore[attr-defined]
+        "town.geojson, feature 0",
+        "town.geojson, feature 2",
+    ]

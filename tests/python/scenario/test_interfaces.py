@@ -150,7 +150,7 @@ def test_of_frequency_and_channel_the_first_counts_for_802154_too(folder: Any, f
         ),
         (
             "*.uavs[*].numWlanInterfaces = 0\n",
-            "= 0: it is out of range; expected a whole number, at least 1 and at most 16",
+            "= 0: it is out of range; expected an integer, at least 1 and at most 16",
         ),
     ],
 )

@@ -184,11 +184,11 @@ def test_the_place_on_earth(folder: Any) -> None:
     [
         (
             "repeat = 0\n",
-            "repeat = 0: it is out of range; expected a whole number, at least 1 and at most 1000000",
+            "repeat = 0: it is out of range; expected an integer, at least 1 and at most 1000000",
         ),
         (
             "seed-set = 1.5\n",
-            "seed-set = 1.5: `1.5` is no whole number; expected a whole number",
+            "seed-set = 1.5: `1.5` is not an integer; expected an integer",
         ),
         (
             "*.uavs[*].mobility.speed = ${v}mps\n",
@@ -361,6 +361,26 @@ def test_twice_the_lines_take_twice_the_time(
 
     few, many = (count_matches(lambda size=size: load(size)) for size in (60, 120))
     assert many <= 2.2 * few
+
+
+def test_errors_of_all_parts_of_a_file_are_reported_at_once(folder: Any) -> None:
+    error = folder.mistake(
+        "seed-set = x\n*.uavs[*].mobility.speed = fast\n*.boats.protocol.class = 3\n"
+        "*.groundStation.numWlanInterfaces = 0\n*.environment.numObstacles = many\n"
+        "*.uavs[7].mobility.speed = 1mps\n",
+        "General",
+        "*.numUavs=-1",
+        "sim-time-limit=3m",
+    )
+    assert [(each.line, each.key) for each in error.errors] == [
+        (0, "sim-time-limit"),
+        (0, "*.numUavs"),
+        (6, "seed-set"),
+        (7, "*.uavs[*].mobility.speed"),
+        (8, "*.boats.protocol.class"),
+        (9, "*.groundStation.numWlanInterfaces"),
+        (10, "*.environment.numObstacles"),
+    ]
 
 
 PLACES = "repeat = 5\n*.uavs[*].mobility.initialX = uniform(0m, 1km)\n"

@@ -267,7 +267,7 @@ def test_a_file_is_relative_to_the_file_that_holds_the_line(folder: Any) -> None
         ),
         (
             "**.retries = 1.5\n",
-            "**.retries = 1.5: for uavs[0].protocol.retries: `1.5` is no whole number; expected an"
+            "**.retries = 1.5: for uavs[0].protocol.retries: `1.5` is not an integer; expected an"
             " integer, as the parameter is an int; for other numbers write `retries: float = 3` in the class",
         ),
         (

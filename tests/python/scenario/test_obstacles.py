@@ -120,6 +120,33 @@ def test_an_error_has_its_line_and_names_what_is_wrong(folder: Any, text: str, l
     assert names in error.value.message
 
 
+def test_errors_of_all_obstacles_are_reported_at_once(folder: Any) -> None:
+    lines = """*.environment.numObstacles = 4
+*.environment.obstacle[*].minZ = 0m
+*.environment.obstacle[*].maxZ = 3m
+*.environment.obstacle[0].minX = 5m
+*.environment.obstacle[0].maxX = 4m
+*.environment.obstacle[0].minY = 5m
+*.environment.obstacle[0].maxY = 4m
+*.environment.obstacle[1].material = "bricks"
+*.environment.obstacle[1].minX = 5s
+*.environment.obstacle[2..3].typename = "prism"
+*.environment.obstacle[3].points = "0 0 10 0"
+"""
+    error = folder.mistake(lines)
+    assert [each.line for each in error.errors] == [10, 12, 13, 14, 15, 16]
+    assert [each.source.part for each in error.errors] == ["", "", "", "", "obstacle[2]", ""]
+
+
+def test_an_obstacle_names_all_that_it_lacks(folder: Any) -> None:
+    error = folder.mistake("*.environment.numObstacles = 2\n")
+    assert [(each.line, each.source.part) for each in error.errors] == [
+        (6, "obstacle[0]"),
+        (6, "obstacle[1]"),
+    ]
+    assert all(f"{end}{axis}" in error.problem for end in ("min", "max") for axis in "XYZ")
+
+
 SQUARE: Ring = ((0, 0), (10, 0), (10, 10), (0, 10))
 
 

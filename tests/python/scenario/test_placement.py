@@ -104,7 +104,7 @@ def test_one_row_takes_one_separation(folder: Any) -> None:
     ("line", "text"),
     [
         ("numHosts = 1", "uavs[*] has 2 nodes; expected as many, or no such line"),
-        ("columns = 0", "expected a whole number"),
+        ("columns = 0", "expected an integer"),
         (
             "rows = 1\n*.uavs[*].mobility.columns = 1",
             "1 rows of 1 columns have no room for 2 nodes; expected more",

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.errors import ConfigError, ConfigErrors, Source
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.sweep import (
     Constraint,
@@ -361,3 +361,10 @@ def test_values_may_name_them(folder: Any) -> None:
 
 def test_a_label_that_does_not_end_is_refused(folder: Any) -> None:
     assert error_at(folder, 'experiment-label = "a" b\n').key == "experiment-label"
+
+
+def test_all_variables_that_are_not_understood_are_reported() -> None:
+    for texts in (("${a=}", "${b=1..}", "${c}"), ("${a}", "${b=1 ! c}")):
+        with pytest.raises(ConfigErrors) as caught:
+            named(*texts)
+        assert [error.line for error in caught.value.errors] == [1, 2]
