@@ -10,12 +10,9 @@ from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.sitl import SitlError
-from gradysim.sitl.arducopter import find_arducopter
-from gradysim.sitl.autopilot_node import AutopilotNode, check_start, wind_mps
-from gradysim.sitl.mavlink import load_dialect
-from gradysim.sitl.process import user_for
 
 if TYPE_CHECKING:
+    from gradysim.sitl.autopilot_node import AutopilotNode
     from gradysim.sitl.flights import Flights
 
 
@@ -50,7 +47,9 @@ def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = 
     return Flights(nodes, scenario.reference_coordinates, on_text=on_text)
 
 
-def _node_of(spec: NodeSpec, autopilot: AutopilotSpec) -> AutopilotNode:
+def _node_of(spec: NodeSpec, autopilot: AutopilotSpec) -> "AutopilotNode":
+    from gradysim.sitl.autopilot_node import AutopilotNode
+
     return AutopilotNode(
         id=spec.id,
         name=f"node {spec.id} ({spec.name})",
@@ -63,6 +62,11 @@ def _node_of(spec: NodeSpec, autopilot: AutopilotSpec) -> AutopilotNode:
 
 
 def _check(spec: NodeSpec, autopilot: AutopilotSpec, reference: Position) -> None:
+    from gradysim.sitl.arducopter import find_arducopter
+    from gradysim.sitl.autopilot_node import check_start, wind_mps
+    from gradysim.sitl.mavlink import load_dialect
+    from gradysim.sitl.process import user_for
+
     if issubclass(spec.protocol, NativeProtocol):
         text = f"{spec.name}: autopilots work only with Python protocols; expected another mobility.typename"
         raise ConfigError.at(autopilot.source, text)
