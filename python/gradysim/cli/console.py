@@ -24,4 +24,6 @@ def console(output: TextIO | None = None) -> Console:
     """
     target = sys.stdout if output is None else output
     has_width = target.isatty() or "COLUMNS" in os.environ
-    return _Console(file=target, width=None if has_width else _NO_BOUND)
+    return _Console(
+        file=target, width=None if has_width else _NO_BOUND, markup=False, emoji=False, highlight=False
+    )

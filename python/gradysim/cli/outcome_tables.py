@@ -34,16 +34,24 @@ class CountTables:
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         """Yield tables of as many columns as fit beside each other, at least one."""
-        unlimited = options.update(max_width=10_000)
+        if self._fits(self._columns, console, options):
+            yield self._table(self._columns)
+            return
         shown: dict[str, Mapping[str, int]] = {}
         for column, counts in self._columns.items():
             wider = {**shown, column: counts}
-            if shown and Measurement.get(console, unlimited, self._table(wider)).maximum > options.max_width:
+            if shown and not self._fits(wider, console, options):
                 yield self._table(shown)
                 yield Text()
                 wider = {column: counts}
             shown = wider
         yield self._table(shown)
+
+    def _fits(
+        self, columns: Mapping[str, Mapping[str, int]], console: Console, options: ConsoleOptions
+    ) -> bool:
+        unlimited = options.update(max_width=10_000)
+        return Measurement.get(console, unlimited, self._table(columns)).maximum <= options.max_width
 
     def _table(self, columns: Mapping[str, Mapping[str, int]]) -> Table:
         table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)

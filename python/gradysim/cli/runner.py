@@ -25,6 +25,8 @@ from gradysim.cli.interrupt import FORWARDED, StopOnInterrupt
 P = ParamSpec("P")
 T = TypeVar("T")
 
+_WRITTEN_TO = (io.TextIOWrapper, io.BufferedWriter)
+
 _PR_SET_PDEATHSIG = 1
 """Of prctl(2): the signal that the kernel sends to a process when its parent dies."""
 
@@ -91,7 +93,8 @@ class ForkExecutor(Executor):
         self._captures = jobs > 1 or not (_is_file(sys.stdout) and _is_file(sys.stderr))
         self._waiting: deque[tuple[RunFuture[Any], Callable[[], Any]]] = deque()
         self._workers: dict[int, _Worker] = {}
-        self._files = list(_open_files())
+        self._files = _open_files()
+        gc.freeze()  # a collection in a worker would copy the pages of all that is loaded
         interrupt.workers = self._workers.keys()
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> RunFuture[T]:
@@ -157,7 +160,6 @@ class ForkExecutor(Executor):
         """Be the worker: call the task, leave what it returns or raises in a file, and exit."""
         code = 1
         try:
-            gc.freeze()  # a collection would copy the pages of all that the parent has loaded
             _end_with(parent)
             self._interrupt.become_worker()
             if worker.printed:
@@ -224,11 +226,9 @@ def _stream(file: IO[bytes], descriptor: int) -> TextIO:
     return open(descriptor, "w", buffering=1, encoding="utf-8", errors="backslashreplace", closefd=False)
 
 
-def _open_files() -> Iterator[io.IOBase]:
-    """Yield the files of this process that text or bytes may be written to."""
-    for thing in gc.get_objects():
-        if issubclass(type(thing), (io.TextIOWrapper, io.BufferedWriter)):
-            yield thing
+def _open_files() -> list[io.IOBase]:
+    """Return the files that text or bytes may be written to, of those opened since `gc.freeze()`."""
+    return [each for each in gc.get_objects() if issubclass(type(each), _WRITTEN_TO)]
 
 
 def _flush(file: IO[Any] | io.IOBase) -> None:

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from statistics import fmean, stdev
 
 CONFIDENCE = 0.95
 """Share of such intervals that contain the true mean."""
@@ -18,7 +17,7 @@ _HUGE, _SMALLER = 2.0**900, 2.0**-100
 def mean_of(values: Sequence[float]) -> float:
     """Return the mean of finite numbers, even if their sum overflows a float."""
     try:
-        return fmean(values)
+        return math.fsum(values) / len(values)
     except OverflowError:
         return float(sum(map(Fraction, values)) / len(values))
 
@@ -29,6 +28,8 @@ def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
     The values are assumed to be independent and normally distributed. A width that overflows a float is
     infinite.
     """
+    from statistics import stdev
+
     if len(values) < 2:
         return mean_of(values), None
     scale = _SMALLER if max(map(abs, values)) > _HUGE else 1.0

@@ -8,7 +8,6 @@ name the node, and one match for each other entry that may be about its group.
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector
@@ -18,6 +17,7 @@ from gradysim.scenario.options import (
     IGNORED_BEGINNINGS,
     IGNORED_ENDS,
     IGNORED_MODULES,
+    IGNORED_OPTION_BEGINNINGS,
     IGNORED_OPTIONS,
     NETWORK,
     OPTIONS,
@@ -234,7 +234,7 @@ def is_ignored(entry: Entry) -> bool:
     """Return whether only OMNeT++ reads an entry. Its value is not checked."""
     parts = entry.key.split(".")
     if len(parts) == 1:
-        return any(fnmatchcase(entry.key, option) for option in IGNORED_OPTIONS)
+        return entry.key in IGNORED_OPTIONS or entry.key.startswith(IGNORED_OPTION_BEGINNINGS)
     if parts[-1].startswith(IGNORED_BEGINNINGS) or parts[-1] in IGNORED_ENDS:
         return True
     return len(parts) > 2 and parts[1] in IGNORED_MODULES

@@ -86,31 +86,21 @@ SECTION_OPTIONS = ("extends", "abstract")
 IGNORED_OPTIONS = (
     "allow-object-stealing-on-deletion",
     "check-signals",
-    "cmdenv-*",
     "config-recording",
     "configuration-class",
     "debug-on-errors",
     "debug-statistics-recording",
-    "debugger-attach-*",
-    "eventlog-*",
     "eventlogmanager-class",
-    "fingerprint*",
     "fname-append-host",
     "futureeventset-class",
     "image-path",
     "load-libs",
     "max-module-nesting",
-    "ned-*",
     "num-rngs",
-    "output-scalar-*",
-    "output-vector*",
     "outputscalarmanager-class",
     "outputvectormanager-class",
     "parallel-simulation",
     "parameter-mutability-check",
-    "parsim-*",
-    "print-*",
-    "qtenv-*",
     "record-eventlog",
     "result-dir",
     "resultdir-subdivision",
@@ -125,7 +115,21 @@ IGNORED_OPTIONS = (
     "user-interface",
     "warnings",
 )
-"""Of a run, with `*` for any letters."""
+"""Options of a run that only OMNeT++ reads."""
+
+IGNORED_OPTION_BEGINNINGS = (
+    "cmdenv-",
+    "debugger-attach-",
+    "eventlog-",
+    "fingerprint",
+    "ned-",
+    "output-scalar-",
+    "output-vector",
+    "parsim-",
+    "print-",
+    "qtenv-",
+)
+"""Of the names of such options."""
 
 IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-", "rng-", "vector-record", "vector-buffer")
 """Of the last names of keys: options that are given per module, such as `**.cmdenv-log-level`."""
