@@ -30,6 +30,8 @@ _WRITTEN_TO = (io.TextIOWrapper, io.BufferedWriter)
 _PR_SET_PDEATHSIG = 1
 """Of prctl(2): the signal that the kernel sends to a process when its parent dies."""
 
+_prctl = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
+
 
 class WorkerError(Exception):
     """The process of a run could not start, or ended before the run did.
@@ -238,8 +240,8 @@ def _flush(file: IO[Any] | io.IOBase) -> None:
 
 def _end_with(parent: int) -> None:
     """Let this process be killed when its parent dies, however that happens. Linux only."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if _prctl is not None:
+        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
         if os.getppid() != parent:  # it has died already
             os._exit(1)
 
