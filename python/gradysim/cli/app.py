@@ -22,7 +22,7 @@ from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.cli.calibrate import calibrate_power
 from gradysim.cli.check import check_file
-from gradysim.cli.exit_code import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
+from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.run import run

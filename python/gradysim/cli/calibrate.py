@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.exit_code import OK, say_mistake
+from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import ConfigOption, FileArgument, SetOption
 from gradysim.cli.runs import check
 

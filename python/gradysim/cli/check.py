@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.exit_code import MISTAKE, OK, say_mistake
+from gradysim.cli.errors import MISTAKE, OK, say_mistake
 from gradysim.cli.options import FileArgument, Mode, SetOption
-from gradysim.cli.runs import check, placed
-from gradysim.cli.warnings import findings_of
+from gradysim.cli.runs import check, findings_of, placed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -56,9 +55,13 @@ def check_file(
     reports: list[ConfigError | Finding] = [*found, *dict.fromkeys(findings)]
     for report in sorted(reports, key=lambda each: (str(each.file or ""), each.line)):
         print(report)
-    named = "configuration" if len(configs) == 1 else "configurations"
-    print(f"{len(found)} errors and {len(reports) - len(found)} warnings in {len(configs)} {named}")
+    counts = f"{_counted(len(found), 'error')} and {_counted(len(reports) - len(found), 'warning')}"
+    print(f"{counts} in {_counted(len(configs), 'configuration')}")
     return MISTAKE if found else OK
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
 def _checked(

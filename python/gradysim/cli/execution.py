@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TextIO
 
-from gradysim.cli.crash_report import print_failure
-from gradysim.cli.exit_code import FAILED, INTERRUPTED, OK
-from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import captures, ids_of_fates, nodes_of_vectors
+from gradysim.cli.progress import RunProgress, waiting
+from gradysim.cli.runner import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.scenario.errors import ConfigError
 
@@ -76,8 +76,6 @@ def execute(
         ConfigError, CompiledPartMissingError: The scenario or the installation is wrong.
         KeyboardInterrupt: Ctrl-C was pressed before the run was built.
     """
-    from gradysim.cli.waiting import waiting
-
     try:
         with (
             interrupt.at_once(),
@@ -92,8 +90,6 @@ def execute(
         if terminal is None:
             run.execute(None, interrupt.should_stop)
         else:
-            from gradysim.cli.progress import RunProgress
-
             title = f"{scenario.config} run {scenario.run_number}"
             with RunProgress(terminal, title, scenario.sim_time_limit_s) as bar:
                 run.execute(bar.update, interrupt.should_stop)

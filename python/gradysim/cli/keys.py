@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.exit_code import MISTAKE, OK
+from gradysim.cli.errors import MISTAKE, OK
 
 if TYPE_CHECKING:
     from rich.console import RenderableType

@@ -1,48 +1,73 @@
-"""The progress bar of a run: simulated time, speed, remaining time."""
+"""What a command is at, on a terminal: `building 1,000,000 nodes, 12 s`, and the progress bar of a run."""
 
 import math
 import sys
-from typing import Self
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from time import monotonic
+from typing import TYPE_CHECKING, Protocol, Self, TextIO
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
-from rich.table import Column
-from rich.text import Text
+if TYPE_CHECKING:
+    from rich.console import Console
 
-
-class SimulatedTimeColumn(ProgressColumn):
-    """`120 of 7,200 s`."""
-
-    def render(self, task: Task) -> Text:
-        """Return the simulated time reached, and its limit if there is one."""
-        limit = "" if task.total is None else f" of {task.total:,.0f}"
-        return Text(f"{task.completed:,.0f}{limit} s")
+FIRST_AFTER_S = 2.0
+EVERY_S = 1.0
+"""Wall time until it says something, and until it says so again."""
 
 
-class SpeedColumn(ProgressColumn):
-    """`585 x real time`: simulated seconds per second of wall time."""
+class Ending(Protocol):
+    """A `threading.Event`, or what stands for one in tests."""
 
-    def render(self, task: Task) -> Text:
-        """Return the speed of the last seconds; nothing until it is known."""
-        if task.speed is None:
-            return Text()
-        digits = f"{task.speed:,.3g}" if task.speed < 999.5 else f"{task.speed:,.0f}"
-        return Text(f"{digits} x real time")
+    def wait(self, timeout: float) -> bool:
+        """Wait for it, so long at most; return whether it came."""
+
+
+@contextmanager
+def waiting(what: str, *, shown: bool) -> Iterator[None]:
+    """Tell on the error output that it is at `what`, if it takes seconds, `shown` and that is a terminal."""
+    if not (shown and sys.stderr.isatty()):
+        yield
+        return
+    ended = threading.Event()
+    thread = threading.Thread(target=tell_until, args=(ended, what, sys.stderr), daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
+
+
+def tell_until(ended: Ending, what: str, terminal: TextIO) -> None:
+    """Say it again and again in one line, which is empty in the end."""
+    began = monotonic()
+    line = ""
+    with suppress(OSError):  # a terminal that has gone is no reason to stop
+        while not ended.wait(EVERY_S if line else FIRST_AFTER_S):
+            line = f"{what}, {monotonic() - began:.0f} s"
+            print(f"\r{line}", end="", file=terminal, flush=True)
+        if line:
+            print(f"\r{' ' * len(line)}\r", end="", file=terminal, flush=True)
 
 
 class RunProgress:
-    """A bar on `console` that `update` moves; it is gone when the `with` block ends.
+    """A bar on `console` that `update` moves: simulated time, speed, remaining time.
 
-    It draws only when `update` is called, so it needs no thread.
+    It is gone when the `with` block ends. It draws only when `update` is called, so it needs no thread.
     """
 
-    def __init__(self, console: Console, title: str, limit_s: float) -> None:
+    def __init__(self, console: "Console", title: str, limit_s: float) -> None:
         """Prepare a bar for a run of `limit_s` simulated seconds, which may be infinite."""
+        from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+        from rich.table import Column
+
+        self._limit = f" of {limit_s:,.0f}" if math.isfinite(limit_s) else ""
         self._bar = Progress(
             TextColumn("{task.description}", markup=False, table_column=Column(no_wrap=True)),
             BarColumn(),
-            SimulatedTimeColumn(table_column=Column(no_wrap=True)),
-            SpeedColumn(table_column=Column(no_wrap=True)),
+            TextColumn("{task.fields[reached]}", table_column=Column(no_wrap=True)),
+            TextColumn("{task.fields[speed]}", table_column=Column(no_wrap=True)),
             TimeRemainingColumn(table_column=Column(no_wrap=True)),
             TextColumn("left"),
             console=console,
@@ -50,7 +75,8 @@ class RunProgress:
             transient=True,
             redirect_stdout=sys.stdout.isatty(),
         )
-        self._task = self._bar.add_task(title, total=limit_s if math.isfinite(limit_s) else None)
+        total = limit_s if math.isfinite(limit_s) else None
+        self._task = self._bar.add_task(title, total=total, **self._texts(0.0, None))
 
     def __enter__(self) -> Self:
         self._bar.start()
@@ -61,4 +87,15 @@ class RunProgress:
 
     def update(self, sim_time_s: float) -> None:
         """Show that the run has reached `sim_time_s` seconds of simulated time."""
-        self._bar.update(self._task, completed=sim_time_s, refresh=True)
+        texts = self._texts(sim_time_s, self._bar.tasks[0].speed)
+        self._bar.update(self._task, completed=sim_time_s, refresh=True, **texts)
+
+    def _texts(self, sim_time_s: float, speed: float | None) -> dict[str, str]:
+        return {"reached": f"{sim_time_s:,.0f}{self._limit} s", "speed": text_of_speed(speed)}
+
+
+def text_of_speed(speed: float | None) -> str:
+    """Return `585 x real time`: simulated seconds per second of wall time; "" until it is known."""
+    if speed is None:
+        return ""
+    return f"{speed:,.3g} x real time" if speed < 999.5 else f"{speed:,.0f} x real time"

@@ -10,18 +10,17 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.cli.exit_code import FAILED, INTERRUPTED, MISTAKE, OK, abandon_output, say_mistake
+from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK, abandon_output, report_crashes, say_mistake
 from gradysim.cli.options import FileArgument, RunOptions
 from gradysim.cli.output import (
     check_file_names,
     check_may_be_written_to,
     check_sqlite,
+    left_to_do,
     make_result_dir,
     write_files,
 )
-from gradysim.cli.resume import left_to_do
-from gradysim.cli.runs import check, placed
-from gradysim.cli.warnings import findings_of, tell, warnings_of_seeds
+from gradysim.cli.runs import check, findings_of, placed, tell, warnings_of_seeds
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -59,11 +58,9 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         executor: Carries out the runs; the caller shuts it down. By default each run has its own process.
             What `submit` gets cannot be pickled.
     """
-    from gradysim.cli.crash_report import report_crashes
     from gradysim.cli.execution import check_names, execute, report, simulator
-    from gradysim.cli.interrupt import StopOnInterrupt
-    from gradysim.cli.runner import ForkExecutor
-    from gradysim.cli.waiting import waiting
+    from gradysim.cli.progress import waiting
+    from gradysim.cli.runner import ForkExecutor, StopOnInterrupt
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigError, ErrorCollector
 
@@ -129,9 +126,8 @@ def error_terminal() -> "Console | None":
     """Return the terminal that shows a progress bar, if the error output is one."""
     if not sys.stderr.isatty():
         return None
+    import rich.progress  # noqa: F401 (before processes are forked)
     from rich.console import Console
-
-    import gradysim.cli.progress  # noqa: F401 (before processes are forked)
 
     return Console(stderr=True)
 

@@ -28,11 +28,11 @@ from gradysim.integrated.real_time import RealTimeRun
 from gradysim.protocol.errors import NativeProtocolError, add_protocol_note
 from gradysim.protocol.interface import IProtocol
 from gradysim.results.delays import Delays
-from gradysim.results.execution import ScenarioRun
 from gradysim.results.files import run_name
 from gradysim.results.outcomes import Counts
 from gradysim.results.recorder import NodeRecorder, checked_ids
 from gradysim.results.result import RunResult
+from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler

@@ -9,8 +9,8 @@ from typing import Any
 
 from gradysim.prototype.simulation import build_simulation
 from gradysim.results.delays import constant_delays
-from gradysim.results.execution import ScenarioRun
 from gradysim.results.result import RunResult
+from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 

@@ -2,7 +2,7 @@ from io import StringIO
 
 import pytest
 
-from gradysim.cli.crash_report import PACKAGE, from_users_code, print_failure
+from gradysim.cli.errors import PACKAGE, from_users_code, print_failure
 from gradysim.integrated.capture import CaptureError
 from gradysim.protocol.errors import CommunicationException, NativeProtocolError, TimerException
 

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from gradysim.cli.interrupt import FORWARDED, StopOnInterrupt
+from gradysim.cli.runner import FORWARDED, StopOnInterrupt
 
 
 def test_nothing_was_pressed():

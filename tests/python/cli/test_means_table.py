@@ -3,7 +3,7 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from gradysim.cli.means_table import means_table, write_csv
+from gradysim.cli.means import means_table, write_csv
 from gradysim.results.means import Mean
 
 FAST = Mean("Study", "integrated", {"jitter": 10, "0": "a"}, "uavs[*] heard", 10, 1234.5678, 0.12345)

@@ -3,7 +3,7 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from gradysim.cli.outcome_tables import (
+from gradysim.cli.summary import (
     MAX_INTERFERERS,
     CountTables,
     frames_at_nodes,

@@ -9,8 +9,7 @@ from concurrent.futures import CancelledError
 
 import pytest
 
-from gradysim.cli.interrupt import StopOnInterrupt
-from gradysim.cli.runner import ForkExecutor, WorkerError
+from gradysim.cli.runner import ForkExecutor, StopOnInterrupt, WorkerError
 
 
 @pytest.fixture(params=[1, 3])

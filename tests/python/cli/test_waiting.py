@@ -4,8 +4,8 @@ from itertools import count
 
 import pytest
 
-from gradysim.cli import waiting as module
-from gradysim.cli.waiting import EVERY_S, FIRST_AFTER_S, tell_until, waiting
+from gradysim.cli import progress as module
+from gradysim.cli.progress import EVERY_S, FIRST_AFTER_S, tell_until, waiting
 
 
 class EndsAfter:

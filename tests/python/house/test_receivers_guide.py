@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
-from gradysim.integrated.lint import lint_networks
+from gradysim.integrated.network_lint import lint_networks
 from gradysim.scenario import load_scenarios
 
 

@@ -2,8 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results import execution
-from gradysim.results.execution import CHUNK_S, MAX_EVENTS, next_chunk, run_in_chunks
+from gradysim.results.scenario_run import CHUNK_S, MAX_EVENTS, next_chunk, run_in_chunks
 
 
 class Clock:
@@ -19,7 +18,7 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch):
     clock = Clock()
-    monkeypatch.setattr(execution, "perf_counter", clock)
+    monkeypatch.setattr(scenario_run, "perf_counter", clock)
     return clock
 
 

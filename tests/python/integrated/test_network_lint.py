@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.integrated.lint import Chosen, UnreadLines, lint_networks, unmet_choice
+from gradysim.integrated.network_lint import Chosen, UnreadLines, lint_networks, unmet_choice
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import Source
 from gradysim.scenario.ini import config_names, read_ini
