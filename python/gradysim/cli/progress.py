@@ -76,7 +76,7 @@ class RunProgress:
             redirect_stdout=sys.stdout.isatty(),
         )
         total = limit_s if math.isfinite(limit_s) else None
-        self._task = self._bar.add_task(title, total=total, **self._texts(0.0, None))
+        self._task = self._bar.add_task(title, total=total, reached="", speed="")
 
     def __enter__(self) -> Self:
         self._bar.start()
@@ -87,11 +87,13 @@ class RunProgress:
 
     def update(self, sim_time_s: float) -> None:
         """Show that the run has reached `sim_time_s` seconds of simulated time."""
-        texts = self._texts(sim_time_s, self._bar.tasks[0].speed)
-        self._bar.update(self._task, completed=sim_time_s, refresh=True, **texts)
-
-    def _texts(self, sim_time_s: float, speed: float | None) -> dict[str, str]:
-        return {"reached": f"{sim_time_s:,.0f}{self._limit} s", "speed": text_of_speed(speed)}
+        self._bar.update(
+            self._task,
+            completed=sim_time_s,
+            reached=f"{sim_time_s:,.0f}{self._limit} s",
+            speed=text_of_speed(self._bar.tasks[0].speed),
+            refresh=True,
+        )
 
 
 def text_of_speed(speed: float | None) -> str:

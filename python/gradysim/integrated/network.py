@@ -4,7 +4,7 @@ The settings of the scenario have the names of the fields of the engine's passiv
 one by one; what the engine's own check then finds wrong is reported where the .ini file says it.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target, text_of
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
-from gradysim.integrated.node_kinds import one_of_each_kind
 from gradysim.integrated.power_for_range import PowersForRanges
 from gradysim.scenario.errors import ConfigError, ErrorCollector
 from gradysim.scenario.keys import DEFAULT_INTERFACE
@@ -65,6 +64,23 @@ def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:
             else:
                 add_node(network, spec, powers, scenario.medium)
     return errors.combined()
+
+
+def by_kind(nodes: Iterable[NodeSpec]) -> Mapping[object, Sequence[NodeSpec]]:
+    """Group nodes: those with the same lines in force share their mappings.
+
+    What is true of one of them is true of all.
+    """
+    kinds: dict[object, list[NodeSpec]] = {}
+    for spec in nodes:
+        kind = (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan))
+        kinds.setdefault(kind, []).append(spec)
+    return kinds
+
+
+def one_of_each_kind(nodes: Iterable[NodeSpec]) -> Iterable[NodeSpec]:
+    """Return the first node of each kind."""
+    return [specs[0] for specs in by_kind(nodes).values()]
 
 
 def check_scenario(scenario: Scenario) -> None:

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
-from gradysim.integrated.network import medium_config, node_config
-from gradysim.integrated.node_kinds import by_kind, one_of_each_kind
+from gradysim.integrated.network import by_kind, medium_config, node_config, one_of_each_kind
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import Source
 from gradysim.scenario.keys import IEEE802154, NETWORK_KEYS, NODE_KEYS, OF_802154, has_radios, written_for

@@ -2,6 +2,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gradysim.results import scenario_run
 from gradysim.results.scenario_run import CHUNK_S, MAX_EVENTS, next_chunk, run_in_chunks
 
 
