@@ -26,16 +26,10 @@ class FlightOrders(Protocol):
 
 
 def give_order(command: MobilityCommand, node_id: int, reference: Position, vehicle: FlightOrders) -> None:
-    """Let a vehicle carry out a mobility command.
+    """Let the vehicle of a node carry out a mobility command: GOTO_COORDS, GOTO_GEO_COORDS or SET_SPEED.
 
-    Args:
-        command: GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with a ground speed or a velocity.
-        node_id: Id of the node, for error messages.
-        reference: (latitude deg, longitude deg, altitude m) of the origin of geographic targets.
-        vehicle: The vehicle of the node.
-
-    Raises:
-        MasslessMobilityException: The command cannot be carried out.
+    SET_SPEED has a ground speed or a velocity. `reference` is (latitude deg, longitude deg, altitude m) of
+    the origin of geographic targets. MasslessMobilityException if the command cannot be carried out.
     """
     kind = getattr(command, "command_type", None)
     if kind == MobilityCommandType.GOTO_GEO_COORDS:

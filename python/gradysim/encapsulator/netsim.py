@@ -118,8 +118,7 @@ class NetsimProvider(CheckedProvider):
     def node_positions(self) -> dict[int, Position]:
         """Return the current position (x, y, z) in meters of every node, by id. For extensions.
 
-        Raises:
-            RuntimeError: The provider was made without the nodes.
+        Raise RuntimeError if the provider was made without the nodes.
         """
         if not self._nodes:
             raise RuntimeError("the positions of the nodes are unknown: the provider was made without them")

@@ -114,8 +114,7 @@ class PythonProvider(CheckedProvider):
     def node_positions(self) -> dict[int, Position]:
         """Return the current position (x, y, z) in meters of every node, by id. For extensions.
 
-        Raises:
-            RuntimeError: There is no mobility handler.
+        Raise RuntimeError if there is no mobility handler.
         """
         nodes: Mapping[int, Any] | None = getattr(self.handlers.get("mobility"), "nodes", None)
         if nodes is None:

@@ -74,12 +74,9 @@ class TrackedVariables(dict[str, Any]):
             del self[name]
 
     def replace(self, variables: Mapping[str, Any]) -> None:
-        """Become equal to `variables`, which a protocol has assigned. Removals are reported first.
+        """Become equal to the mapping that a protocol has assigned. Removals are reported first.
 
         Nothing is reported for this dict itself, which `provider.tracked_variables |= {"b": 2}` assigns.
-
-        Raises:
-            TypeError: `variables` is not a mapping.
         """
         check_variables(variables)
         if variables is self:

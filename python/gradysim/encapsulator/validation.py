@@ -51,12 +51,9 @@ def wrong_communication(command: object, node_id: int, ids: Collection[int]) -> 
 
 
 def checked_interface(interface: object) -> int:
-    """Return the index of a network interface.
+    """Return the index of a network interface. CommunicationException if no node can have it.
 
-    Whether the node has this interface is for the engine to check. Prototype mode has no interfaces.
-
-    Raises:
-        CommunicationException: No node can have such an interface.
+    Whether this node has it is for the engine to check. Prototype mode has no interfaces.
     """
     if isinstance(interface, int) and not isinstance(interface, bool) and 0 <= interface < MOST_INTERFACES:
         return interface
@@ -68,8 +65,7 @@ def checked_interface(interface: object) -> int:
 def checked_destination(destination: object) -> int:
     """Return the id of a node, also if it is an equal number such as `1.0` or an integer of NumPy.
 
-    Raises:
-        CommunicationException: It equals no id.
+    Raise CommunicationException if it equals no id.
     """
     try:
         hash(destination)  # prototype mode looks it up in a dictionary

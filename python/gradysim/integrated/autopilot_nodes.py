@@ -39,11 +39,7 @@ class AutopilotNodes:
             weakref.finalize(self, self._flights.close)  # If the run is not finished.
 
     def take_off(self) -> None:
-        """Start the autopilots and fly their vehicles to the starts.
-
-        Raises:
-            SitlError: An autopilot does not start, or a step of a flight failed.
-        """
+        """Start the autopilots and fly their vehicles to the starts. SitlError if a step of that fails."""
         if self._flights is not None:
             self._flights.begin()
 

@@ -56,13 +56,8 @@ class EngineEventLoop:
     ) -> tuple[Callable[[], Any], str]:
         """Call `callback()` at `timestamp`, after all events scheduled for that time so far.
 
-        Args:
-            timestamp: Absolute simulated time in seconds, not before `current_time`; rounded to ps.
-            callback: Takes no arguments; an exception ends the run.
-            context: What the event is about; not used in this mode.
-
-        Raises:
-            EventLoopException: The time is in the past or not a time, or the callback is not callable.
+        The absolute simulated time (s) is rounded to ps. `context` is not used in this mode.
+        Raise EventLoopException if the time is in the past or not a time, or the callback is not callable.
         """
         if not callable(callback):
             raise EventLoopException(f"an event's callback must be callable, got {callback!r}")

@@ -18,14 +18,10 @@ class RealTimeRun:
         factor: float,
         held_up_s: Callable[[], float],
     ) -> None:
-        """Start the clock.
+        """Start the clock, to run until `limit_s` with `factor` simulated seconds in each wall second.
 
-        Args:
-            run_until: Runs all events up to a simulated time (s), up to a number of events; returns whether
-                it reached that time.
-            limit_s: Simulated time of the end.
-            factor: Simulated seconds in each wall second, > 0.
-            held_up_s: Returns the wall time (s) for which handlers paused the run.
+        `run_until` runs all events up to a simulated time (s), up to a number of events, and returns whether
+        it reached that time. `held_up_s` returns the wall time (s) for which handlers paused the run.
         """
         self._run_until = run_until
         self._limit_s = limit_s

@@ -23,16 +23,9 @@ class NativeProtocolError(RuntimeError):
 def add_protocol_note(
     exception: BaseException, *, node_id: int, protocol: type, time_s: float, callback: str
 ) -> None:
-    """Add a note with node, simulated time and callback to an exception that a protocol has raised.
+    """Add a note with node, simulated time (s) and callback to an exception that a protocol has raised.
 
     A KeyboardInterrupt gets the note, too: it names a callback that does not return.
-
-    Args:
-        exception: The exception. Its traceback does not change.
-        node_id: Id of the protocol's node.
-        protocol: Class of the protocol.
-        time_s: Simulated time in seconds.
-        callback: Name of the protocol's method that raised it.
     """
     label = f"{protocol.__name__} {node_id}"
     exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

@@ -59,11 +59,7 @@ class IProvider(ABC):
 
     @abstractmethod
     def cancel_timer(self, timer: str) -> None:
-        """Cancel every pending timer of that name. No-op if there is none.
-
-        Raises:
-            TimerException: The name is not a str.
-        """
+        """Cancel every pending timer of that name; no-op if there is none. TimerException if it is no str."""
 
     @abstractmethod
     def current_time(self) -> float:

@@ -106,15 +106,7 @@ class EventLoop:
         self._held += len(pending) - before
 
     def cancel_event(self, timestamp: float, event: ScheduledEvent) -> bool:
-        """Remove a pending event.
-
-        Args:
-            timestamp: The time that it was scheduled for.
-            event: What `schedule_event` returned.
-
-        Returns:
-            Whether it was still pending.
-        """
+        """Remove an event that `schedule_event` returned for that time. Return whether it was pending."""
         events = self._events.get(float(timestamp))
         if events is not None:
             for index in range(self._taken if events is self._current else 0, len(events)):
@@ -127,10 +119,7 @@ class EventLoop:
     def take_events(self, until: float = math.inf) -> Iterator[ScheduledEvent]:
         """Remove the events one by one as they are asked for, and set the clock to the time of each.
 
-        What is scheduled and cancelled meanwhile counts.
-
-        Args:
-            until: Stop before the first event after it; simulated time in seconds, not before `current_time`.
+        What is scheduled and cancelled meanwhile counts. It stops before the first event after `until` (s).
         """
         while True:
             current = self._current
@@ -165,11 +154,7 @@ class EventLoop:
         return current[taken]
 
     def pop_event(self) -> Event:
-        """Remove the next event and set the clock to its time.
-
-        Raises:
-            EventLoopException: No event is pending.
-        """
+        """Remove the next event and set the clock to its time. EventLoopException if no event is pending."""
         event = self.take_event()
         if event is None:
             raise EventLoopException("there is no pending event to pop")
@@ -192,8 +177,7 @@ class EventLoop:
     def advance_to(self, timestamp: float) -> None:
         """Set the clock forward to a time at which no event is.
 
-        Raises:
-            EventLoopException: The time is in the past, or an event is pending before it.
+        Raise EventLoopException if the time is in the past, or an event is pending before it.
         """
         following = self.next_time()
         if not self._current_time <= timestamp < math.inf or (

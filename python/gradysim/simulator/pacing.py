@@ -30,8 +30,7 @@ class AsyncioRunner:
     def run_for(self, duration_s: float) -> None:
         """Run the loop for `duration_s` wall seconds; for 0, run only what is ready.
 
-        Raises:
-            BaseException: A callback or a task has raised it, and no other task waits for it.
+        Raise what a callback or a task has raised, if no other task waits for it.
         """
         loop = self.asyncio_loop
         alarm: asyncio.Handle
@@ -110,15 +109,10 @@ class Pacing:
         report: TimingReport | None,
         held_up_s: Callable[[], float],
     ) -> None:
-        """Prepare the waiting.
+        """Wait for events up to the simulated time `until_s`.
 
-        Args:
-            event_loop: Events of the simulation.
-            until_s: Simulated end time.
-            pacer: Keeps to the wall clock; None for full speed.
-            asyncio_runner: Runs asyncio; None if no handler uses it.
-            report: Notes each event, if there is a pacer.
-            held_up_s: Returns the wall seconds of pauses so far.
+        Without a pacer it runs at full speed, without an asyncio runner no handler uses asyncio. The report
+        notes each event, if there is a pacer. `held_up_s` returns the wall seconds of pauses so far.
         """
         self._event_loop = event_loop
         self._until_s = until_s

@@ -10,8 +10,7 @@ from gradysim.protocol.checked_values import is_in_range
 def real_time_factor(real_time: bool | float) -> float:
     """Return the number of simulated seconds per wall second; 0 for full speed.
 
-    Raises:
-        ValueError: It is neither a bool nor a finite factor >= 0.
+    Raise ValueError if it is neither a bool nor a finite factor >= 0.
     """
     if not isinstance(real_time, bool) and not is_in_range(real_time, 0):
         raise ValueError(f"real_time must be a bool or a finite factor >= 0, got {real_time!r}")

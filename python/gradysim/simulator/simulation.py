@@ -28,8 +28,7 @@ class PositionScheme:
     ) -> Position:
         """Draw a point of a box (m) uniformly, from Python's global stream of random numbers.
 
-        Raises:
-            ValueError: A range is not (low, high) of finite numbers, low <= high.
+        Raise ValueError if a range is not (low, high) of finite numbers, low <= high.
         """
         box = [
             checked_range(f"{axis}_range", given, ValueError)
@@ -69,15 +68,7 @@ class SimulationBuilder:
         return self
 
     def add_node(self, protocol: type[IProtocol], position: Position) -> int:
-        """Add a node.
-
-        Args:
-            protocol: Class of its protocol, not an instance.
-            position: Where it starts: (x, y, z) in metres.
-
-        Returns:
-            Its id: 0 for the first node, then 1, ...
-        """
+        """Add a node at (x, y, z) in metres with a protocol of this class. Return its id: 0, then 1, ..."""
         place = checked_point("the position of a node", position, ValueError)
         self._nodes.append((checked_protocol_class(protocol), place))
         return len(self._nodes) - 1

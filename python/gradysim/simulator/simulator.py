@@ -51,12 +51,7 @@ class Simulator:
     prepare_node: Callable[[Node[Any]], None] | None = None
 
     def __init__(self, handlers: Mapping[str, INodeHandler], configuration: SimulationConfiguration) -> None:
-        """Make a simulation without nodes.
-
-        Args:
-            handlers: Handlers by label.
-            configuration: ValueError if one of its values is out of range.
-        """
+        """Make a simulation without nodes. ValueError if a value of the configuration is out of range."""
         configuration.validate()
         self._configuration = configuration
         # A script that seeds Python's stream gets the same run again.
@@ -108,12 +103,9 @@ class Simulator:
         return tuple(self._nodes.values())
 
     def create_node(self, position: Position, protocol: type[IProtocol], identifier: int) -> Node[Any]:
-        """Make a node with a protocol and register it with every handler.
+        """Make a node at (x, y, z) in metres with a protocol of this class. Register it with every handler.
 
-        Args:
-            position: (x, y, z) in metres, finite.
-            protocol: Its class.
-            identifier: Id of the node, not given to another one.
+        Raise ValueError if another node has this identifier, or the position is not finite.
         """
         if identifier in self._nodes:
             raise ValueError(f"there is a node with the id {identifier!r} already")
@@ -149,8 +141,7 @@ class Simulator:
     def run_events(self, count: int) -> bool:
         """Run at most `count` events, and initialize before the first one.
 
-        Returns:
-            Whether the simulation continues. Otherwise it has been finalized.
+        Return whether the simulation continues. Otherwise it has been finalized.
         """
         if self._finalized:
             return False

@@ -41,9 +41,7 @@ class AutopilotMobilityHandler(MasslessMobilityHandler):
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
         """Carry out a command.
 
-        Raises:
-            MasslessMobilityException: The command is not valid.
-            SitlError: The autopilot has ended.
+        Raise MasslessMobilityException if it is not valid, SitlError if the autopilot has ended.
         """
         if node.id in self._flights.ids:
             reference = self._configuration.reference_coordinates

@@ -15,13 +15,10 @@ COPTER_GUIDED = 4
 
 @cache
 def load_dialect() -> Any:
-    """Return the module with messages and constants.
+    """Return the module with messages and constants. ModuleNotFoundError names the command to install it.
 
     Only the dialect is used, not pymavlink's connections. So the environment variable `MAVLINK20` does not
     matter: this module writes version 2.
-
-    Raises:
-        ModuleNotFoundError: pymavlink is not installed. It names the command to install it.
     """
     try:
         return importlib.import_module("pymavlink.dialects.v20.ardupilotmega")

@@ -19,9 +19,8 @@ if TYPE_CHECKING:
 def check_autopilots(scenario: Scenario) -> None:
     """Check that the nodes of a scenario can be flown by their autopilots.
 
-    Raises:
-        ConfigError: The program is missing, a node cannot be flown by it, or the extra `sitl` is not
-            installed. It names the line in the .ini file.
+    ConfigError, at the line in the .ini file, if a program is missing, a node cannot be flown by it, or the
+    extra `sitl` is not installed.
     """
     for spec in scenario.nodes:
         if spec.autopilot is not None:
@@ -31,12 +30,8 @@ def check_autopilots(scenario: Scenario) -> None:
 def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights | None":
     """Return the flights of all nodes with an autopilot, not started; None without such nodes.
 
-    Args:
-        scenario: Scenario with checked values.
-        on_text: Called with the name of a node and each text of its autopilot.
-
-    Raises:
-        ConfigError: As `check_autopilots`.
+    `on_text` is called with the name of a node and each text of its autopilot. ConfigError as
+    `check_autopilots`.
     """
     check_autopilots(scenario)
     if all(spec.autopilot is None for spec in scenario.nodes):

@@ -16,8 +16,7 @@ T = TypeVar("T")
 def configuration_or_default(plugin: object, given: T | None, kind: type[T]) -> T:
     """Return `given`, or a `kind` with its defaults if `given` is None.
 
-    Raises:
-        TypeError: `given` is not such a configuration; for example, both arguments are exchanged.
+    Raise TypeError if `given` is not such a configuration; for example, if both arguments are exchanged.
     """
     if given is None:
         return kind()

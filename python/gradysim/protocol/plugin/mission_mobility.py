@@ -86,13 +86,9 @@ class MissionMobilityPlugin:
         return not self._mission
 
     def start_mission(self, mission: Sequence[Position]) -> None:
-        """Start a mission at its first waypoint. It replaces a mission in progress.
+        """Start a mission at its first waypoint, (x, y, z) in meters. It replaces a mission in progress.
 
-        Args:
-            mission: At least one waypoint (x, y, z) in meters.
-
-        Raises:
-            MissionMobilityPluginException: There is no waypoint, or one is not three finite numbers.
+        Raise MissionMobilityPluginException if there is no waypoint, or one is not three finite numbers.
         """
         waypoints = tuple(
             checked_point(f"waypoint {index}", waypoint, MissionMobilityPluginException)
@@ -115,10 +111,8 @@ class MissionMobilityPlugin:
         """Like `start_mission`, with the waypoints of a text file: one `x,y,z` in meters per line.
 
         Empty lines are skipped. A relative path starts at the working directory.
-
-        Raises:
-            MissionMobilityPluginException: The file cannot be read or is empty, or a line is not three finite
-                numbers.
+        MissionMobilityPluginException if the file cannot be read or is empty, or a line is not three finite
+        numbers.
         """
         try:
             text = Path(mission_file_path).read_text(encoding="utf-8-sig")
@@ -154,8 +148,7 @@ class MissionMobilityPlugin:
     def set_current_waypoint(self, waypoint: int) -> None:
         """Fly to the waypoint with that index now, and continue from there in the same direction.
 
-        Raises:
-            MissionMobilityPluginException: No mission is in progress, or it does not have this waypoint.
+        Raise MissionMobilityPluginException if no mission is in progress, or it does not have this waypoint.
         """
         self._require_mission("set the current waypoint")
         if isinstance(waypoint, bool) or not isinstance(waypoint, int):
@@ -169,10 +162,8 @@ class MissionMobilityPlugin:
     def set_reversed(self, reversed: bool) -> None:
         """Set the direction, and fly to its next waypoint; no-op if this is the direction already.
 
-        At the end of the mission, the waypoint stays the same.
-
-        Raises:
-            MissionMobilityPluginException: No mission is in progress, or it does not loop with REVERSE.
+        At the end of the mission, the waypoint stays the same. MissionMobilityPluginException if no mission
+        is in progress, or it does not loop with REVERSE.
         """
         self._require_mission("reverse the mission")
         if self._configuration.loop_mission is not LoopMission.REVERSE:

@@ -49,8 +49,7 @@ class RandomMobilityPlugin:
     def __init__(self, protocol: IProtocol, config: RandomMobilityConfig | None = None) -> None:
         """Attach to `protocol`; without a configuration its defaults hold.
 
-        Raises:
-            ValueError: A range is not two finite numbers in ascending order, or the tolerance is negative.
+        ValueError if a range is not two finite numbers in ascending order, or the tolerance is negative.
         """
         config = configuration_or_default(self, config, RandomMobilityConfig)
         self._protocol = protocol

@@ -74,11 +74,7 @@ class CameraHardware(Extension):
 
     @property
     def _mobility(self) -> Any:
-        """The mobility handler, whose `nodes` are all there are.
-
-        Raises:
-            RuntimeError: Not in prototype mode, where nodes are not Python's.
-        """
+        """The mobility handler, whose `nodes` are all there are. RuntimeError if not in prototype mode."""
         if self._provider is None:
             raise RuntimeError(
                 f"{type(self).__name__} looks at the nodes of the mobility handler, which there is in "

@@ -24,8 +24,7 @@ class Extension:
     def __init__(self, protocol: IProtocol) -> None:
         """Attach to a protocol, from its `initialize` on.
 
-        Raises:
-            ReferenceError: The protocol has no provider yet, as in its constructor.
+        Raise ReferenceError if the protocol has no provider yet, as in its constructor.
         """
         provider = provider_of(protocol)
         self._provider = provider if isinstance(provider, PythonProvider) else None

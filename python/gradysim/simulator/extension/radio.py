@@ -58,9 +58,5 @@ class Radio:
         )
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Send a message as `IProvider.send_communication_command` does, over this radio's medium.
-
-        Raises:
-            CommunicationException: The command makes no sense.
-        """
+        """Send a message as `IProvider.send_communication_command` does, over this radio's medium."""
         self._handler.handle_command(command, self._node, self._medium)  # type: ignore[arg-type]

@@ -159,9 +159,7 @@ class AssertionHandler(INodeHandler):
     def __init__(self, assertions: Sequence[type[SimulationTestCase]]) -> None:
         """Take the cases, which are classes.
 
-        Raises:
-            TypeError: One of them is something else, such as a predicate without its decorator, or they are
-                no list.
+        TypeError if one is something else, such as a predicate without its decorator, or they are no list.
         """
         if not isinstance(assertions, Iterable):
             raise TypeError(f"expected a list of cases, got {assertions!r}")
@@ -192,8 +190,7 @@ class AssertionHandler(INodeHandler):
     def initialize(self) -> None:
         """See that the cases find their nodes.
 
-        Raises:
-            TypeError: The file of a node's protocol was loaded twice, and a case asks for the other class.
+        TypeError if the file of a node's protocol was loaded twice, and a case asks for the other class.
         """
         for case in self._cases:
             if case.asked is not None:
@@ -201,10 +198,9 @@ class AssertionHandler(INodeHandler):
                     _check_not_loaded_twice(node, case.asked)
 
     def after_simulation_step(self, iteration: int, timestamp: float) -> None:
-        """Evaluate all cases.
+        """Evaluate all cases. FailedAssertionException if one fails.
 
-        Raises:
-            FailedAssertionException: One of them failed. What a predicate raises goes through, with a note.
+        What a predicate raises goes through, with a note.
         """
         name = ""
         try:
@@ -222,11 +218,7 @@ class AssertionHandler(INodeHandler):
         self._cases = []
 
     def finalize(self) -> None:
-        """Give each case its last word.
-
-        Raises:
-            FailedAssertionException: One of them failed.
-        """
+        """Give each case its last word. FailedAssertionException if one fails."""
         cases, self._cases = self._cases, []
         for case in cases:
             case.finalize()

@@ -187,11 +187,9 @@ class CommunicationHandler(INodeHandler):
     def __init__(
         self, communication_medium: CommunicationMedium | None = None, ledger: DeliveryLedger | None = None
     ) -> None:
-        """Carry messages over a medium.
+        """Carry messages over a medium, by default `CommunicationMedium()`.
 
-        Args:
-            communication_medium: Without one the defaults of `CommunicationMedium` hold.
-            ledger: Counts messages and deliveries; None for no counts.
+        `ledger` counts messages and deliveries; None for no counts.
         """
         self._ledger = ledger
         self.default_medium = checked_configuration(communication_medium, CommunicationMedium)
@@ -215,11 +213,7 @@ class CommunicationHandler(INodeHandler):
         self._destinations = {}
 
     def register_node(self, node: Node[Any]) -> None:
-        """Let the node send and receive.
-
-        Raises:
-            CommunicationException: The event loop is missing.
-        """
+        """Let the node send and receive. CommunicationException if the event loop is missing."""
         if self._event_loop is None:
             raise CommunicationException(f"cannot register node {node.id}: inject an event loop first")
         self._sources[node.id] = CommunicationSource(node)
@@ -231,12 +225,7 @@ class CommunicationHandler(INodeHandler):
         sender: Node[Any],
         medium: CommunicationMedium | None = None,
     ) -> None:
-        """Send a message.
-
-        Args:
-            command: What to send to whom.
-            sender: A registered node.
-            medium: Instead of `default_medium`.
+        """Send a message over `medium`, by default `default_medium`.
 
         Raises:
             CommunicationException: The sender is not registered, the command is not valid, or the node has

@@ -85,8 +85,7 @@ class TimerHandler(INodeHandler):
     def cancel_timer(self, message: str, node: Node[Any]) -> None:
         """Remove every pending timer of that name; no-op if there is none.
 
-        Raises:
-            TimerException: The node is not registered, or the name is not a str.
+        Raise TimerException if the node is not registered, or the name is not a str.
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):

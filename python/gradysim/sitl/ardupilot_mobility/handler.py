@@ -58,8 +58,7 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
     def inject_async(self, asyncio_loop: asyncio.AbstractEventLoop, real_time: float) -> None:
         """Set the asyncio loop of a new simulation.
 
-        Raises:
-            ArdupilotMobilityException: The settings need real time, and the simulation has none.
+        Raise ArdupilotMobilityException if the settings need real time, and the simulation has none.
         """
         if real_time <= 0:
             self._check_no_real_time_is_needed()

@@ -63,8 +63,7 @@ class MobilityFollowerPlugin:
     ) -> None:
         """Attach to `protocol`; without a configuration its defaults hold.
 
-        Raises:
-            FollowMobilityException: A number of the configuration is outside its range.
+        Raise FollowMobilityException if a number of the configuration is outside its range.
         """
         self._configuration = configuration_or_default(self, configuration, MobilityFollowerConfiguration)
         interval, timeout = self._configuration.scanning_interval, self._configuration.leader_timeout
@@ -110,8 +109,7 @@ class MobilityFollowerPlugin:
     def follow_leader(self, leader_id: int) -> None:
         """Follow that leader from its next broadcast on.
 
-        Raises:
-            FollowMobilityException: It is not in `available_leaders`.
+        Raise FollowMobilityException if it is not in `available_leaders`.
         """
         if leader_id not in self._last_heard:
             available = ", ".join(map(str, sorted(self._last_heard))) or "none"
@@ -122,8 +120,7 @@ class MobilityFollowerPlugin:
     def set_relative_position(self, position: Position) -> None:
         """Set the relative position, (x, y, z) in meters. It is used from the leader's next broadcast on.
 
-        Raises:
-            FollowMobilityException: It is not three finite numbers.
+        Raise FollowMobilityException if it is not three finite numbers.
         """
         self._relative_position = checked_point("a relative position", position, FollowMobilityException)
 

@@ -73,8 +73,7 @@ class MobilityLeaderPlugin:
     def __init__(self, protocol: IProtocol, configuration: MobilityLeaderConfiguration | None = None) -> None:
         """Attach to `protocol`; without a configuration its defaults hold.
 
-        Raises:
-            FollowMobilityException: A number of the configuration is outside its range.
+        Raise FollowMobilityException if a number of the configuration is outside its range.
         """
         configuration = configuration_or_default(self, configuration, MobilityLeaderConfiguration)
         error = FollowMobilityException
@@ -113,8 +112,7 @@ class MobilityLeaderPlugin:
     def set_orientation(self, orientation: float) -> None:
         """Set the orientation, in degrees. Followers get it with the next broadcast.
 
-        Raises:
-            FollowMobilityException: It is not a finite number.
+        Raise FollowMobilityException if it is not a finite number.
         """
         self._orientation = checked_orientation(orientation)
 

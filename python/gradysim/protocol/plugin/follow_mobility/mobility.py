@@ -39,8 +39,7 @@ def encode_leader(state: LeaderState) -> str:
 def decode_leader(message: str) -> LeaderState:
     """Return the state in the broadcast of a leader. A missing orientation is 0.
 
-    Raises:
-        FollowMobilityException: The message is not the broadcast of a leader.
+    Raise FollowMobilityException if the message is not the broadcast of a leader.
     """
     try:
         payload = json.loads(message.removeprefix(LEADER_PREFIX))
@@ -63,11 +62,7 @@ def encode_follower(identifier: int) -> str:
 
 
 def decode_follower(message: str) -> int:
-    """Return the id of the follower that sent the message.
-
-    Raises:
-        FollowMobilityException: The message is not the answer of a follower.
-    """
+    """Return the id of the follower that sent the message. FollowMobilityException if none did."""
     try:
         return int(message.removeprefix(FOLLOWER_PREFIX))
     except ValueError:

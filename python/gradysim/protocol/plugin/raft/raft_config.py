@@ -39,8 +39,7 @@ class RaftConfig:
     def set_election_timeout(self, min_timeout: int, max_timeout: int) -> Self:
         """Set the range of the election timeout in ms. Each timeout is drawn from it.
 
-        Raises:
-            ValueError: A bound is negative, or the lower one is not below the upper one.
+        Raise ValueError if a bound is negative, or the lower one is not below the upper one.
         """
         for timeout in (min_timeout, max_timeout):
             checked_number("an election timeout", timeout, 0, infinite=True, unit="ms")
@@ -56,8 +55,7 @@ class RaftConfig:
     def set_heartbeat_interval(self, interval: int) -> Self:
         """Set the heartbeat interval of the leader in ms, also for the failure detection.
 
-        Raises:
-            ValueError: It is <= 0, or the timeout of the failure detection would be shorter than 100 ms.
+        Raise ValueError if it is <= 0, or the timeout of the failure detection would be shorter than 100 ms.
         """
         self._failure_config.set_heartbeat_interval_reference(interval)
         self._heartbeat_interval = interval
@@ -93,8 +91,7 @@ class RaftConfig:
     def set_logging(self, enable: bool, level: str = "INFO") -> Self:
         """Enable or disable logging, and set the lowest level that is logged.
 
-        Raises:
-            ValueError: The level is not DEBUG, INFO, WARNING, ERROR or CRITICAL.
+        Raise ValueError if the level is not DEBUG, INFO, WARNING, ERROR or CRITICAL.
         """
         if not isinstance(level, str) or level.upper() not in _LOG_LEVELS:
             raise ValueError(f"a log level is one of {', '.join(_LOG_LEVELS)}, got {level!r}")

@@ -42,15 +42,10 @@ class RaftConsensusPlugin:
     """
 
     def __init__(self, config: RaftConfig, protocol: IProtocol) -> None:
-        """Attach the plugin to `protocol`.
+        """Attach the plugin to a `protocol` that has its provider. All nodes should have the same settings.
 
-        Args:
-            config: Settings. All nodes should have the same.
-            protocol: Protocol that has its provider already.
-
-        Raises:
-            ValueError: The configuration is not valid, the protocol has no provider or one that lacks a
-                method, or the node's id is not an integer >= 0.
+        ValueError if the configuration is not valid, the protocol has no provider or one that lacks a method,
+        or the node's id is not an integer >= 0.
         """
         if not isinstance(config, RaftConfig):
             raise ValueError(f"config must be a RaftConfig, got {config!r}")
@@ -89,10 +84,8 @@ class RaftConsensusPlugin:
         """Set the members. The node itself always is one. Messages of other nodes are ignored from then on.
 
         Use the same members on all nodes. Without this call a node considers every node that it hears of a
-        member. Change members one node at a time while values are proposed.
-
-        Raises:
-            ValueError: An id is not an integer >= 0.
+        member. Change members one node at a time while values are proposed. ValueError if an id is not an
+        integer >= 0.
         """
         ids = list(node_ids)
         for node_id in ids:
@@ -122,8 +115,7 @@ class RaftConsensusPlugin:
     def get_committed_value(self, variable_name: str) -> Any | None:
         """Return the committed value of a variable as far as this node knows, or None.
 
-        Raises:
-            ValueError: There is no such variable.
+        Raise ValueError if there is no such variable.
         """
         var_type = self._type_of(variable_name)
         return typed_value(var_type, self._node.persistent.log.values.get(variable_name))
@@ -135,8 +127,7 @@ class RaftConsensusPlugin:
     def send_broadcast(self, message: str) -> None:
         """Broadcast a text behind the plugin's prefix. Other nodes ignore it unless it is a Raft message.
 
-        Raises:
-            ValueError: It is not a string.
+        Raise ValueError if it is not a string.
         """
         if not isinstance(message, str):
             raise ValueError(f"a message must be a str, got {message!r}")
@@ -364,8 +355,7 @@ class RaftConsensusPlugin:
     def set_cluster_id(self, cluster_id: int | None) -> None:
         """Set the cluster. The node ignores nodes of other clusters from now on. None is a cluster, too.
 
-        Raises:
-            ValueError: It is not None or an integer >= 0.
+        Raise ValueError if it is not None or an integer >= 0.
         """
         if cluster_id is not None and not _is_id(cluster_id):
             raise ValueError(f"a cluster id must be an integer >= 0 or None, got {cluster_id!r}")

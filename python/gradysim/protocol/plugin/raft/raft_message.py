@@ -44,11 +44,7 @@ class RaftMessage:
 
     @classmethod
     def from_json(cls, json_str: str) -> Self:
-        """Read a message of this type.
-
-        Raises:
-            ValueError: The text is not a message of this type.
-        """
+        """Read a message of this type. ValueError if the text is not one."""
         message = parse_message(json_str)
         if not isinstance(message, cls):
             raise ValueError(f"expected a {cls.__name__}, got a {type(message).__name__}")
@@ -159,8 +155,7 @@ class DiscoveryHeartbeatResponse(RaftMessage):
 def parse_message(text: str) -> RaftMessage:
     """Read a message of any type.
 
-    Raises:
-        ValueError: The text is not JSON or not a message, or a field is missing or has a wrong type.
+    Raise ValueError if the text is not JSON or not a message, or a field is missing or has a wrong type.
     """
     content = _content_of(text)
     message_type = _TYPES.get(str(content.get("type")))
@@ -251,8 +246,7 @@ class MessageFactory:
     def create_from_json(cls, json_str: str) -> RaftMessage:
         """Read a message of any registered type, by the `from_json` of its class.
 
-        Raises:
-            ValueError: The text is not JSON or not a message.
+        Raise ValueError if the text is not JSON or not a message.
         """
         message_type = cls._message_types.get(str(_content_of(json_str).get("type")))
         return parse_message(json_str) if message_type is None else message_type.from_json(json_str)
@@ -261,8 +255,7 @@ class MessageFactory:
     def register_message_type(cls, message_type: str, message_class: type[RaftMessage]) -> None:
         """Read messages of that `type` by that class, in this process from now on.
 
-        Raises:
-            ValueError: The class has no `from_json`.
+        Raise ValueError if the class has no `from_json`.
         """
         if not isinstance(message_class, type) or not callable(getattr(message_class, "from_json", None)):
             raise ValueError(f"expected a message class with from_json, got {message_class!r}")

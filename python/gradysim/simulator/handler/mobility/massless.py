@@ -122,11 +122,7 @@ class MasslessMobilityHandler(INodeHandler):
         self._schedule_update(event_loop)
 
     def register_node(self, node: Node[Any]) -> None:
-        """Let the node move.
-
-        Raises:
-            MasslessMobilityException: The event loop is missing.
-        """
+        """Let the node move. MasslessMobilityException if the event loop is missing."""
         if self._event_loop is None:
             raise MasslessMobilityException(f"cannot register node {node.id}: inject an event loop first")
         settings = self._settings.get(node.id, _NodeSettings())
@@ -187,8 +183,7 @@ class MasslessMobilityHandler(INodeHandler):
     def _move(self) -> bool:
         """Move each node one step of speed * update_rate straight towards its target, and not beyond.
 
-        Returns:
-            Whether a node moved.
+        Return whether a node moved.
         """
         on_their_way = False
         update_rate = self._configuration.update_rate

@@ -41,8 +41,7 @@ class FailureConfig:
     def set_heartbeat_timeout(self, multiplier: int) -> None:
         """Set the timeout as a multiple of the heartbeat interval.
 
-        Raises:
-            ValueError: It is < 1, or the timeout would be shorter than 100 ms.
+        Raise ValueError if it is < 1, or the timeout would be shorter than 100 ms.
         """
         _at_least_one("timeout multiplier", multiplier)
         if self._heartbeat_interval_ms is not None:
@@ -51,12 +50,9 @@ class FailureConfig:
         self._absolute_timeout_ms = None
 
     def set_absolute_timeout(self, timeout_ms: int) -> None:
-        """Set the timeout in ms, independent of the heartbeat interval.
+        """Set the timeout in ms, independent of the heartbeat interval. ValueError if it is <= 0.
 
         Below 50 ms it warns (UserWarning): normal delays may look like failures.
-
-        Raises:
-            ValueError: It is <= 0.
         """
         checked_number("an absolute timeout", timeout_ms, 0, above=True, infinite=True, unit="ms")
         if timeout_ms < _RISKY_TIMEOUT_MS:
@@ -68,8 +64,7 @@ class FailureConfig:
     def set_heartbeat_interval_reference(self, interval_ms: int) -> None:
         """Set the heartbeat interval in ms.
 
-        Raises:
-            ValueError: It is <= 0, or the timeout would be shorter than 100 ms.
+        Raise ValueError if it is <= 0, or the timeout would be shorter than 100 ms.
         """
         checked_number("a heartbeat interval", interval_ms, 0, above=True, infinite=True, unit="ms")
         if not self.is_using_absolute_timeout():
@@ -93,11 +88,7 @@ class FailureConfig:
         return self._absolute_timeout_ms is not None
 
     def get_timeout_ms(self) -> int:
-        """Return the timeout in ms.
-
-        Raises:
-            ValueError: It is a multiple of a heartbeat interval that was never set.
-        """
+        """Return the timeout in ms. ValueError if it is a multiple of an interval that was never set."""
         if self._absolute_timeout_ms is not None:
             return self._absolute_timeout_ms
         if self._heartbeat_interval_ms is None:

@@ -45,12 +45,9 @@ class FailureState:
     def check_node_failure_with_timeout(
         self, node_id: int, failure_threshold: int, timeout_ms: int, current_time: float
     ) -> bool:
-        """Check a node: silence of more than `timeout_ms` is a failure.
+        """Check a node: silence of more than `timeout_ms` is a failure. Return as `check_node_failure`.
 
         For a node that never answered, silence starts at the first check.
-
-        Returns:
-            Whether this check made the node failed (see `check_node_failure`).
         """
         record = self._records.get(node_id)
         if record is None:

@@ -69,12 +69,9 @@ class HeartbeatDetector:
     def record_heartbeat_response(
         self, node_id: int, success: bool, response_time_ms: float | None = None
     ) -> None:
-        """Record an answer, or a known failure to answer. Ignore unknown nodes.
+        """Record an answer, and the time from the heartbeat to it, if known. Ignore unknown nodes.
 
-        Args:
-            node_id: Node that answered.
-            success: False if it is known that it did not answer.
-            response_time_ms: Time from the heartbeat to the answer, if known.
+        `success` is False if it is known that the node did not answer.
         """
         history = self._histories.get(node_id)
         if history is None:

@@ -15,8 +15,7 @@ def apply_acceleration_limits(
 ) -> Velocity:
     """Bring a velocity as near to the desired one as the acceleration (m/s², >= 0) allows in `dt` (s, >= 0).
 
-    Raises:
-        ValueError: `dt` or a limit is negative or not a number.
+    Raise ValueError if `dt` or a limit is negative or not a number.
     """
     if not dt >= 0:
         raise ValueError(f"dt must be >= 0 s, got {dt!r}")
@@ -37,19 +36,9 @@ def apply_velocity_tracking_first_order(
 ) -> Velocity:
     """Let a velocity follow the desired one like a first-order system: a = (v_desired - v_current) / tau.
 
-    The acceleration is limited too. A step longer than tau ends at the desired velocity, not beyond it.
-
-    Args:
-        v_current: Velocity before the step.
-        v_desired: Velocity asked for.
-        dt: Length of the step; s, > 0.
-        max_acc_xy: Greatest acceleration in the plane; m/s², >= 0.
-        max_acc_z: Greatest acceleration along the vertical; m/s², >= 0.
-        tau_xy: Time constant in the plane; s, > 0. None: only the acceleration limits the change.
-        tau_z: The same along the vertical.
-
-    Raises:
-        ValueError: A number is outside its range.
+    The acceleration (m/s², >= 0) is limited too. A step of `dt` (s, > 0) longer than tau (s, > 0) ends at the
+    desired velocity, not beyond it. Without a tau (None), only the acceleration limits the change. ValueError
+    if a number is outside its range.
     """
     if not dt > 0:
         raise ValueError(f"dt must be > 0 s, got {dt!r}")
@@ -63,11 +52,7 @@ def apply_velocity_tracking_first_order(
 
 
 def apply_velocity_limits(v: Velocity, max_speed_xy: float, max_speed_z: float) -> Velocity:
-    """Cut a velocity down to the greatest speeds (m/s, >= 0).
-
-    Raises:
-        ValueError: A limit is negative or not a number.
-    """
+    """Cut a velocity down to the greatest speeds (m/s, >= 0). ValueError if a limit is not such a number."""
     _check_limit("max_speed_xy", max_speed_xy)
     _check_limit("max_speed_z", max_speed_z)
     return _limited(v, max_speed_xy, max_speed_z)

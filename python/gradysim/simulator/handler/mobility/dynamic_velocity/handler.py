@@ -78,13 +78,8 @@ class DynamicVelocityMobilityHandler(INodeHandler):
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
         """Take the velocity that a vehicle should fly; it shows from the next update on.
 
-        Args:
-            command: SET_SPEED with three parameters, as of SetVelocityMobilityCommand.
-            node: A registered node.
-
-        Raises:
-            DynamicVelocityMobilityException: The node is not registered, the command is another one, or its
-                parameters are not three finite numbers.
+        DynamicVelocityMobilityException if the node is not registered, or the command is not SET_SPEED with
+        three finite numbers, as of SetVelocityMobilityCommand.
         """
         if node.id not in self.nodes:
             raise DynamicVelocityMobilityException(
