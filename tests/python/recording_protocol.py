@@ -4,22 +4,25 @@ from gradysim.protocol.interface import IProtocol
 
 
 class RecordingProtocol(IProtocol):
-    """Keeps the callbacks that reach it, as (name, *arguments)."""
+    """Keeps the callbacks that reach it, as (name, *arguments); subclasses may override `note`."""
 
     def __init__(self):
         self.calls = []
 
+    def note(self, *call):
+        self.calls.append(call)
+
     def initialize(self):
-        self.calls.append(("initialize",))
+        self.note("initialize")
 
     def handle_timer(self, timer):
-        self.calls.append(("handle_timer", timer))
+        self.note("handle_timer", timer)
 
     def handle_packet(self, message):
-        self.calls.append(("handle_packet", message))
+        self.note("handle_packet", message)
 
     def handle_telemetry(self, telemetry):
-        self.calls.append(("handle_telemetry", telemetry))
+        self.note("handle_telemetry", telemetry)
 
     def finish(self):
-        self.calls.append(("finish",))
+        self.note("finish")

@@ -2,38 +2,20 @@ import pytest
 
 from gradysim.encapsulator.interop import ConsequenceType, InteropEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from python.recording_protocol import RecordingProtocol
 
 
-class Script(IProtocol):
+class Script(RecordingProtocol):
     """Does in each callback what `do` says."""
 
     do = staticmethod(lambda protocol: None)
 
-    def __init__(self):
-        self.calls = []
-
-    def _note(self, *call):
-        self.calls.append(call)
+    def note(self, *call):
+        super().note(*call)
         self.do(self)
-
-    def initialize(self):
-        self._note("initialize")
-
-    def handle_timer(self, timer):
-        self._note("handle_timer", timer)
-
-    def handle_packet(self, message):
-        self._note("handle_packet", message)
-
-    def handle_telemetry(self, telemetry):
-        self._note("handle_telemetry", telemetry)
-
-    def finish(self):
-        self._note("finish")
 
 
 def encapsulated(do):

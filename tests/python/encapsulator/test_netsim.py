@@ -11,7 +11,6 @@ from gradysim import _netsim
 from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException, TimerException
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import (
     BroadcastMessageCommand,
     CommunicationCommand,
@@ -26,37 +25,21 @@ from gradysim.protocol.messages.mobility import (
 )
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.position import geo_to_cartesian
+from python.recording_protocol import RecordingProtocol
 
 ORIGIN = (-22.9, -43.2, 10.0)
 
 
-class Recorder(IProtocol):
-    """Notes its calls; `script` maps the name of a callback to what is done in it."""
+class Recorder(RecordingProtocol):
+    """Notes its calls and their times; `script` maps the name of a callback to what is done in it."""
 
     script: dict = {}  # noqa: RUF012 - set per test by `encapsulated`
 
-    def __init__(self):
-        self.calls = []
-
-    def _called(self, name, *arguments):
-        self.calls.append((round(self.provider.current_time(), 9), name, *arguments))
+    def note(self, name, *arguments):
+        given = () if name == "handle_telemetry" else arguments
+        super().note(round(self.provider.current_time(), 9), name, *given)
         if name in self.script:
             self.script[name](self)
-
-    def initialize(self):
-        self._called("initialize")
-
-    def handle_timer(self, timer):
-        self._called("handle_timer", timer)
-
-    def handle_packet(self, message):
-        self._called("handle_packet", message)
-
-    def handle_telemetry(self, telemetry):
-        self._called("handle_telemetry")
-
-    def finish(self):
-        self._called("finish")
 
 
 class Pair:

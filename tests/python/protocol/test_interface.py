@@ -1,6 +1,7 @@
 import pytest
 
 from gradysim.protocol.interface import IProtocol, IProvider
+from python.quiet_protocol import Quiet
 
 
 class SilentProvider(IProvider):
@@ -28,30 +29,13 @@ class SilentProvider(IProvider):
         return self.node_id
 
 
-class SilentProtocol(IProtocol):
-    def initialize(self):
-        pass
-
-    def handle_timer(self, timer):
-        pass
-
-    def handle_packet(self, message):
-        pass
-
-    def handle_telemetry(self, telemetry):
-        pass
-
-    def finish(self):
-        pass
-
-
 def test_instantiate_gives_the_protocol_its_provider():
     provider = SilentProvider()
-    assert SilentProtocol.instantiate(provider).provider is provider
+    assert Quiet.instantiate(provider).provider is provider
 
 
 def test_the_constructor_runs_before_there_is_a_provider():
-    class Curious(SilentProtocol):
+    class Curious(Quiet):
         def __init__(self):
             self.had_provider = hasattr(self, "provider")
 
@@ -62,7 +46,7 @@ def test_the_constructor_runs_before_there_is_a_provider():
     "missing", ["initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish"]
 )
 def test_a_protocol_must_have_every_callback(missing):
-    methods = {name: (lambda self, *arguments: None) for name in vars(SilentProtocol) if name[0] != "_"}
+    methods = {name: (lambda self, *arguments: None) for name in vars(Quiet) if name[0] != "_"}
     del methods[missing]
     incomplete = type("Incomplete", (IProtocol,), methods)
     with pytest.raises(TypeError, match=missing):

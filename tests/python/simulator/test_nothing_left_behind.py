@@ -7,7 +7,6 @@ import tracemalloc
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin
 from gradysim.simulator.handler.assertion import AssertionHandler, assert_always_true_for_protocol
@@ -16,9 +15,10 @@ from gradysim.simulator.handler.mobility import MobilityConfiguration, MobilityH
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import VisualizationConfiguration, VisualizationHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.quiet_protocol import Quiet
 
 
-class Busy(IProtocol):
+class Busy(Quiet):
     """Uses a bit of everything; `failing` makes it fail at its third timer."""
 
     failing = False
@@ -36,10 +36,6 @@ class Busy(IProtocol):
         self.provider.tracked_variables["timers"] = self.timers
         self.provider.send_communication_command(BroadcastMessageCommand("tick"))
         self.provider.schedule_timer("tick", self.provider.current_time() + 0.1)
-
-    def handle_packet(self, message): ...
-    def handle_telemetry(self, telemetry): ...
-    def finish(self): ...
 
 
 class Failing(Busy):

@@ -4,16 +4,16 @@ import gc
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MobilityException
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
 from python.played_flights import PlayedFlights
+from python.quiet_protocol import Quiet
 
 
-class Tested(IProtocol):
+class Tested(Quiet):
     def initialize(self):
         self.telemetry = []
         self.provider.schedule_timer("go", 0.2)
@@ -21,12 +21,8 @@ class Tested(IProtocol):
     def handle_timer(self, timer):
         self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 7, 0))
 
-    def handle_packet(self, message): ...
-
     def handle_telemetry(self, telemetry):
         self.telemetry.append((self.provider.current_time(), telemetry.current_position))
-
-    def finish(self): ...
 
 
 @pytest.fixture

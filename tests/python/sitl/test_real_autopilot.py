@@ -8,7 +8,6 @@ import os
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetVelocityMobilityCommand
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfiguration, MissionMobilityPlugin
 from gradysim.simulator.handler.ardupilot_mobility import (
@@ -17,6 +16,7 @@ from gradysim.simulator.handler.ardupilot_mobility import (
 )
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.quiet_protocol import Quiet
 
 pytestmark = pytest.mark.autopilot
 
@@ -28,30 +28,25 @@ def _there_is_one(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-class Quiet(IProtocol):
+class Tracked(Quiet):
     def initialize(self):
         self.track = []
 
-    def handle_timer(self, timer): ...
-    def handle_packet(self, message): ...
-
     def handle_telemetry(self, telemetry):
         self.track.append((self.provider.current_time(), telemetry.current_position))
-
-    def finish(self): ...
 
     def at(self, moment):
         return min(self.track, key=lambda sample: abs(sample[0] - moment))[1]
 
 
-class Mission(Quiet):
+class Mission(Tracked):
     def initialize(self):
         super().initialize()
         self.mission = MissionMobilityPlugin(self, MissionMobilityConfiguration(speed=8, tolerance=1))
         self.mission.start_mission([(40, 0, 15), (40, 20, 15)])
 
 
-class Drift(Quiet):
+class Drift(Tracked):
     def initialize(self):
         super().initialize()
         self.provider.schedule_timer("drift", 1)
@@ -65,7 +60,7 @@ def flown(configuration, real_time):
     builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
     builder.add_node(Mission, (0, 0, 10))
     builder.add_node(Drift, (0, 50, 12))
-    builder.add_node(Quiet, (0, 0, 0))
+    builder.add_node(Tracked, (0, 0, 0))
     simulator = builder.build()
     simulator.start_simulation()
     return [node.protocol_encapsulator.protocol for node in simulator.nodes]
@@ -113,7 +108,7 @@ def test_on_simulated_time_it_stands_in_the_wind():
     assert mission.at(40) == pytest.approx((40, 20, 15), abs=1)
 
 
-class OnOrder(Quiet):
+class OnOrder(Tracked):
     """Goes from place to place, by times."""
 
     targets = ((0.0, (20, 0, -1)), (300.0, (20, 15, 0)), (900.0, (0, 0, 10)))
@@ -134,7 +129,7 @@ def test_on_simulated_time_it_stands_on_the_ground_for_long_and_flies_on():
     builder = SimulationBuilder(SimulationConfiguration(duration=940))
     builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))
     builder.add_node(OnOrder, (0, 0, 10))
-    builder.add_node(Quiet, (0, 50, 0))
+    builder.add_node(Tracked, (0, 50, 0))
     simulator = builder.build()
     simulator.start_simulation()
     visitor, ground = (node.protocol_encapsulator.protocol for node in simulator.nodes)

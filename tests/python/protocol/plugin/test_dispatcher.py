@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
+from python.recording_protocol import RecordingProtocol
 
 ARGUMENTS = {
     "initialize": (),
@@ -18,23 +18,8 @@ ARGUMENTS = {
 INTERRUPTIBLE = ["handle_timer", "handle_packet", "handle_telemetry"]
 
 
-class Recorder(IProtocol):
-    def __init__(self):
-        self.calls = []
-
-    def initialize(self):
-        self.calls.append("own")
-
-    def handle_timer(self, timer):
-        self.calls.append("own")
-
-    def handle_packet(self, message):
-        self.calls.append("own")
-
-    def handle_telemetry(self, telemetry):
-        self.calls.append("own")
-
-    def finish(self):
+class Recorder(RecordingProtocol):
+    def note(self, *call):
         self.calls.append("own")
 
 

@@ -1,33 +1,20 @@
 """Protocols, a handler and simulations for the tests of this folder."""
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.recording_protocol import RecordingProtocol
 
 
-class Protocol(IProtocol):
+class Protocol(RecordingProtocol):
     """Does nothing; keeps the callbacks of all instances in the class's `calls`: (name, id, *arguments)."""
 
     calls: list
 
+    def __init__(self): ...
+
     def note(self, name, *arguments):
         self.calls.append((name, self.provider.get_id(), *arguments))
-
-    def initialize(self):
-        self.note("initialize")
-
-    def handle_timer(self, timer):
-        self.note("handle_timer", timer)
-
-    def handle_packet(self, message):
-        self.note("handle_packet", message)
-
-    def handle_telemetry(self, telemetry):
-        self.note("handle_telemetry", telemetry)
-
-    def finish(self):
-        self.note("finish")
 
 
 class Recorder(INodeHandler):

@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.handler.ardupilot_mobility import (
     ArdupilotMobilityConfiguration,
     ArdupilotMobilityException,
@@ -15,6 +14,7 @@ from gradysim.simulator.handler.ardupilot_mobility import (
 )
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.quiet_protocol import Quiet
 
 REFERENCE = (-15.84, -47.92, 1000.0)
 
@@ -22,7 +22,7 @@ REFERENCE = (-15.84, -47.92, 1000.0)
 SPEED = 10
 
 
-class Flyer(IProtocol):
+class Flyer(Quiet):
     """Does `deeds[time](self)` at the times given, and keeps its telemetry."""
 
     deeds: ClassVar = {}
@@ -35,12 +35,8 @@ class Flyer(IProtocol):
     def handle_timer(self, timer):
         self.deeds[float(timer)](self)
 
-    def handle_packet(self, message): ...
-
     def handle_telemetry(self, telemetry):
         self.telemetry.append((self.provider.current_time(), telemetry.current_position))
-
-    def finish(self): ...
 
     def at(self, moment):
         """Where it was by its last telemetry before a time."""

@@ -2,17 +2,17 @@
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftMode
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.quiet_protocol import Quiet
 
 NODES = 9
 SEEDS = range(25)
 
 
-class Member(IProtocol):
+class Member(Quiet):
     """Proposes 42 when it leads at 1.5 s, and notes in which terms it has led."""
 
     mode = RaftMode.CLASSIC
@@ -36,12 +36,6 @@ class Member(IProtocol):
 
     def handle_packet(self, message):
         raise AssertionError("a message of the consensus reached the protocol")
-
-    def handle_telemetry(self, telemetry):
-        pass
-
-    def finish(self):
-        pass
 
 
 class FaultTolerantMember(Member):

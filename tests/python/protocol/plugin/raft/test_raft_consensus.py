@@ -3,7 +3,6 @@ import logging
 
 import pytest
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommandType
 from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftMode, RaftState
 from gradysim.protocol.plugin.raft.raft_message import (
@@ -14,26 +13,18 @@ from gradysim.protocol.plugin.raft.raft_message import (
 )
 from gradysim.protocol.plugin.raft.raft_state import Entry
 from python.protocol.plugin.raft.bare_provider import BareProvider
+from python.quiet_protocol import Quiet
 
 
-class Recorder(IProtocol):
+class Recorder(Quiet):
     def __init__(self):
         self.calls = []
-
-    def initialize(self):
-        pass
 
     def handle_timer(self, timer):
         self.calls.append(timer)
 
     def handle_packet(self, message):
         self.calls.append(message)
-
-    def handle_telemetry(self, telemetry):
-        pass
-
-    def finish(self):
-        pass
 
 
 @pytest.fixture

@@ -4,13 +4,13 @@ from contextlib import ExitStack
 import pytest
 from websockets.sync.client import connect
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import VisualizationConfiguration, VisualizationHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from python.quiet_protocol import Quiet
 
 
-class Shown(IProtocol):
+class Shown(Quiet):
     """Tracks how many seconds it has lived."""
 
     def initialize(self):
@@ -20,10 +20,6 @@ class Shown(IProtocol):
         now = self.provider.current_time()
         self.provider.tracked_variables["age"] = now
         self.provider.schedule_timer("second", now + 1)
-
-    def handle_packet(self, message): ...
-    def handle_telemetry(self, telemetry): ...
-    def finish(self): ...
 
 
 class Viewer:
