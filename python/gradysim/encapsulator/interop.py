@@ -6,7 +6,6 @@ The host sets time and id, calls a callback and gets the list of consequences, i
 from collections.abc import Callable
 from copy import copy
 from enum import Enum
-from functools import partial
 from random import Random
 from typing import Any
 
@@ -17,7 +16,6 @@ from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class ConsequenceType(int, Enum):
@@ -58,7 +56,9 @@ class InteropProvider(IProvider):
         self.id = 0
         self.seed = 0
         self._random: Random | None = None
-        self._tracked_variables = TrackedVariables(self._track)
+        self._tracked_variables = TrackedVariables(
+            lambda *change: self.consequences.append((ConsequenceType.TRACK_VARIABLE, change))
+        )
 
     @property
     def tracked_variables(self) -> dict[str, Any]:
@@ -100,8 +100,28 @@ class InteropProvider(IProvider):
             self._random = RandomStream(self.seed, self.id, Purpose.PROTOCOL)
         return self._random
 
-    def _track(self, name: str, value: Any) -> None:
-        self.consequences.append((ConsequenceType.TRACK_VARIABLE, (name, value)))
+
+def _collecting(callback: str) -> Callable[..., list[Consequence]]:
+    """Return the method that runs a callback of the protocol and takes its consequences."""
+
+    def run(self: "InteropEncapsulator", *arguments: Any) -> list[Consequence]:
+        provider = self.provider
+        try:
+            getattr(self.protocol, callback)(*arguments)
+        except BaseException as exception:
+            provider.consequences = []
+            add_protocol_note(
+                exception,
+                node_id=provider.id,
+                protocol=type(self.protocol),
+                time_s=provider.timestamp,
+                callback=callback,
+            )
+            raise
+        consequences, provider.consequences = provider.consequences, []
+        return consequences
+
+    return run
 
 
 class InteropEncapsulator(IEncapsulator[IProtocol]):
@@ -132,40 +152,8 @@ class InteropEncapsulator(IEncapsulator[IProtocol]):
         """Set the seed of the run, before `initialize`; the default is 0."""
         self.provider.seed = seed
 
-    def initialize(self) -> list[Consequence]:
-        """Run the protocol's `initialize`."""
-        return self._run("initialize", self.protocol.initialize)
-
-    def handle_timer(self, timer: str) -> list[Consequence]:
-        """Run the protocol's `handle_timer`."""
-        return self._run("handle_timer", partial(self.protocol.handle_timer, timer))
-
-    def handle_packet(self, message: str) -> list[Consequence]:
-        """Run the protocol's `handle_packet`."""
-        return self._run("handle_packet", partial(self.protocol.handle_packet, message))
-
-    def handle_telemetry(self, telemetry: Telemetry) -> list[Consequence]:
-        """Run the protocol's `handle_telemetry`."""
-        return self._run("handle_telemetry", partial(self.protocol.handle_telemetry, telemetry))
-
-    def finish(self) -> list[Consequence]:
-        """Run the protocol's `finish`."""
-        return self._run("finish", self.protocol.finish)
-
-    def _run(self, name: str, callback: Callable[[], None]) -> list[Consequence]:
-        provider = self.provider
-        try:
-            callback()
-        except BaseException as exception:
-            provider.consequences = []
-            add_protocol_note(
-                exception,
-                node_id=provider.id,
-                protocol=type(self.protocol),
-                time_s=provider.timestamp,
-                callback=name,
-            )
-            raise
-        consequences = provider.consequences
-        provider.consequences = []
-        return consequences
+    initialize = _collecting("initialize")
+    handle_timer = _collecting("handle_timer")
+    handle_packet = _collecting("handle_packet")
+    handle_telemetry = _collecting("handle_telemetry")
+    finish = _collecting("finish")

@@ -15,13 +15,11 @@ from gradysim.encapsulator.tracked_variables import CheckedProvider
 from gradysim.encapsulator.validation import geo_target
 from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     MobilityCommand,
     MobilityCommandType,
 )
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.position import Position
 
 if TYPE_CHECKING:
@@ -36,6 +34,15 @@ _SAME_IN_THE_ENGINE = (
     "current_time",
     "get_id",
 )
+
+
+def _forwarding(attribute: str, method: str) -> Callable[..., Any]:
+    """Return a method that passes its arguments to `method` of an attribute."""
+
+    def call(self: Any, *arguments: Any) -> Any:
+        return getattr(getattr(self, attribute), method)(*arguments)
+
+    return call
 
 
 class NetsimProvider(CheckedProvider):
@@ -88,9 +95,11 @@ class NetsimProvider(CheckedProvider):
     # The abstract methods of IProvider. Only mobility commands without an autopilot get here; other calls go
     # to the attributes of the instance, which __init__ sets. These methods are for calls through super().
 
-    def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Hand a message to the node's network interface."""
-        self._node.send_communication_command(command)
+    send_communication_command = _forwarding("_node", "send_communication_command")
+    schedule_timer = _forwarding("_node", "schedule_timer")
+    cancel_timer = _forwarding("_node", "cancel_timer")
+    current_time = _forwarding("_node", "current_time")
+    get_id = _forwarding("_node", "get_id")
 
     def send_mobility_command(self, command: MobilityCommand) -> None:
         """Steer the node. Geographic coordinates are taken relative to the origin of the scene."""
@@ -98,22 +107,6 @@ class NetsimProvider(CheckedProvider):
             target = geo_target(command, self.get_id(), self._reference_coordinates)
             command = GotoCoordsMobilityCommand(*target)
         self._node.send_mobility_command(command)
-
-    def schedule_timer(self, timer: str, timestamp: float) -> None:
-        """Have `handle_timer(timer)` called at `timestamp`, in seconds of simulated time."""
-        self._node.schedule_timer(timer, timestamp)
-
-    def cancel_timer(self, timer: str) -> None:
-        """Cancel every pending timer of this name."""
-        self._node.cancel_timer(timer)
-
-    def current_time(self) -> float:
-        """Return the simulated time in seconds."""
-        return self._node.current_time()
-
-    def get_id(self) -> int:
-        """Return the node's id, 0 to n-1."""
-        return self._node.get_id()
 
     def node_positions(self) -> dict[int, Position]:
         """Return the current position (x, y, z) in meters of every node, by id. For extensions.
@@ -162,25 +155,11 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
     # The engine calls the protocol itself. These methods are for handlers that call the protocol of a node
     # through its encapsulator, as in prototype mode.
 
-    def initialize(self) -> None:
-        """Run the protocol's `initialize`."""
-        self.protocol.initialize()
-
-    def handle_timer(self, timer: str) -> None:
-        """Run the protocol's `handle_timer`."""
-        self.protocol.handle_timer(timer)
-
-    def handle_packet(self, message: str) -> None:
-        """Run the protocol's `handle_packet`."""
-        self.protocol.handle_packet(message)
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Run the protocol's `handle_telemetry`."""
-        self.protocol.handle_telemetry(telemetry)
-
-    def finish(self) -> None:
-        """Run the protocol's `finish`."""
-        self.protocol.finish()
+    initialize = _forwarding("protocol", "initialize")
+    handle_timer = _forwarding("protocol", "handle_timer")
+    handle_packet = _forwarding("protocol", "handle_packet")
+    handle_telemetry = _forwarding("protocol", "handle_telemetry")
+    finish = _forwarding("protocol", "finish")
 
     def _note(self, failure: BaseException, callback: str) -> None:
         add_protocol_note(

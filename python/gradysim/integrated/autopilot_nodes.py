@@ -3,7 +3,6 @@
 import math
 import weakref
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING
 
 from gradysim.encapsulator.flight_orders import give_order
@@ -45,9 +44,10 @@ class AutopilotNodes:
 
     def steering_of(self, node_id: int) -> Callable[[MobilityCommand], None] | None:
         """Return the function for mobility commands of a node with an autopilot, or None."""
-        if self._flights is None or node_id not in self._flights.ids:
+        flights = self._flights
+        if flights is None or node_id not in flights.ids:
             return None
-        return partial(self._order, node_id)
+        return lambda command: give_order(command, node_id, self._reference, flights.pilot(node_id))
 
     def initialize(self) -> None:
         """Schedule the first update, after the protocols have started."""
@@ -58,10 +58,6 @@ class AutopilotNodes:
         """End the autopilots. Do nothing if they have ended."""
         if self._flights is not None:
             self._flights.close()
-
-    def _order(self, node_id: int, command: MobilityCommand) -> None:
-        assert self._flights is not None
-        give_order(command, node_id, self._reference, self._flights.pilot(node_id))
 
     def _fly_on(self) -> None:
         """Fly to the next update and move the nodes there by then."""

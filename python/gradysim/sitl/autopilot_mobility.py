@@ -56,16 +56,13 @@ class AutopilotMobilityHandler(MasslessMobilityHandler):
 
     def _move(self) -> bool:
         super()._move()
-        self._follow()
+        for identifier in self._flights.ids:
+            self.nodes[identifier].position = self._flights.position(identifier)
         return True
 
     def _update(self) -> None:
         super()._update()
         self._schedule_flight()
-
-    def _follow(self) -> None:
-        for identifier in self._flights.ids:
-            self.nodes[identifier].position = self._flights.position(identifier)
 
     def _schedule_flight(self) -> None:
         """Fly to the next update after all events of this instant."""

@@ -131,7 +131,8 @@ class Fleet:
         """
         folder = self._folder / str(identifier)
         folder.mkdir()
-        self._hand_over(folder)
+        if self._user is not None:
+            shutil.chown(folder, self._user)
         file = folder / "defaults.parm"
         system_id = identifier % 255 + 1
         help_text = self._help_text(name)
@@ -169,10 +170,6 @@ class Fleet:
         shutil.copyfile(program, copy)
         copy.chmod(0o755)
         return copy
-
-    def _hand_over(self, path: Path) -> None:
-        if self._user is not None:
-            shutil.chown(path, self._user)
 
     def _help_text(self, name: str) -> str:
         """Return the output of the program for --help. `name` is that of a vehicle, for messages."""

@@ -103,7 +103,10 @@ class LockStepAutopilot:
         """Integrate one step and send the new sensor values."""
         body = self.body
         body.step(self._throttles, 1.0 / self._rate_hz)
-        self._count_step()
+        # A multiple of a step, so that rounding errors do not add up.
+        begin_s, steps = self._steps_from
+        self._steps_from = (begin_s, steps + 1)
+        self.time_s = begin_s + (steps + 1) / self._rate_hz
         p, q, r = body.rates_radps
         ax, ay, az = body.specific_force_mps2
         north, east, down = body.position_m
@@ -172,12 +175,6 @@ class LockStepAutopilot:
         for part in (self._physics, self._server, self._mavlink):
             if part is not None:
                 part.close()
-
-    def _count_step(self) -> None:
-        """Advance the clock, as a multiple of a step, so that rounding errors do not add up."""
-        begin_s, steps = self._steps_from
-        self._steps_from = (begin_s, steps + 1)
-        self.time_s = begin_s + (steps + 1) / self._rate_hz
 
     def _send(self, data: bytes) -> None:
         assert self._mavlink is not None

@@ -168,13 +168,8 @@ class FleetDirectory:
 def _remove_abandoned(parent: Path) -> None:
     """Remove the directories of this user whose owners are dead."""
     for folder in parent.glob(f"{_PREFIX}*"):
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError):  # of an owner that is alive, or without a file to lock
             if folder.lstat().st_uid == os.geteuid() and not folder.is_symlink():
-                _remove_if_abandoned(folder)
-
-
-def _remove_if_abandoned(folder: Path) -> None:
-    """Raise OSError if the owner is alive, or the file to lock is missing."""
-    with (folder / _LOCK).open("rb") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        shutil.rmtree(folder, ignore_errors=True)
+                with (folder / _LOCK).open("rb") as lock:
+                    fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    shutil.rmtree(folder, ignore_errors=True)

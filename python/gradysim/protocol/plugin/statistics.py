@@ -39,7 +39,11 @@ class StatisticsProtocolWrapper:
 
     def configure(self, file_name_part: str, collection_interval: float) -> None:
         """Change the name of the files, and the interval from the next sample on."""
-        self._file_name_part = _checked_file_name_part(file_name_part)
+        if not isinstance(file_name_part, str) or set(file_name_part) & {"/", "\\", os.sep, "\0"}:
+            raise ValueError(
+                f"file_name_part must be a part of a file's name, without folders, got {file_name_part!r}"
+            )
+        self._file_name_part = file_name_part
         self._interval = checked_number("collection_interval", collection_interval, 0, above=True, unit="s")
 
     def register(self) -> None:
@@ -165,12 +169,6 @@ def finish_statistics(protocol: IProtocol) -> None:
         raise ValueError(f"no statistics of {protocol!r} are being collected: call create_statistics before")
     wrapper.unregister()
     wrapper.create_statistic_files()
-
-
-def _checked_file_name_part(part: str) -> str:
-    if isinstance(part, str) and not any(separator in part for separator in ("/", "\\", os.sep, "\0")):
-        return part
-    raise ValueError(f"file_name_part must be a part of a file's name, without folders, got {part!r}")
 
 
 def _write(path: str, columns: Sequence[str], rows: Sequence[_Row]) -> None:

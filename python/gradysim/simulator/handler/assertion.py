@@ -130,7 +130,11 @@ class _PredicateCase(SimulationTestCase):
         return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, self.asked)]
 
     def _failure(self, when: str, subjects: list[Any]) -> FailedAssertionException:
-        at = "" if self.asked is None else " for node " + ", ".join(map(_node_name, subjects))
+        at = (
+            ""
+            if self.asked is None
+            else " for node " + ", ".join(f"{node.id} ({label_node(node)})" for node in subjects)
+        )
         return FailedAssertionException(f"{self.title} failed{at}: {when}")
 
 
@@ -255,7 +259,3 @@ def _file_of(cls: type) -> Path | None:
 
 def _when(iteration: int, timestamp: float) -> str:
     return f"[iteration={iteration} | timestamp={readable_number(timestamp)}]"
-
-
-def _node_name(node: Node[Any]) -> str:
-    return f"{node.id} ({label_node(node)})"

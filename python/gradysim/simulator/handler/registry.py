@@ -55,13 +55,16 @@ def handlers_by_label(
 
 def step_hooks(handlers: Collection[INodeHandler]) -> list[StepHook]:
     """Return the `after_simulation_step` methods that are overridden."""
-    return [handler.after_simulation_step for handler in handlers if _has_hook(handler)]
+    own = INodeHandler.after_simulation_step
+    hooks = (handler.after_simulation_step for handler in handlers)
+    return [hook for hook in hooks if getattr(hook, "__func__", None) is not own]
 
 
 def stop_judging(handlers: Iterable[INodeHandler]) -> None:
     """Notify handlers such as assertions that the run ends early, so that they report nothing."""
     for handler in handlers:
-        getattr(handler, "stop_judging", _nothing)()
+        if (stop := getattr(handler, "stop_judging", None)) is not None:
+            stop()
 
 
 def finalize_after_failure(live: list[INodeHandler]) -> None:
@@ -76,11 +79,3 @@ def finalize_after_failure(live: list[INodeHandler]) -> None:
             handler.finalize()
         except Exception:
             _logger.exception("The handler %s failed to finalize, too", handler.get_label())
-
-
-def _nothing() -> None: ...
-
-
-def _has_hook(handler: INodeHandler) -> bool:
-    function = getattr(handler.after_simulation_step, "__func__", None)
-    return function is not INodeHandler.after_simulation_step

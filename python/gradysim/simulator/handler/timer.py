@@ -71,7 +71,14 @@ class TimerHandler(INodeHandler):
         if self._event_loop is None:
             raise TimerException("timers can be set only in a simulation: inject an event loop first")
         if timestamp == self._event_loop.crowded_instant:
-            self._count_for_now(message, timestamp, node)
+            count = self._for_now.setdefault(node.id, InstantCount())
+            if count.exceeds(timestamp):
+                raise TimerException(
+                    f"node {node.id} has set {MOST_AT_ONE_INSTANT} timers for now, "
+                    f"{readable_number(timestamp)} s, and this one, {message!r}, is one more: time stands "
+                    "still; expected a later time (timers take absolute simulated time: current_time() + 1, "
+                    "not 1)"
+                )
         self._serial = serial = self._serial + 1
         try:
             event = self._event_loop.schedule_event(
@@ -103,14 +110,6 @@ class TimerHandler(INodeHandler):
         if not timers:
             del pending[message]
         node.protocol_encapsulator.handle_timer(message)
-
-    def _count_for_now(self, message: str, now: float, node: Node[Any]) -> None:
-        if self._for_now.setdefault(node.id, InstantCount()).exceeds(now):
-            raise TimerException(
-                f"node {node.id} has set {MOST_AT_ONE_INSTANT} timers for now, {readable_number(now)} s, "
-                f"and this one, {message!r}, is one more: time stands still; expected a later time "
-                "(timers take absolute simulated time: current_time() + 1, not 1)"
-            )
 
     def _timers_of(self, node: Node[Any]) -> _Pending:
         try:

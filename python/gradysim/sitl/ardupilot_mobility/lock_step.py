@@ -37,6 +37,7 @@ class LockStep(AutopilotMobilityHandler):
         self._telemetry_s = configuration.update_rate
         self._begin_s = event_loop.current_time
         self._reports: dict[int, NodeReport] = {}
+        level = logging.INFO if configuration.uav_api_log_console else logging.DEBUG
         flights = Flights(
             [
                 AutopilotNode(
@@ -51,7 +52,7 @@ class LockStep(AutopilotMobilityHandler):
                 for node in nodes.values()
             ],
             configuration.reference_coordinates,
-            on_text=partial(_log, logging.INFO if configuration.uav_api_log_console else logging.DEBUG),
+            on_text=partial(_logger.log, level, "%s says: %s"),
             console_folder=configuration.uav_api_log_path,
             timeout_s=configuration.uav_api_startup_timeout,
         )
@@ -92,7 +93,3 @@ class LockStep(AutopilotMobilityHandler):
             super()._fly_on()
         except SitlError as error:
             raise ArdupilotMobilityException(str(error)) from error
-
-
-def _log(level: int, name: str, text: str) -> None:
-    _logger.log(level, "%s says: %s", name, text)

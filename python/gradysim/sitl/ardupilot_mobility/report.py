@@ -45,7 +45,11 @@ class NodeReport:
 def write_report(path: Path, nodes: Mapping[int, NodeReport]) -> None:
     """Write the file and log a table. If the file cannot be written, log a warning."""
     try:
-        _write(path, nodes)
+        with path.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(COLUMNS)
+            for identifier, node in nodes.items():
+                writer.writerow((identifier, node.requests, node.drops, node.battery_wasted))
         written = f"Written to {path.absolute()}"
     except OSError as error:
         _logger.warning("The report of the autopilots cannot be written: %s", error)
@@ -64,12 +68,3 @@ def write_report(path: Path, nodes: Mapping[int, NodeReport]) -> None:
         ],
     )
     _logger.info("Autopilots\n%s\n%s", table, written)
-
-
-def _write(path: Path, nodes: Mapping[int, NodeReport]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for identifier, node in nodes.items():
-            wasted = "" if node.battery_wasted is None else node.battery_wasted
-            writer.writerow((identifier, node.requests, node.drops, wasted))

@@ -90,7 +90,14 @@ class DynamicVelocityMobilityHandler(INodeHandler):
                 f"node {node.id} is steered by velocity and cannot carry out {command!r}: "
                 "use SetVelocityMobilityCommand(vx, vy, vz)"
             )
-        self.desired_velocities[node.id] = _velocity(command, node)
+        velocity = three_numbers(command)
+        if velocity is None:
+            given = (command.param_1, command.param_2, command.param_3)
+            raise DynamicVelocityMobilityException(
+                f"node {node.id} was given the velocity {given!r}: expected three finite numbers of m/s, as "
+                "of SetVelocityMobilityCommand(vx, vy, vz)"
+            )
+        self.desired_velocities[node.id] = velocity
 
     def _schedule_update(self, event_loop: EventLoop) -> None:
         self._updates += 1
@@ -137,14 +144,3 @@ class DynamicVelocityMobilityHandler(INodeHandler):
             node.protocol_encapsulator.handle_telemetry(telemetry)
 
         return deliver
-
-
-def _velocity(command: MobilityCommand, node: Node[Any]) -> Velocity:
-    velocity = three_numbers(command)
-    if velocity is None:
-        given = (command.param_1, command.param_2, command.param_3)
-        raise DynamicVelocityMobilityException(
-            f"node {node.id} was given the velocity {given!r}: expected three finite numbers of m/s, as of "
-            "SetVelocityMobilityCommand(vx, vy, vz)"
-        )
-    return velocity
