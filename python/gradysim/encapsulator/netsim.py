@@ -121,26 +121,10 @@ class NetsimProvider(CheckedProvider):
 class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
     """Puts a protocol on a node of the engine, and adds a note to the exceptions that it raises."""
 
-    def __init__(
-        self,
-        node: "Node",
-        *,
-        seed: int,
-        reference_coordinates: Position = (0.0, 0.0, 0.0),
-        nodes: Sequence["Node"] = (),
-        handlers: Mapping[str, Any] | None = None,
-        steer: Callable[[MobilityCommand], None] | None = None,
-    ) -> None:
-        """Prepare `node`; the arguments are those of `NetsimProvider`."""
+    def __init__(self, node: "Node", provider: NetsimProvider) -> None:
+        """Prepare `node`, which is that of the provider."""
         self._node = node
-        self.provider = NetsimProvider(
-            node,
-            seed=seed,
-            reference_coordinates=reference_coordinates,
-            nodes=nodes,
-            handlers=handlers,
-            steer=steer,
-        )
+        self.provider = provider
 
     def encapsulate(self, protocol: type[T]) -> None:
         """Make the protocol and hand it to the node."""

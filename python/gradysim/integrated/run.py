@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.encapsulator.netsim import NetsimEncapsulator
+from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.integrated.autopilot_nodes import AutopilotNodes
@@ -113,7 +113,7 @@ class IntegratedRun(ScenarioRun):
                 self._encapsulators.append(view)
                 self._handlers.register_node(node, view, scenario.seed)
                 continue
-            encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(
+            provider = NetsimProvider(
                 node,
                 seed=scenario.seed,
                 reference_coordinates=scenario.reference_coordinates,
@@ -121,10 +121,11 @@ class IntegratedRun(ScenarioRun):
                 handlers=self._handlers.by_label,
                 steer=self._autopilots.steering_of(node.id),
             )
-            encapsulator.provider.run_name = name
-            encapsulator.provider.has_telemetry = spec.has_telemetry
+            provider.run_name = name
+            provider.has_telemetry = spec.has_telemetry
             if recorder is not None:
-                _record_tracked_variables(encapsulator, node, recorder)
+                _record_tracked_variables(provider, node, recorder)
+            encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(node, provider)
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
             self._handlers.register_node(node, encapsulator, scenario.seed)
@@ -206,13 +207,10 @@ class IntegratedRun(ScenarioRun):
         }
 
 
-def _record_tracked_variables(
-    encapsulator: NetsimEncapsulator[Any], node: "Node", recorder: NodeRecorder
-) -> None:
+def _record_tracked_variables(provider: NetsimProvider, node: "Node", recorder: NodeRecorder) -> None:
     """Record what a protocol in Python tracks; to be called before the protocol is made."""
     watch_tracked_variables(
-        encapsulator.provider,
-        lambda name, value: recorder.variable_set(node.current_time_ps(), name, value),
+        provider, lambda name, value: recorder.variable_set(node.current_time_ps(), name, value)
     )
 
 

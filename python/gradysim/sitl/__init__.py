@@ -4,5 +4,9 @@ It needs the extra `sitl`, which is imported when it is used, and an autopilot, 
 """
 
 
-class SitlError(Exception):
+class ArdupilotMobilityException(Exception):  # noqa: N818 (the published name)
+    """An autopilot cannot start or has ended, a step of a flight failed, or a command is not valid."""
+
+
+class SitlError(ArdupilotMobilityException):
     """An autopilot cannot start, has ended, or refuses a step. Names the vehicle, the step and its reply."""

@@ -54,7 +54,8 @@ class Pair:
             config.initial_position = (10.0 * index, 0.0, 0.0)
             config.mobility.telemetry_interval_s = 0.0
             node = self.network.add_node(config)
-            encapsulator = NetsimEncapsulator(node, seed=seed, reference_coordinates=ORIGIN)
+            provider = NetsimProvider(node, seed=seed, reference_coordinates=ORIGIN)
+            encapsulator = NetsimEncapsulator(node, provider)
             encapsulator.encapsulate(type("Scripted", (Recorder,), {"script": script if index == 0 else {}}))
             self.encapsulators.append(encapsulator)
 

@@ -84,7 +84,3 @@ class ArdupilotMobilityConfiguration:
         check_reference(self.reference_coordinates)
         for address in (self.vehicle_addresses or {}).values():
             parse_address(address)
-
-
-class ArdupilotMobilityException(Exception):  # noqa: N818 (the published name)
-    """An autopilot cannot start or has ended, a step of a flight failed, or a command is not valid."""

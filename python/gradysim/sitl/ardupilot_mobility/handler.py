@@ -10,11 +10,8 @@ from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.interface import IAsyncNodeHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.validation import checked_configuration
-from gradysim.sitl import SitlError
-from gradysim.sitl.ardupilot_mobility.configuration import (
-    ArdupilotMobilityConfiguration,
-    ArdupilotMobilityException,
-)
+from gradysim.sitl import ArdupilotMobilityException
+from gradysim.sitl.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
 from gradysim.sitl.ardupilot_mobility.lock_step import LockStep
 from gradysim.sitl.ardupilot_mobility.real_time import FreeRunning
 from gradysim.sitl.ardupilot_mobility.report import FILE_NAME, write_report
@@ -60,8 +57,15 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
 
         Raise ArdupilotMobilityException if the settings need real time, and the simulation has none.
         """
-        if real_time <= 0:
-            self._check_no_real_time_is_needed()
+        configuration, needs = self._configuration, ""
+        if not configuration.simulate_drones:
+            needs = "real vehicles need"
+        elif configuration.ground_station_ip is not None:
+            needs = "a ground station needs"
+        if real_time <= 0 and needs:
+            raise ArdupilotMobilityException(
+                f"{needs} real time: set real_time=True, or a factor, in the SimulationConfiguration"
+            )
         self._asyncio_loop = asyncio_loop
         self._real_time = real_time
 
@@ -85,16 +89,13 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
         if self._event_loop is None or self._asyncio_loop is None:
             raise ArdupilotMobilityException("the handler has no simulation: inject_async was not called")
         load_dialect()
-        try:
-            if self._real_time > 0:
-                self._flying = FreeRunning(
-                    self.nodes, self._configuration, self._event_loop, self._asyncio_loop, self._real_time
-                )
-            else:
-                self._flying = LockStep(self.nodes, self._configuration, self._event_loop)
-            self._flying.begin()
-        except SitlError as error:
-            raise ArdupilotMobilityException(str(error)) from error
+        if self._real_time > 0:
+            self._flying = FreeRunning(
+                self.nodes, self._configuration, self._event_loop, self._asyncio_loop, self._real_time
+            )
+        else:
+            self._flying = LockStep(self.nodes, self._configuration, self._event_loop)
+        self._flying.begin()
         self._has_begun = True
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
@@ -116,7 +117,7 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
             raise ArdupilotMobilityException(f"node {node.id} got {command!r} before its take-off")
         try:
             self._flying.handle_command(command, node)
-        except (MasslessMobilityException, SitlError) as error:
+        except MasslessMobilityException as error:
             raise ArdupilotMobilityException(str(error)) from error.__cause__
 
     def finalize(self) -> None:
@@ -128,19 +129,6 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
                     write_report(Path(FILE_NAME), reports)
         finally:
             self._close()
-
-    def _check_no_real_time_is_needed(self) -> None:
-        """Raise ArdupilotMobilityException if a setting needs real time."""
-        configuration = self._configuration
-        if not configuration.simulate_drones:
-            what = "real vehicles need"
-        elif configuration.ground_station_ip is not None:
-            what = "a ground station needs"
-        else:
-            return
-        raise ArdupilotMobilityException(
-            f"{what} real time: set real_time=True, or a factor, in the SimulationConfiguration"
-        )
 
     def _close(self) -> None:
         """End the autopilots. Do nothing if they have ended."""

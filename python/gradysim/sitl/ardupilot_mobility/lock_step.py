@@ -11,11 +11,7 @@ from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.mobility.massless import MasslessMobilityConfiguration
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
-from gradysim.sitl import SitlError
-from gradysim.sitl.ardupilot_mobility.configuration import (
-    ArdupilotMobilityConfiguration,
-    ArdupilotMobilityException,
-)
+from gradysim.sitl.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
 from gradysim.sitl.ardupilot_mobility.report import NodeReport
 from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
 from gradysim.sitl.autopilot_node import AutopilotNode
@@ -87,9 +83,3 @@ class LockStep(AutopilotMobilityHandler):
     def close(self) -> None:
         """End the autopilots."""
         self._flights.close()
-
-    def _fly_on(self) -> None:
-        try:
-            super()._fly_on()
-        except SitlError as error:
-            raise ArdupilotMobilityException(str(error)) from error

@@ -17,10 +17,7 @@ from gradysim.simulator.handler.mobility.updates import UpdateTimes
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl import SitlError
-from gradysim.sitl.ardupilot_mobility.configuration import (
-    ArdupilotMobilityConfiguration,
-    ArdupilotMobilityException,
-)
+from gradysim.sitl.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
 from gradysim.sitl.ardupilot_mobility.report import NodeReport
 from gradysim.sitl.autopilot_node import check_start
 from gradysim.sitl.connection import Connection, GroundStationPort, connect, open_ground_station
@@ -277,7 +274,7 @@ class FreeRunning:
             self._flights[identifier] = Flight(node, self._event_loop, configuration, self._real_time)
         _run(loop, self._take_off())
         for flight in self._flights.values():
-            task = loop.create_task(self._attend(flight))
+            task = loop.create_task(flight.attend())
             task.add_done_callback(_raise_failure)
             self._tasks.append(task)
         self._event_loop.schedule_event(self._event_loop.current_time, self._update, "ArduPilot")
@@ -314,12 +311,6 @@ class FreeRunning:
         is_simulated = self._fleet is not None
         await _all(flight.begin(is_simulated=is_simulated) for flight in self._flights.values())
 
-    async def _attend(self, flight: Flight) -> None:
-        try:
-            await flight.attend()
-        except SitlError as error:
-            raise ArdupilotMobilityException(str(error)) from error
-
     async def _close_at_the_end(self) -> None:
         """Close all when the tasks are cancelled, as for a simulation that is not finished."""
         try:
@@ -328,11 +319,8 @@ class FreeRunning:
             self.close()
 
     def _update(self) -> None:
-        try:
-            for flight in self._flights.values():
-                flight.telemetry_is_due()
-        except SitlError as error:
-            raise ArdupilotMobilityException(str(error)) from error
+        for flight in self._flights.values():
+            flight.telemetry_is_due()
         self._updates += 1
         self._event_loop.schedule_event(self._times.time_of(self._updates), self._update, "ArduPilot")
 
