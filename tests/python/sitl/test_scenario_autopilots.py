@@ -51,8 +51,10 @@ def test_a_wrong_parameter_is_told_with_the_line_that_has_it(flown_scenario):
 
 
 def test_a_protocol_of_the_engine_obeys_no_autopilot(flown_scenario):
-    with pytest.raises(ConfigError, match="Python protocols"):
-        check_autopilots(flown_scenario(TESTED, '*.uavs[*].protocol.typename = "BeaconProtocol"'))
+    scenario = flown_scenario(TESTED, '*.uavs[*].protocol.typename = "BeaconProtocol"')
+    with pytest.raises(ConfigError) as caught:
+        check_autopilots(scenario)
+    assert caught.value.source == scenario.nodes[0].autopilot.source
 
 
 def test_without_pymavlink_the_error_says_what_to_install(flown_scenario, monkeypatch):

@@ -240,5 +240,5 @@ def test_a_wrong_configuration_is_refused(protocol, name, value):
 
 def test_a_leader_may_be_waited_for_for_ever_but_not_the_next_look(protocol):
     follow(protocol, leader_timeout=math.inf)
-    with pytest.raises(FollowMobilityException, match="scanning_interval must be finite"):
+    with pytest.raises(FollowMobilityException, match=r"^scanning_interval "):
         follow(protocol, scanning_interval=math.inf)
