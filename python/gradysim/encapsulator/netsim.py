@@ -65,15 +65,11 @@ class NetsimProvider(CheckedProvider):
         handlers: Mapping[str, Any] | None = None,
         steer: Callable[[MobilityCommand], None] | None = None,
     ) -> None:
-        """Serve the protocol of `node`.
+        """Serve the protocol of `node`. `nodes` are all of the network, for `node_positions`.
 
-        Args:
-            node: The engine's node.
-            seed: Seed of the run; the protocol's random numbers follow from it and the node's id.
-            reference_coordinates: (latitude deg, longitude deg, altitude m) of the scene's origin.
-            nodes: All nodes of the network; for `node_positions`.
-            handlers: Handlers that watch the run, by label.
-            steer: Carries out mobility commands instead of the engine.
+        The random numbers follow from the run's seed and the node's id. `reference_coordinates` are (latitude
+        deg, longitude deg, altitude m) of the scene's origin. `handlers` watch the run, by label. `steer`
+        carries out mobility commands instead of the engine.
         """
         self._node = node
         self._nodes = nodes

@@ -164,16 +164,11 @@ def finite_number(value: float | None) -> float | None:
 
 
 def geo_target(command: Any, node_id: int, reference_coordinates: Position) -> Position:
-    """Return the target of a GOTO_GEO_COORDS command as (x, y, z) in meters.
+    """Return the target of a GOTO_GEO_COORDS command of a node as (x, y, z) in meters.
 
-    Args:
-        command: Latitude (degrees), longitude (degrees) and altitude (m) are its first parameters.
-        node_id: Id of the node, for error messages.
-        reference_coordinates: Latitude, longitude and altitude of the origin.
-
-    Raises:
-        MasslessMobilityException: A parameter is not a finite number, the latitude is out of range, the
-            target is too far away, or latitude and longitude are exchanged.
+    The origin is (latitude deg, longitude deg, altitude m). Raise MasslessMobilityException if a parameter is
+    not a finite number, the latitude is out of range, the target is too far away, or latitude and longitude
+    are exchanged.
     """
     place = three_numbers(command)
     if place is None:

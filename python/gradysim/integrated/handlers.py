@@ -28,7 +28,7 @@ MODE = "integrated mode"
 
 
 def checked_handlers(handlers: Iterable[INodeHandler]) -> dict[str, INodeHandler]:
-    """Return `handlers` by their labels. Raises TypeError or ValueError for one that cannot work here."""
+    """Return `handlers` by their labels. TypeError or ValueError for one that cannot work here."""
     world = "the engine is its {label}, set in the scenario"
     return handlers_by_label(handlers, MODE, world, asynchronous=False)
 

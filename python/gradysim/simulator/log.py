@@ -128,16 +128,10 @@ def setup_simulation_formatter(
     quiet: bool = False,
     clock: Callable[[], float] = lambda: 0.0,
 ) -> SimulationFormatter:
-    """Start logging for one simulation, on Python's root logger.
+    """Start logging for one simulation, on Python's root logger. `remove` of the formatter ends it.
 
-    Args:
-        debug: Log from DEBUG on instead of INFO.
-        log_file: Append the lines to this file too.
-        quiet: Log from WARNING on only, whatever `debug` is.
-        clock: Returns the simulated time in seconds.
-
-    Returns:
-        The formatter; its `remove` ends it.
+    It logs from INFO on, with `debug` from DEBUG on, and with `quiet` from WARNING on, also to the end of a
+    file if one is given. `clock` returns the simulated time in seconds.
     """
     level = logging.WARNING if quiet else logging.DEBUG if debug else logging.INFO
     formatter = SimulationFormatter(clock)

@@ -46,14 +46,10 @@ _SYSTEM_ID_OF_OLD = "SYSID_THISMAV"
 
 
 def find_arducopter(path: str | os.PathLike[str] | None) -> Path:
-    """Find the program.
+    """Find the program. Raise SitlError if it does not exist or is not executable.
 
-    Args:
-        path: The program itself, or a checkout of ArduPilot in which it was built; None for the
-            path in `ENVIRONMENT_VARIABLE`, or else the command `arducopter`.
-
-    Raises:
-        SitlError: The program does not exist or is not executable.
+    The path is that of the program itself, or of a checkout of ArduPilot in which it was built. None stands
+    for the path in `ENVIRONMENT_VARIABLE`, or else the command `arducopter`.
     """
     given = path or os.environ.get(ENVIRONMENT_VARIABLE) or shutil.which("arducopter")
     if not given:

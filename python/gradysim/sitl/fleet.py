@@ -43,16 +43,11 @@ class Fleet:
         console_folder: str | os.PathLike[str] | None = None,
         grace_s: float = GRACE_S,
     ) -> None:
-        """Find the program and create a directory.
+        """Find the program, see `find_arducopter`, and create a directory. Raise SitlError if there is none.
 
-        Args:
-            program: See `find_arducopter`.
-            user: User of autopilots that root starts; None for root.
-            console_folder: Directory for the output of autopilots, `autopilot_<id>.log`; None to discard it.
-            grace_s: Wall time between SIGTERM and SIGKILL. One that waits for physics ignores SIGTERM.
-
-        Raises:
-            SitlError: The program or the user does not exist.
+        Autopilots that root starts belong to `user` (None: root). Their output goes to `autopilot_<id>.log`
+        in `console_folder`, if there is one. `grace_s` is wall time between SIGTERM, which one that waits for
+        physics ignores, and SIGKILL.
         """
         self._found = find_arducopter(program)
         self._user = user_for(user)
@@ -115,19 +110,12 @@ class Fleet:
         physics_port: int | None = None,
         parameters: Mapping[str, float] | None = None,
     ) -> AutopilotProcess:
-        """Start an autopilot that connects to a TCP port of 127.0.0.1.
+        """Start an autopilot that connects to `mavlink_port`, a TCP port of 127.0.0.1, or raise SitlError.
 
-        Args:
-            name: Name of the vehicle in messages.
-            identifier: Number in its file names. Its MAVLink system id is one more, modulo 255.
-            home: Position on the ground (latitude deg, longitude deg, altitude m).
-            mavlink_port: Port that is open for connections.
-            speedup: Seconds of its clock per second of wall time. Ignored with external physics.
-            physics_port: UDP port of 127.0.0.1 for external physics; None for ArduPilot's own.
-            parameters: Further ArduCopter parameters by name.
-
-        Raises:
-            SitlError: It does not start.
+        Its MAVLink system id is `identifier` + 1, modulo 255, and its home (latitude deg, longitude deg,
+        altitude m) is on the ground. `physics_port` is a UDP port for external physics; without one it has
+        ArduPilot's own, at `speedup` seconds of its clock per second of wall time. `parameters` are further
+        ones of ArduCopter.
         """
         folder = self._folder / str(identifier)
         folder.mkdir()

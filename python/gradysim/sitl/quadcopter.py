@@ -61,12 +61,10 @@ class Quadcopter:
         self.specific_force_mps2: Vector = (0.0, 0.0, -GRAVITY_MPS2)
 
     def step(self, throttles: Sequence[float], duration_s: float) -> None:
-        """Integrate one step.
+        """Integrate one step of a few milliseconds at most.
 
-        Args:
-            throttles: Throttles of the four motors, 0 to 1, in ArduPilot's order: front right, rear left
-                (counterclockwise, seen from above), front left, rear right (clockwise).
-            duration_s: Length of the step, a few milliseconds at most.
+        The throttles of the four motors, 0 to 1, are in ArduPilot's order: front right, rear left
+        (counterclockwise, seen from above), front left, rear right (clockwise).
         """
         front_right, rear_left, front_left, rear_right = map(_thrust_n, throttles)
         torque = (

@@ -25,15 +25,9 @@ def handlers_by_label(
 ) -> dict[str, INodeHandler]:
     """Return `handlers` by label, in the given order.
 
-    Args:
-        handlers: Instances, of different labels.
-        mode: Name of the mode, for error messages.
-        world: Error text for a label in `WORLD`.
-        asynchronous: Whether the mode supports `IAsyncNodeHandler`.
-
-    Raises:
-        TypeError: `handlers` is not iterable, or an item is not a handler.
-        ValueError: A handler does not work in this mode, or two have the same label.
+    `mode` is the name of the mode, and `world` what is said of a label in `WORLD`. Raise TypeError if there
+    is something else than a handler, and ValueError if a handler does not work in this mode or two have the
+    same label.
     """
     if not isinstance(handlers, Iterable):
         raise TypeError(f"expected a list of handlers, got {handlers!r}")

@@ -82,9 +82,8 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
     def initialize(self) -> None:
         """Start the autopilots and fly all nodes to their initial positions.
 
-        Raises:
-            ModuleNotFoundError: The extra `sitl` is not installed.
-            ArdupilotMobilityException: An autopilot cannot start, or a step failed.
+        Raise ModuleNotFoundError if the extra `sitl` is not installed, and ArdupilotMobilityException if an
+        autopilot cannot start, or a step failed.
         """
         if self._event_loop is None or self._asyncio_loop is None:
             raise ArdupilotMobilityException("the handler has no simulation: inject_async was not called")

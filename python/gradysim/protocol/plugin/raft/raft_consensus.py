@@ -321,17 +321,10 @@ class RaftConsensusPlugin:
     get_is_active = is_simulation_active
 
     def set_simulation_active(self, node_id: int, active: bool) -> None:
-        """Simulate a failure of this node, or its recovery.
+        """Simulate a failure of this node (False), or its recovery (True). ValueError if it is not a bool.
 
         A failed node sends and receives nothing. A leader gives up its term first. The node keeps its term,
-        vote and log.
-
-        Args:
-            node_id: This node's own id. Another id only logs a warning: call the plugin of that node.
-            active: False for a failure, True for a recovery.
-
-        Raises:
-            ValueError: `active` is not a bool.
+        vote and log. The id of another node only logs a warning: call the plugin of that node.
         """
         if not isinstance(active, bool):
             raise ValueError(f"active must be True or False, got {active!r}")

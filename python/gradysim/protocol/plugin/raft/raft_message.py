@@ -223,17 +223,7 @@ _CHECKS: Mapping[Any, tuple[Callable[[Any], bool], str]] = {
 }
 """What a field of each type must be in a message."""
 
-_TYPES: dict[str, type[RaftMessage]] = {
-    message_type.__name__: message_type
-    for message_type in (
-        RequestVote,
-        RequestVoteResponse,
-        AppendEntries,
-        AppendEntriesResponse,
-        DiscoveryHeartbeat,
-        DiscoveryHeartbeatResponse,
-    )
-}
+_TYPES: dict[str, type[RaftMessage]] = {kind.__name__: kind for kind in RaftMessage.__subclasses__()}
 _FIELDS = {message_type: fields(message_type) for message_type in _TYPES.values()}
 
 

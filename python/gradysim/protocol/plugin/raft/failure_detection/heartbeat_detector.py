@@ -38,15 +38,10 @@ class HeartbeatDetector:
         on_recovery_callback: Callable[[int], None] | None = None,
         get_current_time_callback: Callable[[], float] | None = None,
     ) -> None:
-        """Create a detector for `known_nodes`.
+        """Create a detector for nodes with these ids, all active at first.
 
-        Args:
-            config: The rules.
-            known_nodes: Ids of the nodes, all active at first.
-            on_failure_callback: Called with the id of a node that has failed.
-            on_recovery_callback: Called with the id of a node that has recovered.
-            get_current_time_callback: Returns the time in seconds. Without it only answers recorded as
-                failures count.
+        The callbacks get the id of a node that has failed or recovered. Without a callback for the time (s),
+        only answers recorded as failures count.
         """
         self._config = config
         self._state = FailureState(known_nodes)
