@@ -5,7 +5,6 @@ import weakref
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from gradysim.encapsulator.flight_orders import give_order
 from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
@@ -14,6 +13,7 @@ from gradysim.protocol.messages.mobility import (
 )
 from gradysim.protocol.position import Position
 from gradysim.scenario.scenario import Scenario
+from gradysim.sitl.flight_orders import give_order
 from gradysim.sitl.scenario_autopilots import flights_of
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 import weakref
 from typing import TYPE_CHECKING, Any
 
-from gradysim.encapsulator.flight_orders import give_order
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.mobility.massless import (
@@ -11,6 +10,7 @@ from gradysim.simulator.handler.mobility.massless import (
     MasslessMobilityHandler,
 )
 from gradysim.simulator.node import Node
+from gradysim.sitl.flight_orders import give_order
 
 if TYPE_CHECKING:
     from gradysim.sitl.flights import Flights

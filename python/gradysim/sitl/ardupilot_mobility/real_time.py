@@ -7,7 +7,6 @@ import math
 from collections.abc import Coroutine, Iterable, Mapping
 from typing import Any
 
-from gradysim.encapsulator.flight_orders import give_order
 from gradysim.encapsulator.nested_loop import outer_loop_stands
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
@@ -22,6 +21,7 @@ from gradysim.sitl.ardupilot_mobility.report import NodeReport
 from gradysim.sitl.autopilot_node import check_start
 from gradysim.sitl.connection import Connection, GroundStationPort, connect, open_ground_station
 from gradysim.sitl.fleet import Fleet
+from gradysim.sitl.flight_orders import give_order
 from gradysim.sitl.frame import cartesian_to_geo, check_same_hemisphere, home_of
 from gradysim.sitl.mavlink import MavlinkLink, Message
 from gradysim.sitl.pilot import Pilot

@@ -1,6 +1,6 @@
 """Mobility commands for a node that an autopilot flies."""
 
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, cast
 
 from gradysim.encapsulator.validation import geo_target, is_speed, three_numbers, wrong_mobility
 from gradysim.protocol.errors import MasslessMobilityException
@@ -11,21 +11,11 @@ from gradysim.protocol.messages.mobility import (
 )
 from gradysim.protocol.position import Position
 
-
-class FlightOrders(Protocol):
-    """The vehicle of an autopilot."""
-
-    def go_to(self, target: Position) -> None:
-        """Fly to a point (x, y, z) in meters; ValueError if there is no such place on Earth."""
-
-    def set_speed(self, speed_mps: float) -> None:
-        """Fly at this ground speed, >= 0; ValueError if the vehicle cannot."""
-
-    def set_velocity(self, velocity_mps: Position) -> None:
-        """Hold a velocity (North, East, up)."""
+if TYPE_CHECKING:
+    from gradysim.sitl.pilot import Pilot
 
 
-def give_order(command: MobilityCommand, node_id: int, reference: Position, vehicle: FlightOrders) -> None:
+def give_order(command: MobilityCommand, node_id: int, reference: Position, pilot: "Pilot") -> None:
     """Let the vehicle of a node carry out a mobility command: GOTO_COORDS, GOTO_GEO_COORDS or SET_SPEED.
 
     SET_SPEED has a ground speed or a velocity. `reference` is (latitude deg, longitude deg, altitude m) of
@@ -41,19 +31,19 @@ def give_order(command: MobilityCommand, node_id: int, reference: Position, vehi
                 f"node {node_id} got ({command.param_1!r}, {command.param_2!r}, {command.param_3!r}): "
                 "expected three finite numbers"
             )
-        vehicle.set_velocity(velocity)
+        pilot.set_velocity(velocity)
         return
     if wrong := wrong_mobility(command, node_id, can_move=True):
         raise MasslessMobilityException(wrong)
     if kind == MobilityCommandType.SET_SPEED:
         try:
-            vehicle.set_speed(float(cast("float", command.param_1)))
+            pilot.set_speed(float(cast("float", command.param_1)))
         except ValueError as error:
             raise MasslessMobilityException(
                 f"node {node_id} got the speed {command.param_1!r}: {error}"
             ) from None
         return
     try:
-        vehicle.go_to(cast("Position", three_numbers(command)))
+        pilot.go_to(cast("Position", three_numbers(command)))
     except ValueError as error:
         raise MasslessMobilityException(f"node {node_id} was sent to an invalid place: {error}") from error

@@ -2,7 +2,6 @@
 
 import pytest
 
-from gradysim.encapsulator.flight_orders import give_order
 from gradysim.protocol.errors import MasslessMobilityException
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
@@ -12,6 +11,7 @@ from gradysim.protocol.messages.mobility import (
     SetVelocityMobilityCommand,
 )
 from gradysim.protocol.position import geo_to_cartesian
+from gradysim.sitl.flight_orders import give_order
 
 REFERENCE = (-15.84, -47.92, 1000.0)
 
