@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Mapping
 from random import Random
-from typing import Any, Protocol, cast
+from typing import Any
 
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
@@ -18,51 +18,29 @@ from gradysim.protocol.position import Position
 _logger = logging.getLogger(__name__)
 
 
-class _Node(Protocol):
-    """A node of the simulator. Its optional attribute `seed` is the seed of the run; the default is 0."""
-
-    id: int
-
-
-class _CommunicationHandler(Protocol):
-    def handle_command(self, command: CommunicationCommand, sender: Any) -> None: ...
-
-
-class _MobilityHandler(Protocol):
-    def handle_command(self, command: MobilityCommand, node: Any) -> None: ...
-
-
-class _TimerHandler(Protocol):
-    def set_timer(self, message: str, timestamp: float, node: Any) -> None: ...
-
-    def cancel_timer(self, message: str, node: Any) -> None: ...
-
-    def get_current_time(self) -> float: ...
-
-
 class PythonProvider(CheckedProvider):
     """Provider that passes calls to the handlers labeled "communication", "mobility" and "timer".
 
     A command without a handler is dropped with a warning. Without a timer handler the time is always 0.
 
     Attributes:
-        node: The protocol's node.
+        node: The protocol's node. Its optional attribute `seed` is the seed of the run; the default is 0.
         handlers: Every handler of the simulation, by label.
-        communication_handler: The handler labeled "communication", or None.
-        mobility_handler: The handler labeled "mobility", or None.
-        timer_handler: The handler labeled "timer", or None.
+        communication_handler: The handler labeled "communication", or None. So are the next two.
+        mobility_handler: Carries out mobility commands.
+        timer_handler: Has the timers and the time.
         mode: Name of the mode, for messages.
     """
 
     mode = "prototype mode"
 
-    def __init__(self, node: _Node, **handlers: Any) -> None:
+    def __init__(self, node: Any, **handlers: Any) -> None:
         self.node = node
         self.handlers: Mapping[str, Any] = handlers
         self.tracked_variables: dict[str, Any] = {}
-        self.communication_handler = cast("_CommunicationHandler | None", handlers.get("communication"))
-        self.mobility_handler = cast("_MobilityHandler | None", handlers.get("mobility"))
-        self.timer_handler = cast("_TimerHandler | None", handlers.get("timer"))
+        self.communication_handler = handlers.get("communication")
+        self.mobility_handler = handlers.get("mobility")
+        self.timer_handler = handlers.get("timer")
         self._random: Random | None = None
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
@@ -98,11 +76,13 @@ class PythonProvider(CheckedProvider):
         if self.timer_handler is None:
             self._warn_without("timer", "the time is unknown")
             return 0
-        return self.timer_handler.get_current_time()
+        now_s: float = self.timer_handler.get_current_time()
+        return now_s
 
     def get_id(self) -> int:
         """Return the id of the node."""
-        return self.node.id
+        node_id: int = self.node.id
+        return node_id
 
     @property
     def random(self) -> Random:
@@ -130,7 +110,7 @@ class PythonProvider(CheckedProvider):
 class PythonEncapsulator(IEncapsulator[IProtocol]):
     """Calls the protocol, and adds a note with node, time and callback to the exceptions that it raises."""
 
-    def __init__(self, node: _Node, **handlers: Any) -> None:
+    def __init__(self, node: Any, **handlers: Any) -> None:
         self.node = node
         self.provider = PythonProvider(node, **handlers)
 

@@ -65,7 +65,6 @@ class _Refusal(asyncio.Protocol):
     """Protocol that closes unexpected connections."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """Close it."""
         assert isinstance(transport, asyncio.Transport)
         transport.abort()
 

@@ -41,8 +41,6 @@ _UPWARDS_MPS, _DOWNWARDS_MPS = (0.0, 0.0, 1.0), (0.0, 0.0, -0.5)
 
 
 class _Phase(Enum):
-    """Phase of a flight to a target."""
-
     RISING = auto()
     FLYING = auto()
     STANDING = auto()

@@ -59,4 +59,4 @@ class Radio:
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
         """Send a message as `IProvider.send_communication_command` does, over this radio's medium."""
-        self._handler.handle_command(command, self._node, self._medium)  # type: ignore[arg-type]
+        self._handler.handle_command(command, self._node, self._medium)

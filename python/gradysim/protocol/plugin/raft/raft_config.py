@@ -145,7 +145,7 @@ class RaftConfig:
     def get_random_election_timeout(self, stream: random.Random | None = None) -> int:
         """Draw an election timeout (integer, ms) from `stream`, or from Python's global one."""
         low, high = int(self._election_timeout_min), int(self._election_timeout_max)
-        return stream.randint(low, high) if stream is not None else random.randint(low, high)
+        return (stream or random).randint(low, high)
 
     def get_consensus_variables(self) -> dict[str, type]:
         """Return the type of each variable."""

@@ -113,10 +113,7 @@ class FailureConfig:
         """Heartbeats from one check to the next."""
         return self._detection_interval
 
-    @property
-    def heartbeat_timeout_ms(self) -> int:
-        """Same as `get_timeout_ms`."""
-        return self.get_timeout_ms()
+    heartbeat_timeout_ms = property(get_timeout_ms)
 
     def __str__(self) -> str:
         if self._absolute_timeout_ms is not None:

@@ -14,8 +14,6 @@ _SHOWN_RESPONSE_TIMES = 5
 
 @dataclass
 class _History:
-    """Failures, recoveries and response times of one node."""
-
     failure_count: int = 0
     recovery_count: int = 0
     last_failure_s: float | None = None
