@@ -14,7 +14,7 @@ from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import CheckedProvider
 from gradysim.encapsulator.validation import geo_target
 from gradysim.protocol.errors import add_protocol_note
-from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     MobilityCommand,
@@ -27,13 +27,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", bound=IProtocol)
 
-_SAME_IN_THE_ENGINE = (
-    "send_communication_command",
-    "schedule_timer",
-    "cancel_timer",
-    "current_time",
-    "get_id",
-)
+_SAME_IN_THE_ENGINE = sorted(IProvider.__abstractmethods__ - {"send_mobility_command"})
 
 
 def _forwarding(attribute: str, method: str) -> Callable[..., Any]:

@@ -26,9 +26,9 @@ class PythonProvider(CheckedProvider):
     Attributes:
         node: The protocol's node. Its optional attribute `seed` is the seed of the run; the default is 0.
         handlers: Every handler of the simulation, by label.
-        communication_handler: The handler labeled "communication", or None. So are the next two.
-        mobility_handler: Carries out mobility commands.
-        timer_handler: Has the timers and the time.
+        communication_handler: The handler labeled "communication", or None.
+        mobility_handler: The same for "mobility".
+        timer_handler: The same for "timer".
         mode: Name of the mode, for messages.
     """
 

@@ -59,7 +59,7 @@ class IProvider(ABC):
 
     @abstractmethod
     def cancel_timer(self, timer: str) -> None:
-        """Cancel every pending timer of that name; no-op if there is none. TimerException if it is no str."""
+        """Cancel every pending timer of that name, if any. TimerException if the name is not a str."""
 
     @abstractmethod
     def current_time(self) -> float:

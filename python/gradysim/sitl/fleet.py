@@ -112,7 +112,7 @@ class Fleet:
     ) -> AutopilotProcess:
         """Start an autopilot that connects to `mavlink_port`, a TCP port of 127.0.0.1, or raise SitlError.
 
-        Its MAVLink system id is `identifier` + 1, modulo 255, and its home (latitude deg, longitude deg,
+        Its MAVLink system id is `identifier` modulo 255, plus 1. Its home (latitude deg, longitude deg,
         altitude m) is on the ground. `physics_port` is a UDP port for external physics; without one it has
         ArduPilot's own, at `speedup` seconds of its clock per second of wall time. `parameters` are further
         ones of ArduCopter.

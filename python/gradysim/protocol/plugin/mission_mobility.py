@@ -64,7 +64,11 @@ class MissionMobilityPlugin:
         """Attach to `protocol`; without a configuration its defaults hold."""
         self._protocol = protocol
         self._configuration = configuration_or_default(self, configuration, MissionMobilityConfiguration)
-        _check_configuration(self._configuration)
+        error = MissionMobilityPluginException
+        checked_number("speed of a mission", self._configuration.speed, 0, unit="m/s", error=error)
+        checked_number("tolerance of a mission", self._configuration.tolerance, 0, unit="m", error=error)
+        if not isinstance(loop := self._configuration.loop_mission, LoopMission):
+            raise error(f"loop_mission must be one of LoopMission, got {loop!r}")
         self._dispatcher = create_dispatcher(protocol)
         self._mission: tuple[Position, ...] = ()
         self._waypoint = 0
@@ -217,13 +221,3 @@ class MissionMobilityPlugin:
     def _require_mission(self, purpose: str) -> None:
         if self.is_idle:
             raise MissionMobilityPluginException(f"cannot {purpose}: no mission is in progress")
-
-
-def _check_configuration(configuration: MissionMobilityConfiguration) -> None:
-    for name, unit in (("speed", "m/s"), ("tolerance", "m")):
-        value, error = getattr(configuration, name), MissionMobilityPluginException
-        checked_number(f"{name} of a mission", value, 0, unit=unit, error=error)
-    if not isinstance(configuration.loop_mission, LoopMission):
-        raise MissionMobilityPluginException(
-            f"loop_mission must be one of LoopMission, got {configuration.loop_mission!r}"
-        )

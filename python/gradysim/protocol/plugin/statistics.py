@@ -121,21 +121,11 @@ def create_statistics(
 ) -> StatisticsProtocolWrapper:
     """Start to collect statistics of a protocol; call it in `initialize` or later.
 
-    Every `collection_interval` the simulated and the wall clock's time are sampled, and with them the tracked
-    variables; these also after each packet that the node has handled. Values that are not numbers, texts or
-    truth values are kept as the text that they print. `finish_statistics` writes the files.
-
-    Args:
-        protocol: Whose provider is asked.
-        file_name_part: Part of the names of the files; it names no folder.
-        collection_interval: s, > 0.
-
-    Returns:
-        The collector. While one is at work, calling again changes its `file_name_part` and
-        `collection_interval`, and returns the same one.
-
-    Raises:
-        ValueError: `file_name_part` or `collection_interval` is not what it should be.
+    Every `collection_interval` (s, > 0) the simulated and the wall clock's time are sampled, and with them
+    the tracked variables; these also after each packet that the node has handled. Values that are not
+    numbers, texts or truth values are kept as the text that they print. `finish_statistics` writes the files,
+    with `file_name_part` in their names. While a collector is at work, calling again changes both settings,
+    and returns the same one. ValueError if one of them is not valid.
     """
     create_dispatcher(protocol)  # raises TypeError for anything but a protocol
     wrapper: StatisticsProtocolWrapper | None = vars(protocol).get(_ATTRIBUTE)

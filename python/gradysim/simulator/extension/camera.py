@@ -53,9 +53,8 @@ class CameraHardware(Extension):
     def __init__(self, protocol: IProtocol, configuration: CameraConfiguration) -> None:
         """Put a camera on the protocol's node.
 
-        Raises:
-            ReferenceError: The protocol has no provider yet, as in its constructor.
-            RuntimeError: Nobody knows where the nodes are: not in this mode, or without a mobility handler.
+        Raise ReferenceError if the protocol has no provider yet, as in its constructor, and RuntimeError if
+        nobody knows where the nodes are: not in this mode, or without a mobility handler.
         """
         super().__init__(protocol)
         provider = provider_of(protocol)

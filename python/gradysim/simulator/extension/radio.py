@@ -18,10 +18,8 @@ class Radio:
     def __init__(self, protocol: IProtocol) -> None:
         """Put one more radio on the protocol's node.
 
-        Raises:
-            ReferenceError: The protocol has no provider yet, as in its constructor.
-            TypeError: The node does not run in prototype mode.
-            RuntimeError: The simulation has no communication handler.
+        Raise ReferenceError if the protocol has no provider yet, as in its constructor, TypeError if the node
+        does not run in prototype mode, and RuntimeError if the simulation has no communication handler.
         """
         provider = provider_of(protocol)
         if not isinstance(provider, PythonProvider):

@@ -42,15 +42,9 @@ class SimulationTestCase(ABC):  # noqa: B024 (both methods are optional)
     asked: ClassVar[type[IProtocol] | None] = None
 
     def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
-        """Called after each event.
+        """Called after event number `iteration`, from 0 on, at `timestamp` (s), with all nodes in order.
 
-        Args:
-            nodes: All nodes, in the order of their making.
-            iteration: Number of the event, from 0 on.
-            timestamp: Simulated time in seconds.
-
-        Raises:
-            FailedAssertionException: The check failed.
+        Raise FailedAssertionException if the check failed.
         """
         return
 
@@ -130,11 +124,8 @@ class _PredicateCase(SimulationTestCase):
         return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, self.asked)]
 
     def _failure(self, when: str, subjects: list[Any]) -> FailedAssertionException:
-        at = (
-            ""
-            if self.asked is None
-            else " for node " + ", ".join(f"{node.id} ({label_node(node)})" for node in subjects)
-        )
+        named = [] if self.asked is None else [f"{node.id} ({label_node(node)})" for node in subjects]
+        at = f" for node {', '.join(named)}" if named else ""
         return FailedAssertionException(f"{self.title} failed{at}: {when}")
 
 

@@ -54,16 +54,11 @@ class TimerHandler(INodeHandler):
         return 0.0 if self._event_loop is None else self._event_loop.current_time
 
     def set_timer(self, message: str, timestamp: float, node: Node[Any]) -> None:
-        """Schedule a call of the node's `handle_timer(message)`.
+        """Call `handle_timer(message)` of a node at `timestamp`, an absolute simulated time in seconds.
 
-        Args:
-            message: Name of the timer; several of one name may be pending.
-            timestamp: Absolute simulated time in seconds, finite, not in the past.
-            node: A registered node.
-
-        Raises:
-            TimerException: The node is not registered, the name is not a str, the time is not valid, or the
-                node has set a million timers for the current time.
+        Several timers of one name may be pending. Raise TimerException if the node is not registered, the
+        name is not a str, the time is in the past or not finite, or the node has set a million timers for the
+        current time.
         """
         pending = self._timers_of(node)
         if not isinstance(message, str):

@@ -98,17 +98,12 @@ class ArdupilotMobilityHandler(IAsyncNodeHandler):
         self._has_begun = True
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Send a command to the autopilot of a node.
+        """Send a command to the autopilot of a node: GOTO_COORDS, GOTO_GEO_COORDS or SET_SPEED.
 
-        Args:
-            command: GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter (ground speed) or three
-                (velocity). z is the height above the place where the vehicle was armed. A geographic altitude
-                counts from that of the reference.
-            node: A registered node.
-
-        Raises:
-            ArdupilotMobilityException: The node is not registered, the command is not valid, or the
-                autopilot has ended.
+        SET_SPEED has one parameter (ground speed) or three (velocity). z is the height above the place where
+        the vehicle was armed. A geographic altitude counts from that of the reference. Raise
+        ArdupilotMobilityException if the node is not registered, the command is not valid, or the autopilot
+        has ended.
         """
         if node.id not in self.nodes:
             raise ArdupilotMobilityException(f"node {node.id} is not registered with the mobility handler")

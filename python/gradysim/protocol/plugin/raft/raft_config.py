@@ -64,13 +64,8 @@ class RaftConfig:
     def add_consensus_variable(self, name: str, var_type: type) -> Self:
         """Add a variable to agree on. All nodes should have the same variables.
 
-        Args:
-            name: Name that is not empty and not used by another variable.
-            var_type: Type of its values: int, float, str, bool, list, tuple, dict, or another type that JSON
-                carries unchanged.
-
-        Raises:
-            ValueError: The name is empty or taken, or the type is not a type.
+        Its values are of a type that JSON carries unchanged, such as int, float, str, bool, list and dict, or
+        tuples. ValueError if the name is empty or taken, or the type is not a type.
         """
         if not isinstance(name, str) or not name:
             raise ValueError(

@@ -4,7 +4,7 @@ import logging
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.plugin.dispatcher import DispatchReturn, create_dispatcher
 from gradysim.protocol.plugin.raft.raft_config import RaftConfig
 from gradysim.protocol.plugin.raft.raft_node import RaftNode
@@ -13,13 +13,7 @@ from gradysim.protocol.plugin.raft.transport import PREFIX, RAFT_DISPATCH_PREFIX
 
 __all__ = ["RAFT_DISPATCH_PREFIX", "RaftConsensusPlugin"]
 
-_REQUIRED_METHODS = (
-    "send_communication_command",
-    "schedule_timer",
-    "cancel_timer",
-    "current_time",
-    "get_id",
-)
+_REQUIRED_METHODS = sorted(IProvider.__abstractmethods__ - {"send_mobility_command"})
 _CLASSIC_SUMMARY = "Classic mode: every known node counts as active, failures are not detected"
 
 _logger = logging.getLogger(__name__)

@@ -139,19 +139,13 @@ class MasslessMobilityHandler(INodeHandler):
             self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Carry out a mobility command. It holds for the whole step of the next update.
+        """Carry out GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.
 
-        So a vehicle may turn up to one `update_rate` too early. A timer at 1 s runs before the update at 1 s:
-        the vehicle turns at its position of 0.99 s.
-
-        Args:
-            command: GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.
-            node: A registered node.
-
-        Raises:
-            MasslessMobilityException: The node is not registered or stationary, the command is unknown, or
-                its parameters are not finite numbers in their range. A target is at most 1e7 m from the
-                origin on each axis, as in integrated mode.
+        It holds for the whole step of the next update. So a vehicle may turn up to one `update_rate` too
+        early. A timer at 1 s runs before the update at 1 s: the vehicle turns at its position of 0.99 s.
+        Raise MasslessMobilityException if the node is not registered or stationary, the command is unknown,
+        or its parameters are not finite numbers in their range. A target is at most 1e7 m from the origin on
+        each axis, as in integrated mode.
         """
         if node.id not in self.nodes:
             raise MasslessMobilityException(f"node {node.id} is not registered with the mobility handler")
