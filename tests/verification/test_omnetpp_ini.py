@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gradysim.scenario.expressions import ParameterContext, parse_value
 from gradysim.scenario.functions import Value
-from gradysim.scenario.ini import Ranked, read_ini, search_order
+from gradysim.scenario.ini import entries_in_order, read_ini, search_order
 from gradysim.scenario.lookup import is_option
 from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.runs import numbered_runs
@@ -71,10 +71,8 @@ def test_patterns_match_what_they_match_in_omnetpp(report: Callable[[Finding], N
 def runs_of(file: Path, config: str) -> tuple[list[set[str]], set[str]]:
     """The iteration variables of each run, and the lines of the last one."""
     sections = search_order(read_ini(file), config)
-    ranked, variables = name_iterations(
-        [Ranked(rank, entry) for rank, section in enumerate(sections, 1) for entry in section.entries]
-    )
-    options = {entry.key: entry for _, entry in reversed(ranked) if is_option(entry)}
+    entries, variables = name_iterations(entries_in_order((), sections))
+    options = {entry.key: entry for entry in reversed(entries) if is_option(entry)}
     numbered, _ = numbered_runs(options, variables, config, None, sections[0].source, "runs")
     last = run_variables(file, "Network", config, *numbered[-1])
     return (
@@ -82,7 +80,7 @@ def runs_of(file: Path, config: str) -> tuple[list[set[str]], set[str]]:
             variables_in(text_of_iterations({**run.iterations, "repetition": run.repetition}))
             for run in numbered
         ],
-        {f"{entry.key} = {substitute(entry, last).text}" for _, entry in ranked if not is_option(entry)},
+        {f"{entry.key} = {substitute(entry, last).text}" for entry in entries if not is_option(entry)},
     )
 
 

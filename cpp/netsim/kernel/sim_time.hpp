@@ -14,7 +14,7 @@ namespace netsim {
 class SimTime {
 public:
     // The end of the longest run. The range of int64 ends at 9.223e6 s, later than any frame that
-    // begins in time. `sim-time-limit` in python/gradysim/scenario/keys/options.py has the same
+    // begins in time. `sim-time-limit` in python/gradysim/scenario/schema.py has the same
     // bound.
     static constexpr double longest_run_s = 9.2e6;
 

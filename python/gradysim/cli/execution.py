@@ -194,7 +194,7 @@ def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
 
 def check_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
     """Raise ConfigError for a name that an option was given, and that no node has in any of these runs."""
-    from gradysim.scenario.node_names import check_node_names
+    from gradysim.scenario.scenario import check_node_names
 
     for option, names in (
         ("--pcap", options.pcap),

@@ -20,14 +20,14 @@ _LONGEST_PID = 2**22
 
 def ids_of_fates(scenario: "Scenario", options: RunOptions) -> list[int]:
     """Return the ids of the nodes that --fates-at names."""
-    from gradysim.scenario.node_names import nodes_named
+    from gradysim.scenario.scenario import nodes_named
 
     return [node.id for node in nodes_named(scenario, options.fates_at)]
 
 
 def nodes_of_vectors(scenario: "Scenario", options: RunOptions) -> "list[NodeSpec]":
     """Return the nodes that --vectors names."""
-    from gradysim.scenario.node_names import nodes_named
+    from gradysim.scenario.scenario import nodes_named
 
     return nodes_named(scenario, options.vectors)
 

@@ -10,8 +10,7 @@ from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.results.recorder import checked_ids
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.node_names import nodes_named
-from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.scenario import Scenario, nodes_named
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network

@@ -15,10 +15,10 @@ from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
 from gradysim.scenario.errors import ConfigError, ErrorCollector
 from gradysim.scenario.keys import DEFAULT_INTERFACE
+from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.settings import Setting
 from gradysim.sitl.scenario_autopilots import check_autopilots
 
 if TYPE_CHECKING:

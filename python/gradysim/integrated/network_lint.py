@@ -12,10 +12,10 @@ from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import Source
 from gradysim.scenario.keys import IEEE802154, NETWORK_KEYS, NODE_KEYS, OF_802154, has_radios, written_for
 from gradysim.scenario.lint import Finding, by_line
+from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import ReadBy
-from gradysim.scenario.settings import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig

@@ -3,11 +3,11 @@
 `load_scenarios` reads a file in these steps:
 
     ini                          the text as sections and entries
-    runs, value                  iterations, and the text of one value
-    lookup, groups               the entries in force, and the groups of nodes
+    sweep, runs                  iteration variables, and the runs of all their values
+    lookup, groups               the entries in force and their values, and the groups of nodes
     unknown_keys                 keys that match nothing
     protocols, parameters        the classes of the nodes and their parameters
-    nodes, interfaces, network   the parts of a Scenario
+    nodes, interfaces, obstacles the parts of a Scenario
     lint                         settings that are valid but probably not intended
 
 `errors` has the exceptions, `schema` and `keys` the keys that a file may have.
@@ -15,10 +15,10 @@
 
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.load import load_scenarios
+from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
-from gradysim.scenario.settings import Setting
 
 __all__ = [
     "CommunicationMediumSpec",

@@ -23,7 +23,7 @@ from typing import Any
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source, did_you_mean, nearest, nearest_file
 from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
-from gradysim.scenario.lookup import Lookup
+from gradysim.scenario.lookup import Lookup, SettingReader
 from gradysim.scenario.obstacles import (
     Corner,
     ObstacleSpec,
@@ -33,7 +33,6 @@ from gradysim.scenario.obstacles import (
     misplaced_ring,
     read_setting,
 )
-from gradysim.scenario.settings import SettingReader
 
 _IF_IN_METERS = (
     "if they are x and y of the scene in meters, expected"

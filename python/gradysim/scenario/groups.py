@@ -11,10 +11,9 @@ from dataclasses import dataclass
 
 from gradysim.scenario.errors import ErrorCollector
 from gradysim.scenario.keys import GROUP_SIZE, NETWORK_MODULES, NUM_WLAN_INTERFACES, PROTOCOL_KEYS
-from gradysim.scenario.lookup import Found, Lookup
-from gradysim.scenario.options import IGNORED_MODULES
+from gradysim.scenario.lookup import Found, Lookup, SettingReader
 from gradysim.scenario.patterns import Pattern, compile_pattern
-from gradysim.scenario.settings import SettingReader
+from gradysim.scenario.schema import IGNORED_MODULES
 
 _PROTOCOL_PATHS = frozenset(key.path for key in PROTOCOL_KEYS)
 
@@ -49,7 +48,7 @@ class Group:
 
 def find_groups(lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> list[Group]:
     """Return all groups, in the order of their node ids. `errors` takes the errors of numbers of nodes."""
-    mentions = _Mentions(sorted(lookup.found, key=lambda found: (-found.rank, found.order)))
+    mentions = _Mentions(sorted(lookup.found, key=lambda found: (-found.entry.rank, found.order)))
     groups = []
     for name, size_key in mentions.size_keys().items():
         entries = [lookup.first(size_key), lookup.first(name, GROUP_SIZE.path)]

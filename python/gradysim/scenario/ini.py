@@ -8,17 +8,13 @@ that it extends, and [General].
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import NamedTuple
 
 from gradysim.scenario.errors import OF_SCRIPT, ConfigError, ErrorCollector, Source, nearest, nearest_file
 
 GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
-
-OVERRIDES = "overrides"
-"""The section name of entries that no file has."""
 
 _LIKE_AN_ENTRY = re.compile(r"""[^\s"'=]*[.-][^\s"'=]*\s*=(?!=)""")
 """The start of an indented line that looks like an entry: a key with a dot or a hyphen."""
@@ -31,12 +27,16 @@ _DEEPEST = 100
 
 @dataclass(frozen=True)
 class Entry:
-    """One `key = value` as it is written, not interpreted."""
+    """One `key = value` as it is written, not interpreted.
+
+    Attributes:
+        rank: Position of its section in the search order, from `entries_in_order`; 0 is the command line.
+    """
 
     key: str
     text: str
     source: Source
-    section: str
+    rank: int = 0
 
 
 @dataclass
@@ -89,7 +89,7 @@ def read_overrides(file: Path, overrides: Iterable[str], option: str = OF_SCRIPT
             if not (key and equals and text):
                 raise ConfigError(f"{option} {override}: expected KEY=VALUE, such as `sim-time-limit=10s`")
             _refuse_variables(key, source)
-            entries.append(Entry(key, text, source, OVERRIDES))
+            entries.append(Entry(key, text, source))
     errors.raise_all()
     return entries
 
@@ -127,7 +127,7 @@ class _Reader:
                     included = file.parent / match.group(1).strip().strip('"')
                     self.read(included, section, source, (*including, resolved))
                 else:
-                    self.ini.sections[section].entries.append(_entry(line, source, section))
+                    self.ini.sections[section].entries.append(_entry(line, source))
 
     def _open_section(self, line: str, source: Source, headings: dict[str, int]) -> str:
         match = _HEADING.fullmatch(line)
@@ -237,14 +237,14 @@ def _without_comment(line: str, source: Source) -> str:
     return line
 
 
-def _entry(line: str, source: Source, section: str) -> Entry:
+def _entry(line: str, source: Source) -> Entry:
     key, equals, text = (part.strip() for part in line.partition("="))
     if not equals or not key:
         raise ConfigError(f"`{line}` is not an entry", source, expected="`key = value`")
     if not text:
         raise ConfigError(f"`{key}` has no value", source, expected=f"`{key} = value`")
     _refuse_variables(key, source)
-    return Entry(key, text, Source(source.file, source.line, key, text.replace("\n", " ")), section)
+    return Entry(key, text, Source(source.file, source.line, key, text.replace("\n", " ")))
 
 
 def _refuse_variables(key: str, source: Source) -> None:
@@ -254,18 +254,6 @@ def _refuse_variables(key: str, source: Source) -> None:
 
 _MAX_NAMES = 20
 """Configurations that a message lists."""
-
-
-class Ranked(NamedTuple):
-    """An entry with the position of its section in the search order.
-
-    Attributes:
-        rank: 0 is the command line, the highest is [General].
-        entry: The entry.
-    """
-
-    rank: int
-    entry: Entry
 
 
 def search_order(ini: IniFile, config: str) -> list[Section]:
@@ -292,6 +280,14 @@ def search_order(ini: IniFile, config: str) -> list[Section]:
         )
     names = [name for name in _linearize(ini, config, (), {}) if name != GENERAL]
     return [ini.sections[name] for name in [*names, GENERAL]]
+
+
+def entries_in_order(overrides: Iterable[Entry], sections: Iterable[Section]) -> list[Entry]:
+    """Return all entries of a configuration in search order, with the ranks of their sections."""
+    of_sections = (
+        replace(entry, rank=rank) for rank, section in enumerate(sections, 1) for entry in section.entries
+    )
+    return [*overrides, *of_sections]
 
 
 def config_names(ini: IniFile) -> list[str]:

@@ -6,7 +6,6 @@ Interfaces with the same entries in force share one InterfaceSpec, also those of
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from gradysim.scenario.bands import BAND, CHANNELS
 from gradysim.scenario.errors import ConfigError, ErrorCollector
 from gradysim.scenario.keys import (
     BAND_BESIDE_FREQUENCY,
@@ -21,10 +20,10 @@ from gradysim.scenario.keys import (
     WLAN_KEYS,
     at_interface,
 )
-from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
+from gradysim.scenario.lookup import Candidates, Found, Lookup, SettingReader, read_struct
 from gradysim.scenario.node_spec import STRUCTS, InterfaceSpec
+from gradysim.scenario.parameter_types import BAND, CHANNELS
 from gradysim.scenario.schema import Key
-from gradysim.scenario.settings import SettingReader
 
 
 def interface_count(name: str, lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> int:

@@ -9,13 +9,15 @@ import re
 from dataclasses import dataclass, replace
 
 from gradysim.protocol.defaults import MOST_INTERFACES, TRANSMISSION_RANGE_M
-from gradysim.scenario.bands import CHANNEL_OF_802154, channel_by_default, first_channel_of_band
 from gradysim.scenario.parameter_types import (
+    CHANNEL_OF_802154,
     ParameterType,
     angle,
+    channel_by_default,
     choice,
     coordinate,
     file_name,
+    first_channel_of_band,
     integer,
     number,
     place,
@@ -46,8 +48,9 @@ class _Below:
     struct: str
     read_by: ReadBy | None = None
 
-    def __call__(self, name: str, field: str, kind: ParameterType, meaning: str, default: str = "") -> Key:
-        """Return the key `path.name`, whose value goes to `struct.field`."""
+    def __call__(self, name: str, kind: ParameterType, meaning: str, default: str, field: str = "") -> Key:
+        """Return the key `path.name`, whose value goes to `struct.field`: `initial_x` for `initialX`."""
+        field = field or re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
         return Key(f"{self.path}.{name}", f"{self.struct}.{field}", kind, meaning, default, self.read_by)
 
 
@@ -83,24 +86,21 @@ _autopilot = _Below("mobility", "autopilot", ReadBy("mobility.typename", (ARDUPI
 
 PROTOCOL_CLASS = _protocol(
     "class",
-    "class",
     text(),
     'What the node runs: "file.py:Class", relative to the .ini file, or "package.module:Class"',
-    default=HAS_TO_BE_GIVEN,
+    HAS_TO_BE_GIVEN,
 )
 PROTOCOL_TYPENAME = _protocol(
     "typename",
-    "typename",
     text(),
     "Instead of a class, one of the engine's own protocols, listed below; integrated mode only",
-    default="none",
+    "none",
 )
 PROTOCOL_KEYS: tuple[Key, ...] = (PROTOCOL_CLASS, PROTOCOL_TYPENAME)
 """The two ways to say what a node runs; of both the first match wins."""
 
 PROTOCOL_PARAMETER = _protocol(
     "ATTRIBUTE",
-    "attribute",
     si_number(),
     "A public class attribute of the protocol, int, float, str or bool. Quantities become SI units, or the"
     " unit of the"
@@ -110,7 +110,7 @@ PROTOCOL_PARAMETER = _protocol(
     " A parameter named interval, timeout, period, delay, duration, jitter, spread or offset, or whose name"
     " ends so,"
     " should be a time; if it is not, there is a warning. All others accept any quantity",
-    default="the class's",
+    "the class's",
 )
 """Stands for all of them in lists of keys; `parameters_of` knows those of a class."""
 
@@ -134,7 +134,6 @@ GROUP_SIZE_OF_NODES = replace(
 MOBILITY_KEYS: tuple[Key, ...] = (
     _mobility(
         "typename",
-        "typename",
         choice(
             MASSLESS,
             STATIONARY,
@@ -143,91 +142,71 @@ MOBILITY_KEYS: tuple[Key, ...] = (
             otherwise="protocols move their nodes here, with plugins for waypoints, random trips and more"
             " (docs/guides/plugins.md)",
         ),
-        "How the node moves. MasslessMobility: as its protocol says (missions, random waypoints:"
-        " docs/guides/plugins.md). StationaryMobility: not at all. StaticGridMobility: not at all, and it"
-        " starts in a"
-        " grid. ArdupilotMobility: as its protocol says, flown by a real autopilot"
-        " (docs/guides/ardupilot.md)",
-        default=f'"{MASSLESS}"',
+        "How the node moves. MasslessMobility: as its protocol says (missions, random waypoints: "
+        "docs/guides/plugins.md). StationaryMobility: not at all. StaticGridMobility: not at "
+        "all, and it starts in a grid. ArdupilotMobility: as its protocol says, flown by a real "
+        "autopilot (docs/guides/ardupilot.md)",
+        f'"{MASSLESS}"',
     ),
     _start(
         "initialX",
-        "initial_x",
         place(),
         "x at the start. Of initialX, lineStartX/lineStepX and a grid, the one that is written first counts",
-        default="0m",
+        "0m",
     ),
-    _start("initialY", "initial_y", place(), "The same for y", default="0m"),
-    _start("initialZ", "initial_z", place(), "The same for z: height", default="0m"),
-    _start(
-        "lineStartX",
-        "line_start_x",
-        coordinate(),
-        "Nodes in a line: x of the node with index 0",
-        default="0m",
-    ),
-    _start("lineStartY", "line_start_y", coordinate(), "The same for y", default="0m"),
-    _start("lineStartZ", "line_start_z", coordinate(), "The same for z", default="0m"),
-    _start(
-        "lineStepX",
-        "line_step_x",
-        quantity("m"),
-        "Nodes in a line: x from one index to the next",
-        default="0m",
-    ),
-    _start("lineStepY", "line_step_y", quantity("m"), "The same for y", default="0m"),
-    _start("lineStepZ", "line_step_z", quantity("m"), "The same for z", default="0m"),
+    _start("initialY", place(), "The same for y", "0m"),
+    _start("initialZ", place(), "The same for z: height", "0m"),
+    _start("lineStartX", coordinate(), "Nodes in a line: x of the node with index 0", "0m"),
+    _start("lineStartY", coordinate(), "The same for y", "0m"),
+    _start("lineStartZ", coordinate(), "The same for z", "0m"),
+    _start("lineStepX", quantity("m"), "Nodes in a line: x from one index to the next", "0m"),
+    _start("lineStepY", quantity("m"), "The same for y", "0m"),
+    _start("lineStepZ", quantity("m"), "The same for z", "0m"),
     _start(
         "separationX",
-        "separation_x",
         quantity("m"),
-        "Nodes in a grid, which may fly from there: x from one column to the next. Nodes start in the"
-        " middle of cells"
-        " of that size",
-        default="none",
+        "Nodes in a grid, which may fly from there: x from one column to the next. Nodes start "
+        "in the middle of cells of that size",
+        "none",
     ),
-    _start("separationY", "separation_y", quantity("m"), "The same for y and rows", default="none"),
+    _start("separationY", quantity("m"), "The same for y and rows", "none"),
+    _start("marginX", coordinate(), "Nodes in a grid: x where the first cell begins", "0m"),
+    _start("marginY", coordinate(), "The same for y", "0m"),
     _start(
-        "marginX", "margin_x", coordinate(), "Nodes in a grid: x where the first cell begins", default="0m"
-    ),
-    _start("marginY", "margin_y", coordinate(), "The same for y", default="0m"),
-    _start(
-        "columns",
         "columns",
         integer(1),
         "Nodes in a grid: number of nodes in a row, along x; by default the number of rows, or one more",
-        default="none",
+        "none",
     ),
-    _start("rows", "rows", integer(1), "Number of rows; by default as many as needed", default="none"),
+    _start("rows", integer(1), "Number of rows; by default as many as needed", "none"),
     _start(
         "numHosts",
-        "num_hosts",
         integer(1),
         "Nodes in a grid: number of nodes that the grid is made for; by default that of the group",
-        default="none",
+        "none",
     ),
     *_ENGINE["mobility"],
     _autopilot(
         "autopilotPath",
-        "program",
         file_name(),
-        "ArdupilotMobility: an arducopter program for SITL; by default that of the environment variable"
-        " GRADYSIM_ARDUPILOT, or the command arducopter",
-        default="none",
+        "ArdupilotMobility: an arducopter program for SITL; by default that of the environment "
+        "variable GRADYSIM_ARDUPILOT, or the command arducopter",
+        "none",
+        field="program",
     ),
     _autopilot(
         "autopilotUser",
-        "user",
         text(),
         'ArdupilotMobility: user that runs the autopilot if root runs the simulation; "" for root',
-        default='"nobody"',
+        '"nobody"',
+        field="user",
     ),
     _autopilot(
         "autopilotParameters",
-        "parameters",
         text(),
         'ArdupilotMobility: ArduCopter\'s parameters, "WPNAV_SPEED_UP=500 SIM_WIND_SPD=8"',
-        default="none",
+        "none",
+        field="parameters",
     ),
 )
 
@@ -311,29 +290,15 @@ _environment = _Below("environment", "environment", _with_obstacles)
 _obstacle = _Below("environment.obstacle[0]", "obstacle", _with_obstacles)
 
 NUM_OBSTACLES = _environment(
-    "numObstacles",
-    "num_obstacles",
-    integer(0, 100_000),
-    "Number of the obstacles `environment.obstacle[...]`",
-    default="0",
+    "numObstacles", integer(0, 100_000), "Number of the obstacles `environment.obstacle[...]`", "0"
 )
 OBSTACLE_FILE = _environment(
-    "obstacles",
-    "obstacles",
-    text(),
-    "GeoJSON file with more obstacles, relative to the .ini file",
-    default="none",
+    "obstacles", text(), "GeoJSON file with more obstacles, relative to the .ini file", "none"
 )
 OBSTACLE_KEYS: tuple[Key, ...] = (
-    _obstacle(
-        "typename",
-        "typename",
-        choice("box", "prism"),
-        "A box, or any footprint with vertical walls",
-        default='"box"',
-    ),
+    _obstacle("typename", choice("box", "prism"), "A box, or any footprint with vertical walls", '"box"'),
     *(
-        _obstacle(f"{end}{axis}", f"{end}_{axis.lower()}", coordinate(), meaning, default=HAS_TO_BE_GIVEN)
+        _obstacle(f"{end}{axis}", coordinate(), meaning, HAS_TO_BE_GIVEN)
         for end, axis, meaning in (
             ("min", "X", "box: smallest x, before the box is turned"),
             ("max", "X", "box: largest x"),
@@ -345,17 +310,16 @@ OBSTACLE_KEYS: tuple[Key, ...] = (
     ),
     _obstacle(
         "heading",
-        "heading_rad",
         angle(),
         "box: how it is turned about its middle, from the x axis to the y axis",
-        default="0deg",
+        "0deg",
+        field="heading_rad",
     ),
     _obstacle(
         "points",
-        "points",
         text(),
         'prism: x and y of the corners in meters, one after the other: "0 0 10 0 10 5"',
-        default=HAS_TO_BE_GIVEN,
+        HAS_TO_BE_GIVEN,
     ),
     *_ENGINE["obstacle"],
 )
@@ -373,44 +337,43 @@ _reference = _Below("coordinateSystem", "reference")
 COMMUNICATION_MEDIUM_KEYS: tuple[Key, ...] = (
     _communication_medium(
         "transmissionRange",
-        "transmission_range_m",
         quantity("m", at_least=0),
-        "Prototype mode: distance up to which a message arrives. Radios of integrated mode reach 786 m by"
-        " default;"
-        " wlan[*].radio.transmitter.communicationRange = 60m gives them the same range",
-        default=f"{TRANSMISSION_RANGE_M:g}m",
+        "Prototype mode: distance up to which a message arrives. Radios of integrated mode reach "
+        "786 m by default; wlan[*].radio.transmitter.communicationRange = 60m gives them the "
+        "same range",
+        f"{TRANSMISSION_RANGE_M:g}m",
+        field="transmission_range_m",
     ),
     _communication_medium(
         "delay",
-        "delay_s",
         quantity("s", at_least=0),
         "Prototype mode: time from sending to arrival",
-        default="0s",
+        "0s",
+        field="delay_s",
     ),
     _communication_medium(
         "failureRate",
-        "failure_rate",
         number(at_least=0, at_most=1),
         "Prototype mode: fraction of the messages that is lost",
-        default="0",
+        "0",
     ),
 )
 COORDINATE_SYSTEM_KEYS: tuple[Key, ...] = (
     _reference(
         "sceneLatitude",
-        "latitude_deg",
         quantity("deg", at_least=-90, at_most=90),
         "Latitude of the origin, for geographic coordinates",
-        default="0deg",
+        "0deg",
+        field="latitude_deg",
     ),
     _reference(
         "sceneLongitude",
-        "longitude_deg",
         quantity("deg", at_least=-180, at_most=180),
         "Longitude of the origin",
-        default="0deg",
+        "0deg",
+        field="longitude_deg",
     ),
-    _reference("sceneAltitude", "altitude_m", quantity("m"), "Altitude of the origin", default="0m"),
+    _reference("sceneAltitude", quantity("m"), "Altitude of the origin", "0m", field="altitude_m"),
 )
 
 # ---- all of them -------------------------------------------------------------------------------------------

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, NoReturn
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.scenario.errors import BadValue, nearest
 
 if TYPE_CHECKING:
@@ -36,28 +35,11 @@ class NativeProtocol(IProtocol):
     """The class in examples/ that does the same, as "file.py:Class", or ""."""
     _parameters: ClassVar[Mapping[str, NativeParameter]] = {}
 
-    def initialize(self) -> None:
+    def _refuse(self, *_: object, **__: object) -> NoReturn:
         """Raise RuntimeError, as all callbacks do."""
-        self._refuse()
-
-    def handle_timer(self, timer: str) -> None:
-        """Raise RuntimeError."""
-        self._refuse()
-
-    def handle_packet(self, message: str) -> None:
-        """Raise RuntimeError."""
-        self._refuse()
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Raise RuntimeError."""
-        self._refuse()
-
-    def finish(self) -> None:
-        """Raise RuntimeError."""
-        self._refuse()
-
-    def _refuse(self) -> NoReturn:
         raise RuntimeError(text_of_only_integrated(type(self), "here"))
+
+    initialize = handle_timer = handle_packet = handle_telemetry = finish = _refuse
 
 
 def text_of_only_integrated(cls: type[NativeProtocol], mode: str) -> str:

@@ -24,18 +24,16 @@ from gradysim.scenario.keys import (
     STATIONARY,
     WLAN_KEYS,
 )
-from gradysim.scenario.lookup import Candidates, Found, Lookup, read_struct
+from gradysim.scenario.lookup import Candidates, Found, Lookup, Setting, SettingReader, read_struct
 from gradysim.scenario.native_protocols import native_protocol
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
 from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.parameters import parameters_of
-from gradysim.scenario.placement import AXES_OF_GRID, GRID_FIELDS, Grid, read_grid
+from gradysim.scenario.placement import AXES, Grid, axis_row, first_of_grid, idle_fields, read_grid
 from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.schema import Key
-from gradysim.scenario.settings import Setting, SettingReader
 from gradysim.scenario.unknown_keys import is_misspelled_class
 
-_AXES = ("x", "y", "z")
 _TYPENAME = next(key for key in MOBILITY_KEYS if key.target == "mobility.typename")
 _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
@@ -141,7 +139,7 @@ def build_nodes(
                 builder.coordinate_m(name, index, axis, row, step)
                 if row is not None
                 else grid.coordinate_m(index, axis)
-                for axis, row, step in zip(_AXES, shared.row, shared.steps, strict=True)
+                for axis, row, step in zip(AXES, shared.row, shared.steps, strict=True)
             )
             nodes.append(
                 NodeSpec(
@@ -274,17 +272,15 @@ class _NodeBuilder:
             autopilot = read_autopilot(mobility, autopilot_settings)
         if autopilot is not None:
             mobility["typename"] = replace(mobility["typename"], value=MASSLESS)
-        row = tuple(_axis_row(axis, position, values) for axis in _AXES)
-        steps = tuple(position.get(f"line_step_{axis}") for axis in _AXES)
-        asked_for = [entry for axis in AXES_OF_GRID for entry in _grid_entries(axis, position)]
-        first = min(asked_for, key=lambda entry: entry.order) if None in row else None
+        row = tuple(axis_row(axis, position, values) for axis in AXES)
+        steps = tuple(position.get(f"line_step_{axis}") for axis in AXES)
         return _Shared(
             parameters,
             {"": chosen_at, **sources},
             row,
             steps,
             position_settings,
-            first.entry.source if first and has_position else None,
+            first_of_grid(position) if has_position else None,
             mobility=mobility,
             node=read_struct("node", found, self._settings, path_of, self._errors),
             wlan=wlan,
@@ -296,7 +292,7 @@ class _NodeBuilder:
         self, found: Mapping[Key, Found], by_field: Mapping[str, Found], path_of: Callable[[Key], str]
     ) -> dict[str, Setting]:
         """Read the settings of a node's initial position; those that are not in force are only checked."""
-        idle = {field for axis in _AXES for field in _idle_fields(axis, by_field)}
+        idle = idle_fields(by_field)
         checked = {key: entry for key, entry in found.items() if key.field in idle}
         others = {key: entry for key, entry in found.items() if key.field not in idle}
         settings: dict[str, Setting] = {}
@@ -313,38 +309,6 @@ def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
         mobility=other.mobility if other.mobility == made.mobility else made.mobility,
         node=other.node if other.node == made.node else made.node,
     )
-
-
-def _grid_entries(axis: str, found: Mapping[str, Found]) -> list[Found]:
-    """Return the entries that place nodes in a grid along an axis."""
-    if axis not in AXES_OF_GRID:
-        return []
-    fields = (STATIC_GRID, *(field.format(axis) for field in GRID_FIELDS))
-    return [entry for field in fields if (entry := found.get(field)) and not entry.is_default]
-
-
-def _idle_fields(axis: str, found: Mapping[str, Found]) -> set[str]:
-    """Return the fields without effect on the initial position along an axis."""
-    initial, row = {f"initial_{axis}"}, {f"line_start_{axis}", f"line_step_{axis}"}
-    grid = {field.format(axis) for field in GRID_FIELDS if "{" in field}
-    orders = {field: entry.order for field, entry in found.items() if field in initial | row}
-    if _axis_row(axis, found, {}) is None:
-        return initial | row
-    return grid | (row if orders and min(orders, key=orders.__getitem__) in initial else initial)
-
-
-def _axis_row(
-    axis: str, found: Mapping[str, Found], values: Mapping[str, float]
-) -> tuple[float, float] | None:
-    """Return start and step along one axis in meters; None in a grid. The first entry of all is in force."""
-    initial = found.get(f"initial_{axis}")
-    row = [entry.order for field in ("start", "step") if (entry := found.get(f"line_{field}_{axis}"))]
-    grid = [entry.order for entry in _grid_entries(axis, found)]
-    if grid and all(min(grid) < order for order in (*row, *([initial.order] if initial else ()))):
-        return None
-    if initial is not None and all(initial.order < order for order in row):
-        return values.get(f"initial_{axis}", 0.0), 0.0
-    return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
 
 
 def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> ChosenProtocol:

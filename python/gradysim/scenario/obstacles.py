@@ -9,9 +9,8 @@ from itertools import pairwise
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.lookup import Lookup, read_struct
+from gradysim.scenario.lookup import Lookup, Setting, SettingReader, read_struct
 from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
-from gradysim.scenario.settings import Setting, SettingReader
 
 Corner = tuple[float, float]
 """x and y in meters."""

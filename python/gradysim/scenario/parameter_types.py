@@ -6,7 +6,7 @@ keyword arguments: `quantity("s", above=0, shown="ms")`. Bounds are in the unit 
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M
@@ -314,3 +314,95 @@ def _not_nan(result: float, value: Value) -> float:
     if math.isnan(result):
         raise BadValue(f"`{text_of(value)}` is no number")
     return result
+
+
+# Channels of the bands of 802.11 radios, under INET's names and counted from 0. The 2.4 GHz band has those of
+# the standard. INET cuts the others into channels of equal width. In the 5.9 GHz band these are channels 172,
+# 174, ... 184 of IEEE 802.11-2020, annex E. In the bands of 5 GHz they are not those of the standard:
+# centerFrequency says which channel is meant (channel 36: 5180 MHz).
+
+
+def _channel(expected: str, centers_hz: Mapping[int, float]) -> ParameterType:
+    """Return the type of the number of a channel, which is converted to its center in hertz."""
+    number = integer(min(centers_hz), max(centers_hz))
+    numbers = {center_hz: str(channel) for channel, center_hz in centers_hz.items()}
+    return ParameterType(
+        expected,
+        lambda value: centers_hz[int(number.convert(value))],
+        unit=f"{min(centers_hz)} to {max(centers_hz)}",
+        show=lambda carrier_hz: numbers.get(float(carrier_hz), "none"),
+    )
+
+
+def _channel_of_2_4_ghz() -> ParameterType:
+    """A channel of the 2.4 GHz band. Source of the centers: IEEE 802.11-2020, 15.4.4.3."""
+    centers_hz = {channel: 2.412e9 + 5e6 * channel for channel in range(13)} | {13: 2.484e9}
+    channels = _channel("a channel of the 2.4 GHz band, 0 (2.412 GHz) to 13", centers_hz)
+
+    def convert(value: Value) -> Scalar:
+        try:
+            return channels.convert(value)
+        except BadValue as error:
+            number = value.number if isinstance(value, Quantity) and value.unit is None else None
+            if not error.hint and isinstance(number, int) and number in range(36, 178):
+                # The center of a channel of 5 GHz is 5 GHz + 5 MHz each (IEEE 802.11-2020, annex E).
+                key = f"`radio.centerFrequency = {5000 + 5 * number}MHz`"
+                raise BadValue(error.problem, f"; channel {number} of the 5 GHz band is {key}") from None
+            raise
+
+    return replace(channels, convert=convert)
+
+
+def _channel_of_equal_width(band: str, start_hz: float, width_hz: float, count: int) -> ParameterType:
+    centers_hz = {channel: start_hz + (channel + 0.5) * width_hz for channel in range(count)}
+    first = f"0 ({centers_hz[0] / 1e6:g} MHz)"
+    return _channel(f'a channel of the band "{band}", {first} to {count - 1}', centers_hz)
+
+
+CHANNELS = {
+    "2.4 GHz": _channel_of_2_4_ghz(),
+    **{
+        name: _channel_of_equal_width(name, start_hz, width_hz, count)
+        for name, start_hz, width_hz, count in (
+            ("5 GHz", 5e9, 5e6, 200),
+            ("5 GHz (20 MHz)", 5e9, 20e6, 25),
+            ("5 GHz (40 MHz)", 5e9, 40e6, 12),
+            ("5 GHz (80 MHz)", 5e9, 80e6, 5),
+            ("5 GHz (160 MHz)", 5e9, 160e6, 2),
+            ("5.9 GHz", 5.855e9, 10e6, 7),
+        )
+    },
+}
+"""The type of a channel's number, by the name of its band."""
+
+CHANNEL_OF_802154 = _channel(
+    "a channel of IEEE 802.15.4, 11 to 26 (2.405 GHz to 2.48 GHz)",
+    {channel: 2.405e9 + 5e6 * (channel - 11) for channel in range(11, 27)},
+)
+"""The number of a channel of an 802.15.4 radio, which has one band (IEEE 802.15.4-2006, 6.1.2.1)."""
+
+
+def channel_by_default() -> ParameterType:
+    """Return the type of a channel's number where no band is set. Lists of keys show both standards."""
+    of_80211 = CHANNELS["2.4 GHz"]
+
+    def show(carrier_hz: Scalar) -> str:
+        channel = of_80211.show(carrier_hz)
+        return channel if channel != "none" else CHANNEL_OF_802154.show(carrier_hz)
+
+    return replace(of_80211, unit=f"{of_80211.unit}; 802.15.4: {CHANNEL_OF_802154.unit}", show=show)
+
+
+BAND = choice(*CHANNELS)
+"""The name of a band."""
+
+
+def first_channel_of_band() -> ParameterType:
+    """Return the type of the name of a band, which is converted to the center of its channel 0 in hertz."""
+    centers_hz = {name: channel.convert(Quantity(0)) for name, channel in CHANNELS.items()}
+    names = {center_hz: BAND.show(name) for name, center_hz in centers_hz.items()}
+    return replace(
+        BAND,
+        convert=lambda value: centers_hz[str(BAND.convert(value))],
+        show=lambda carrier_hz: names.get(carrier_hz, "none"),
+    )

@@ -1,21 +1,31 @@
-"""Finds the class that `protocol.class` names, and checks that it is a protocol that can run."""
+"""Finds the class that `protocol.class` names, checks that it can run, and lists its files.
 
+Results have the hashes of these files, which tell `--resume` that a protocol has changed. Imports are read
+from the source, so that those inside of functions count, and modules that were loaded before.
+"""
+
+import ast
 import importlib
 import inspect
 import os
 import sys
 import traceback
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from types import FunctionType, ModuleType
 
 from gradysim.protocol.interface import IProtocol, is_protocol_class
 from gradysim.scenario.errors import BadValue, nearest, nearest_file
-from gradysim.scenario.imported_files import imported_files, root_of_module
 from gradysim.scenario.native_protocols import is_native_name
 from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
 
 _REFERENCE = 'a protocol as "file.py:Class" or "package.module:Class"'
 """Expected where a reference leads to no file or module."""
+
+
+_INSTALLED = ("site-packages", "dist-packages")
+"""Folders of many packages. Only files of the package that was asked for count there."""
 
 
 class ProtocolLoader:
@@ -212,3 +222,62 @@ def _signature_of(function: object) -> inspect.Signature | None:
         return inspect.signature(function, follow_wrapped=False)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         return None
+
+
+def imported_files(file: Path, root: Path) -> tuple[Path, ...]:
+    """Return `file` and all files below `root` that it imports, directly or not.
+
+    `root` is the folder that absolute imports start from. Packages between `root` and the files count, too. A
+    file that cannot be read or parsed imports nothing.
+    """
+    package = file.relative_to(root).parts[:-1]
+    own = root / file.relative_to(root).parts[0] if root.name in _INSTALLED else root
+    found = dict.fromkeys((file, *_files_of_module(package, root)))
+    unread = list(found)
+    while unread:
+        for imported in _direct_imports(unread.pop(), root):
+            if imported not in found and imported.is_relative_to(own):
+                found[imported] = None
+                unread.append(imported)
+    return tuple(found)
+
+
+def root_of_module(name: str, file: Path) -> Path:
+    """Return the folder that the module `name` of that file is imported from."""
+    depth = name.count(".") + (file.name == "__init__.py")
+    return file.parents[depth] if depth < len(file.parents) else file.parent
+
+
+def _direct_imports(file: Path, root: Path) -> Iterator[Path]:
+    try:
+        with warnings.catch_warnings():  # about the code, which Python shows when it loads the file
+            warnings.simplefilter("ignore")
+            tree = ast.parse(file.read_bytes())
+    except (OSError, ValueError, SyntaxError, RecursionError, MemoryError):
+        return
+    for statement in ast.walk(tree):
+        if isinstance(statement, ast.Import):
+            for alias in statement.names:
+                yield from _files_of_module(alias.name.split("."), root)
+        elif isinstance(statement, ast.ImportFrom):
+            folder = file.parents[statement.level - 1] if 0 < statement.level <= len(file.parents) else root
+            if folder.is_relative_to(root):
+                module = statement.module.split(".") if statement.module else []
+                for alias in statement.names:  # which may be modules, too
+                    names = [*folder.relative_to(root).parts, *module, alias.name]
+                    yield from _files_of_module(names, root)
+
+
+def _files_of_module(names: list[str] | tuple[str, ...], root: Path) -> Iterator[Path]:
+    """Yield the files of a module and of the packages around it, as far as they are below `root`."""
+    folder = root
+    for name in names:
+        package, module = folder / name / "__init__.py", folder / f"{name}.py"
+        if package.is_file():
+            yield package
+        elif module.is_file():
+            yield module
+            return
+        folder /= name
+        if not folder.is_dir():
+            return

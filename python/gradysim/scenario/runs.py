@@ -5,6 +5,7 @@ import os
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from operator import index
 from pathlib import Path
@@ -12,11 +13,10 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from gradysim.scenario.errors import OF_SCRIPT, ConfigError, Source
-from gradysim.scenario.ini import Entry, Ranked
+from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import NETWORK_MODULES
-from gradysim.scenario.lookup import Lookup, is_ignored, is_option
-from gradysim.scenario.options import LARGEST_SEED, NETWORK, OPTIONS
-from gradysim.scenario.settings import read_scalar
+from gradysim.scenario.lookup import Lookup, is_ignored, is_option, read_scalar
+from gradysim.scenario.schema import LARGEST_SEED, NETWORK, OPTIONS
 from gradysim.scenario.sweep import (
     LABEL_OPTIONS,
     MAX_VALUES,
@@ -218,18 +218,18 @@ def seed_of_file(options: Mapping[str, Entry], run_number: int, variables: Mappi
     return int(read_scalar(substitute(seed, variables), OPTIONS["seed-set"])) if seed else run_number
 
 
-def entries_of_the_hash(ranked: Iterable[Ranked]) -> list[Ranked]:
+def entries_of_the_hash(entries: Iterable[Entry]) -> list[Entry]:
     """Return the entries that a settings hash covers: the first of each key, unless it is not about a run."""
-    first: dict[str, Ranked] = {}
-    for rank, entry in ranked:
+    first: dict[str, Entry] = {}
+    for entry in entries:
         if entry.key not in OF_NO_RUN and not is_ignored(entry):
-            first.setdefault(entry.key, Ranked(rank, entry))
+            first.setdefault(entry.key, entry)
     return list(first.values())
 
 
-def settings_hash(entries: Iterable[Ranked]) -> str:
+def settings_hash(entries: Iterable[Entry]) -> str:
     """Return the hash of entries whose variables have been replaced: of keys, values and their order."""
-    text = "\0".join(f"{entry.key}={entry.text}" for _, entry in entries)
+    text = "\0".join(f"{entry.key}={entry.text}" for entry in entries)
     return hashlib.sha256(text.encode()).hexdigest()[:HASH_DIGITS]
 
 
@@ -326,20 +326,18 @@ def unread_variables(
     return unread
 
 
-def line_instead(
-    idle: Source, lookup: Lookup, nodes: Iterable[str], parameters: Iterable[str]
-) -> Source | None:
+def line_instead(idle: Source, lookup: Lookup, nodes: Iterable[str]) -> Source | None:
     """Return a line that is in force where the line `idle` matches, too; None if there is none.
 
-    `nodes` are their names, `parameters` those that are read below them or below parts of the network.
+    `nodes` are their names. Parameters are those that the lookup was asked for.
     """
-    found = next((found for found in lookup.found if found.entry.source == idle), None)
-    if found is None:
-        return None
-    for parameter in filter(found.may_end_in, sorted(parameters)):
-        for name in (*nodes, *NETWORK_MODULES):
-            if found.pattern.matches(f"{lookup.network}.{name}.{parameter}"):
-                first = lookup.first(name, parameter)
-                if first is not None and first.entry.source != idle:
-                    return first.entry.source
+    for rest, candidates in lookup.asked_for():
+        for candidate in candidates.every:
+            if candidate.found.entry.source == idle:
+                for name in filter(
+                    partial(candidate.matches, lookup.network, rest), (*nodes, *NETWORK_MODULES)
+                ):
+                    first = candidates.first(name)
+                    if first is not None and first.entry.source != idle:
+                        return first.entry.source
     return None

@@ -1,18 +1,18 @@
 """Scenarios as plain data, one for each run. Both modes are built from them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
+from gradysim.scenario.errors import ConfigError, nearest
 from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.lookup import is_ignored, options_in_force
+from gradysim.scenario.lookup import Setting, is_ignored, options_in_force
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
-from gradysim.scenario.options import LONGEST_RUN_S
 from gradysim.scenario.runs import UnreadVariables, checked_seed
-from gradysim.scenario.settings import Setting
+from gradysim.scenario.schema import LONGEST_RUN_S
 from gradysim.scenario.sweep import run_variables, substitute, with_labels
 
 
@@ -115,3 +115,49 @@ def require_scenario(value: object) -> None:
         raise TypeError(
             f"expected a Scenario, one of the list that load_scenarios returns, got {value!r:.80}"
         )
+
+
+ALL = "all"
+"""Stands for every node, unless a node or a group has that name."""
+
+
+def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
+    """Return the nodes with these names, each once, in the order of ids. Unknown names are ignored.
+
+    `names` are those of nodes (`uavs[0]`), of groups (`uavs`), or `ALL`.
+    """
+    chosen = {node.id: node for name in names for node in _nodes_of(scenario, name)}
+    return [chosen[node_id] for node_id in sorted(chosen)]
+
+
+def check_node_names(scenarios: Sequence[Scenario], names: Iterable[str], option: str) -> None:
+    """Raise ConfigError for the first name that exists in none of these runs of a configuration.
+
+    `option` is the option that has the names, `--pcap`.
+    """
+    networks = list({id(scenario.nodes): scenario for scenario in scenarios}.values())
+    for name in names:
+        if not any(_nodes_of(scenario, name) for scenario in networks):
+            raise _no_such_node(scenarios, name, option)
+
+
+def _nodes_of(scenario: Scenario, name: str) -> Sequence[NodeSpec]:
+    found = [node for node in scenario.nodes if name in (node.name, node.group)]
+    return scenario.nodes if name == ALL and not found else found
+
+
+def _no_such_node(scenarios: Sequence[Scenario], name: str, option: str) -> ConfigError:
+    nodes = {node.name: node for scenario in scenarios for node in scenario.nodes}
+    if not nodes:
+        return ConfigError(f"{option} {name}: no such node; the scenario has none")
+    groups = list(dict.fromkeys(node.group for node in nodes.values()))
+    where = ""
+    if len(scenarios) > 1:
+        where = " in any of the runs"
+    elif scenarios[0].run_count > 1:  # others may have it
+        where = f" in run {scenarios[0].run_number}"
+    return ConfigError(
+        f"{option} {name}: no such node{where}",
+        expected=f"a node such as {next(iter(nodes))}, a group ({', '.join(groups)}) or {ALL}",
+        suggestion=nearest(name, [*groups, *nodes, ALL]),
+    )

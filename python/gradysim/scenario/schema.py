@@ -1,4 +1,4 @@
-"""The keys of fields of the engine, from the engine's own declarations.
+"""The keys of fields of the engine, from the engine's own declarations, and the options of a run.
 
 Each field is declared once, next to its struct in cpp/netsim/config. `make schema` writes the declarations to
 schema.json, so that an installation without the compiled part knows all keys, too.
@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from gradysim.scenario.parameter_types import (
@@ -22,6 +23,7 @@ from gradysim.scenario.parameter_types import (
     number_in,
     power_ratio,
     quantity,
+    text,
     whole_bytes,
 )
 from gradysim.scenario.units import db_from_ratio
@@ -138,3 +140,113 @@ def _kind(kind: str, **details: Any) -> ParameterType:
         case "file":
             return file_name()
     raise ValueError(f"schema.json has a type `{kind}` that {__name__} does not know")
+
+
+# Options of a run, and options that only OMNeT++ has. Of the latter, those that say how OMNeT++ runs, shows
+# and records are ignored. Those that would make another run are refused.
+
+LONGEST_RUN_S = 9_200_000
+"""The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""
+
+LARGEST_SEED = 2**63 - 1
+"""Of a run, in both modes."""
+
+
+def _option(name: str, kind: ParameterType, meaning: str, default: str) -> Key:
+    return Key(name, f"option.{name.replace('-', '_')}", kind, meaning, default)
+
+
+OPTION_KEYS: tuple[Key, ...] = (
+    _option(
+        "sim-time-limit",
+        quantity("s", above=0, at_most=LONGEST_RUN_S),
+        "Simulated time at which a run ends",
+        HAS_TO_BE_GIVEN,
+    ),
+    _option("seed-set", integer(0, LARGEST_SEED), "Seed of all random numbers of a run", "${runnumber}"),
+    _option(
+        "repeat",
+        integer(1, 1_000_000),
+        "How many runs there are of each combination of values of `${...}`, with a seed each",
+        "1",
+    ),
+    _option(
+        "constraint",
+        text(),
+        "Which combinations of values are runs: `$x < $y && $x != 3`; all by default",
+        '""',
+    ),
+    _option(
+        "iteration-nesting-order",
+        text(),
+        "Names of iteration variables, the outermost first: `repetition, *, x`; `*`: the others in order",
+        "*, repetition",
+    ),
+    _option(
+        "experiment-label",
+        text(),
+        "What `--scalars` and `--vectors` call the runs of a configuration",
+        "${configname}",
+    ),
+    _option(
+        "measurement-label",
+        text(),
+        "What they call the runs with equal values of `${...}`",
+        "${iterationvars}",
+    ),
+    _option("replication-label", text(), "What they call one of these runs", "#${repetition}"),
+    _option("description", text(), "What the configuration is about", '""'),
+)
+
+OPTIONS: dict[str, ParameterType] = {key.path: key.kind for key in OPTION_KEYS}
+
+NETWORK = "network"
+"""The option that says what paths begin with: OMNeT++'s, of which nothing else counts."""
+
+SECTION_OPTIONS = ("extends", "abstract")
+"""Options that belong to a section and cannot be given on the command line."""
+
+IGNORED_OPTIONS = (
+    "allow-object-stealing-on-deletion", "check-signals", "config-recording", "configuration-class",
+    "debug-on-errors", "debug-statistics-recording", "eventlogmanager-class", "fname-append-host",
+    "futureeventset-class", "image-path", "load-libs", "max-module-nesting", "num-rngs",
+    "outputscalarmanager-class", "outputvectormanager-class", "parallel-simulation",
+    "parameter-mutability-check", "record-eventlog", "result-dir", "resultdir-subdivision", "rng-class",
+    "runnumber-width", "sectionbasedconfig-configreader-class", "simtime-resolution", "simtime-scale",
+    "snapshot-file", "snapshotmanager-class", "total-stack", "user-interface", "warnings",
+)  # fmt: skip
+"""Options of a run that only OMNeT++ reads."""
+
+IGNORED_OPTION_BEGINNINGS = (
+    "cmdenv-", "debugger-attach-", "eventlog-", "fingerprint", "ned-", "output-scalar-", "output-vector",
+    "parsim-", "print-", "qtenv-",
+)  # fmt: skip
+"""Of the names of such options."""
+
+IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-", "rng-", "vector-record", "vector-buffer")
+"""Of the last names of keys: options that are given per module, such as `**.cmdenv-log-level`."""
+
+IGNORED_ENDS = (
+    *(f"{kind}-recording" for kind in ("scalar", "statistic", "bin", "param", "module-eventlog")),
+    "result-recording-modes",
+    "param-record-as-scalar",
+    "display-name",
+    "display-string",
+    "partition-id",
+)
+"""Last names of keys: what OMNeT++ records of a module, shows of it, and where it runs it."""
+
+IGNORED_MODULES = ("visualizer",)
+"""Names below the network whose parameters are OMNeT++'s alone."""
+
+REFUSED_OPTIONS = MappingProxyType(
+    {
+        "warmup-period": "results are of whole runs; expected a protocol that begins to count later",
+        "cpu-time-limit": "a run ends in simulated time; expected `sim-time-limit`",
+        "real-time-limit": "a run ends in simulated time; expected `sim-time-limit`",
+        "scheduler-class": "expected `real_time` in a script, for runs that go by the clock",
+        "realtimescheduler-scaling": "expected `real_time` in a script, for runs that go by the clock",
+        "seed-*": "a run has one seed for all its streams; expected `seed-set`",
+    }
+)
+"""{option, with `*` for any letters: what to do without it}."""

@@ -16,10 +16,9 @@ from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.functions import is_quoted, text_of, unquoted
-from gradysim.scenario.ini import Entry, Ranked
-from gradysim.scenario.lookup import is_ignored
-from gradysim.scenario.options import OPTIONS
-from gradysim.scenario.settings import read_scalar
+from gradysim.scenario.ini import Entry
+from gradysim.scenario.lookup import is_ignored, read_scalar
+from gradysim.scenario.schema import OPTIONS
 
 REPETITION = "repetition"
 """The variable that counts the runs of one combination of values, from 0."""
@@ -86,7 +85,7 @@ class IterationVariable:
     follows: str = ""
 
 
-def name_iterations(ranked: Iterable[Ranked]) -> tuple[list[Ranked], list[IterationVariable]]:
+def name_iterations(entries: Iterable[Entry]) -> tuple[list[Entry], list[IterationVariable]]:
     """Return the entries with `${NAME}` for each variable, and the variables in search order.
 
     If an earlier entry has the same key, word for word, an entry is never in force: it is left out, with its
@@ -95,17 +94,17 @@ def name_iterations(ranked: Iterable[Ranked]) -> tuple[list[Ranked], list[Iterat
     Raises:
         ConfigError: Variables are not understood, or defined twice; all of them are reported.
     """
-    named: list[Ranked] = []
+    named: list[Entry] = []
     left_out: list[Entry] = []
     variables: dict[str, IterationVariable] = {}
     seen: set[str] = set()
     errors = ErrorCollector()
-    for rank, entry in ranked:
+    for entry in entries:
         if "${" not in entry.text or is_ignored(entry):
-            named.append(Ranked(rank, entry))
+            named.append(entry)
         elif entry.key not in seen:
             with errors.collecting():
-                named.append(Ranked(rank, _with_names(entry, variables)))
+                named.append(_with_names(entry, variables))
         else:
             left_out.append(entry)
         seen.add(entry.key)
@@ -221,14 +220,14 @@ def _values_of_range(part: str, *numbers: str) -> Iterator[str]:
 
 
 def _check_names(
-    named: Iterable[Ranked],
+    named: Iterable[Entry],
     variables: Mapping[str, IterationVariable],
     left_out: Sequence[Entry],
     errors: ErrorCollector,
 ) -> None:
     """Report names that are not variables."""
     known = [*(name for name in variables if not name.isdigit()), *PREDEFINED]
-    for _, entry in named:
+    for entry in named:
         for name in [] if is_ignored(entry) else _VARIABLE.findall(entry.text):
             if name not in variables and name not in PREDEFINED:
                 errors.add(_unknown(entry.source, name, known, left_out))
@@ -456,11 +455,9 @@ def substitute(entry: Entry, variables: Mapping[str, str]) -> Entry:
     return replace(entry, text=_VARIABLE.sub(value, entry.text))
 
 
-def substituted(ranked: Iterable[Ranked], variables: Mapping[str, str]) -> list[Ranked]:
+def substituted(entries: Iterable[Entry], variables: Mapping[str, str]) -> list[Entry]:
     """Return the entries with their variables replaced, except in OMNeT++'s own entries."""
-    return [
-        Ranked(rank, entry if is_ignored(entry) else substitute(entry, variables)) for rank, entry in ranked
-    ]
+    return [entry if is_ignored(entry) else substitute(entry, variables) for entry in entries]
 
 
 def depends_on_run(entry: Entry) -> bool:

@@ -31,9 +31,9 @@ from gradysim.scenario.keys import (
     written_for,
 )
 from gradysim.scenario.lookup import Candidate, Found, Lookup, is_ignored
-from gradysim.scenario.options import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
 from gradysim.scenario.parameters import annotations_of, parameters_of
 from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.schema import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
 
 
 class NoSuchNodeError(ConfigError):
@@ -122,7 +122,9 @@ def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> 
             size = group.size_found if group else None
             if group is None or size is None:
                 errors.add(_unknown_name(found, groups, lookup.network))
-            elif size.rank < found.rank or distribution_in(size.entry.text) or group.has_wrong_size:
+            elif (
+                size.entry.rank < found.entry.rank or distribution_in(size.entry.text) or group.has_wrong_size
+            ):
                 pass  # a more specific section has reduced the group, or another seed may draw the index
             elif "${" in size.entry.source.value:
                 elsewhere.append(found.entry.source)
@@ -188,10 +190,9 @@ def check_parameters(
 
 def _matches(candidate: Candidate, names: _Names, rest: str, network: str) -> bool:
     """Return whether an entry that can match a rest does so below one of the names."""
-    found, name = candidate
-    if name is not None:
-        return names.has_match(name)
-    return any(found.pattern.matches(f"{network}.{each}{'.' if rest else ''}{rest}") for each in names)
+    if candidate.name is not None:
+        return names.has_match(candidate.name)
+    return any(candidate.matches(network, rest, name) for name in names)
 
 
 def _rests_of(kind: ProtocolAndInterfaces) -> list[str]:
@@ -333,24 +334,24 @@ def _unknown_protocol_parameter(
         {"class", "typename", *(parameter for cls in classes for parameter in parameters_of(cls))}
     )
     problem = f"`{name}` is not a parameter of {' or '.join(cls.__name__ for cls in classes)}"
-    expected = f"one of {', '.join(parameters)}"
     attribute = next((value for cls in classes if (value := getattr(cls, name, None)) is not None), None)
-    if attribute is None and any(_has_no_value(cls, name) for cls in classes):
-        has = "its value in the class is None" if any(hasattr(cls, name) for cls in classes) else "no value"
-        problem += f": the class gives it {has}" if has == "no value" else f": {has}"
-        return ConfigError(f"{problem}, and not a value such as `{name} = 0`", source, expected=expected)
+    match = nearest(name, parameters)
     if attribute is not None:
         problem += f", it is of type {type(attribute).__name__} and not a plain public value"
-    match = nearest(name, parameters)
+    elif any(hasattr(cls, name) or _is_declared(cls, name) for cls in classes):
+        is_none = any(hasattr(cls, name) for cls in classes)
+        has = "its value in the class is None" if is_none else "the class gives it no value"
+        problem += f": {has}, and not a value such as `{name} = 0`"
+        match = ""
     suggestion = f"{key.removesuffix(name)}{match}" if match else ""
-    return ConfigError(problem, source, expected=expected, suggestion=suggestion)
+    return ConfigError(problem, source, expected=f"one of {', '.join(parameters)}", suggestion=suggestion)
 
 
-def _has_no_value(cls: type[IProtocol], name: str) -> bool:
-    """Return whether nodes have the attribute: it is declared, None, or set by the constructor."""
+def _is_declared(cls: type[IProtocol], name: str) -> bool:
+    """Return whether the class declares an attribute without a value, or its constructor sets it."""
     names_in_constructor = getattr(getattr(cls.__init__, "__code__", None), "co_names", ())
-    declared = any(name in annotations_of(base) for base in cls.__mro__ if base not in IProtocol.__mro__)
-    return declared or hasattr(cls, name) or name in names_in_constructor
+    bases = (base for base in cls.__mro__ if base not in IProtocol.__mro__)
+    return name in names_in_constructor or any(name in annotations_of(base) for base in bases)
 
 
 # Modules of INET without keys: what to use instead.

@@ -14,7 +14,7 @@ from gradysim.integrated.network import (
 )
 from gradysim.scenario import Scenario
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.settings import Setting
+from gradysim.scenario.lookup import Setting
 
 
 def setting(value, key="key"):

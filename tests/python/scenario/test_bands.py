@@ -2,14 +2,14 @@
 
 import pytest
 
-from gradysim.scenario.bands import (
+from gradysim.scenario.errors import BadValue
+from gradysim.scenario.expressions import parse_value
+from gradysim.scenario.parameter_types import (
     CHANNEL_OF_802154,
     CHANNELS,
     channel_by_default,
     first_channel_of_band,
 )
-from gradysim.scenario.errors import BadValue
-from gradysim.scenario.expressions import parse_value
 
 
 @pytest.mark.parametrize(

@@ -6,24 +6,18 @@ from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import GROUP_SIZE
-from gradysim.scenario.lookup import Lookup
-from gradysim.scenario.settings import SettingReader
+from gradysim.scenario.lookup import Lookup, SettingReader
 
 
 def groups_of(*sections: str) -> list[Group]:
     """Groups of entries `key = value`; the first section is searched first, the last is General."""
-    ranked = []
+    entries = []
     for rank, section in enumerate(sections, start=1):
         for line, written in enumerate(section.split("\n"), start=1):
             key, _, text = (part.strip() for part in written.partition("="))
-            ranked.append(
-                (
-                    rank,
-                    Entry(key, text, Source(Path("a.ini"), line, key, text), str(rank)),
-                )
-            )
+            entries.append(Entry(key, text, Source(Path("a.ini"), line, key, text), rank))
     errors = ErrorCollector()
-    groups = find_groups(Lookup(ranked), SettingReader(), errors)
+    groups = find_groups(Lookup(entries), SettingReader(), errors)
     errors.raise_all()
     return groups
 

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from gradysim.scenario.errors import ConfigError, ConfigErrors, Source
 from gradysim.scenario.ini import (
-    OVERRIDES,
     Entry,
     IniFile,
     Section,
@@ -235,7 +234,7 @@ def test_other_encodings_are_errors(tmp_path: Path) -> None:
 
 def test_overrides_have_line_0() -> None:
     (entry,) = read_overrides(Path("a.ini"), ['*.x.y = "a=b"'])
-    assert (entry.key, entry.text, entry.section) == ("*.x.y", '"a=b"', OVERRIDES)
+    assert (entry.key, entry.text, entry.rank) == ("*.x.y", '"a=b"', 0)
     assert str(entry.source) == 'override *.x.y="a=b"'
 
 

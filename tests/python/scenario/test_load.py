@@ -4,10 +4,9 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario import ConfigError, load_scenarios, network
+from gradysim.scenario import ConfigError, load, load_scenarios
 from gradysim.scenario.errors import OF_SCRIPT, ConfigErrors
-from gradysim.scenario.load import CheckedScenarios
-from gradysim.scenario.network import read_network
+from gradysim.scenario.load import CheckedScenarios, read_network
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from python.scenario.conftest import BASE
 
@@ -403,7 +402,7 @@ def test_runs_whose_nodes_only_stand_elsewhere_are_checked_once(
     folder: Any, monkeypatch: pytest.MonkeyPatch, added: str, count: int
 ) -> None:
     read: list[object] = []
-    monkeypatch.setattr(network, "read_network", lambda *given: read.append(given) or read_network(*given))
+    monkeypatch.setattr(load, "read_network", lambda *given: read.append(given) or read_network(*given))
     assert len({id(scenario.nodes) for scenario in checked(folder, added).scenarios}) == len(read) == count
 
 

@@ -7,20 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
-from gradysim.scenario.ini import Entry, Ranked
-from gradysim.scenario.lookup import Lookup, network_name, read_struct
+from gradysim.scenario.ini import Entry
+from gradysim.scenario.lookup import Lookup, SettingReader, network_name, read_struct
 from gradysim.scenario.parameter_types import number, quantity
 from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.schema import Key
-from gradysim.scenario.settings import SettingReader
 
 
-def entries(*keys: str) -> list[Ranked]:
+def entries(*keys: str) -> list[Entry]:
     """Entries in search order; the value is the position."""
-    return [
-        Ranked(1, Entry(key, str(order), Source(Path("a.ini"), order + 1, key), "General"))
-        for order, key in enumerate(keys)
-    ]
+    return [Entry(key, str(order), Source(Path("a.ini"), order + 1, key)) for order, key in enumerate(keys)]
 
 
 def in_force(lookup: Lookup, name: str, rest: str = "") -> str | None:
@@ -43,16 +39,16 @@ def test_paths_of_two_parts() -> None:
 
 
 def test_paths_begin_with_the_name_of_the_network() -> None:
-    ranked = entries("Other.a.b", "Network.a.b")
-    assert in_force(Lookup(ranked), "a", "b") == "1"
-    network = Entry("network", '"pkg.Other"', Source(Path("a.ini"), 9), "General")
-    assert in_force(Lookup([*ranked, (1, network)]), "a", "b") == "0"
+    written = entries("Other.a.b", "Network.a.b")
+    assert in_force(Lookup(written), "a", "b") == "1"
+    network = Entry("network", '"pkg.Other"', Source(Path("a.ini"), 9))
+    assert in_force(Lookup([*written, network]), "a", "b") == "0"
 
 
 def test_the_name_of_the_network_has_no_variables() -> None:
-    network = Entry("network", "${x=A, B}", Source(Path("a.ini"), 9, "network", "${x=A, B}"), "General")
+    network = Entry("network", "${x=A, B}", Source(Path("a.ini"), 9, "network", "${x=A, B}"))
     with pytest.raises(ConfigError) as caught:
-        network_name(network)
+        network_name([network])
     assert caught.value.line == 9
 
 
@@ -61,16 +57,16 @@ def test_the_name_of_the_network_has_no_variables() -> None:
     [("Field", "Field"), ('"Field"', "Field"), ("a.b_2.Field", "Field"), ('"a.Field"', "Field")],
 )
 def test_the_name_of_the_network_may_follow_packages(text: str, name: str) -> None:
-    assert network_name(Entry("network", text, Source(Path("a.ini"), 9), "General")) == name
+    assert network_name([Entry("network", text, Source(Path("a.ini"), 9))]) == name
 
 
 @pytest.mark.parametrize(
     "text", ["a.", ".a", "*", "a b", "a..b", '"a', "2a", '""', "a-b", "a.*", "fl\u00e4che"]
 )
 def test_what_is_no_name_of_a_network_is_refused(text: str) -> None:
-    network = Entry("network", text, Source(Path("a.ini"), 9, "network", text), "General")
+    network = Entry("network", text, Source(Path("a.ini"), 9, "network", text))
     with pytest.raises(ConfigError) as caught:
-        network_name(network)
+        network_name([network])
     assert (caught.value.line, caught.value.value) == (9, text)
 
 
@@ -125,7 +121,7 @@ def radio(*lines: str, node: str = "uavs[0]") -> dict[str, object]:
     entries = [line.partition("=") for line in lines]
     lookup = Lookup(
         [
-            Ranked(0, Entry(key, text, Source(Path("a.ini"), number, key), "General"))
+            Entry(key, text, Source(Path("a.ini"), number, key))
             for number, (key, _, text) in enumerate(entries)
         ]
     )

@@ -4,7 +4,7 @@ import pytest
 
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.node_names import check_node_names, nodes_named
+from gradysim.scenario.scenario import check_node_names, nodes_named
 
 
 @pytest.fixture

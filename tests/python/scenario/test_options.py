@@ -1,4 +1,4 @@
-from gradysim.scenario.options import IGNORED_OPTIONS, OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.schema import IGNORED_OPTIONS, OPTIONS, SECTION_OPTIONS
 
 
 def test_options_have_no_dot() -> None:

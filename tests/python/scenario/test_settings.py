@@ -6,6 +6,7 @@ import pytest
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.expressions import ParameterContext
 from gradysim.scenario.ini import Entry
+from gradysim.scenario.lookup import Setting, SettingReader, is_right_for_all_seeds, read_scalar
 from gradysim.scenario.parameter_types import (
     choice,
     coordinate,
@@ -16,14 +17,13 @@ from gradysim.scenario.parameter_types import (
     quantity,
     text,
 )
-from gradysim.scenario.settings import Setting, SettingReader, is_right_for_all_seeds, read_scalar
 
 SPEED = quantity("mps", at_least=0)
 MODE = choice("b", "a")
 
 
 def entry(text: str, line: int = 7, option: str = "") -> Entry:
-    return Entry("*.x.y", text, Source(Path("a.ini"), line, "*.x.y", text, option), "General")
+    return Entry("*.x.y", text, Source(Path("a.ini"), line, "*.x.y", text, option))
 
 
 def test_holds_the_value_and_its_place() -> None:
@@ -43,12 +43,11 @@ def test_an_entry_for_two_kinds_has_a_value_of_each() -> None:
     assert [type(value) for value in values] == [int, float]
 
 
-def test_knows_which_lines_were_read_and_for_what() -> None:
+def test_knows_which_lines_were_read() -> None:
     settings, read, checked = SettingReader(), entry("3mps"), entry("4mps", line=8)
     settings.setting(read, SPEED, "uavs[0].mobility.speed")
     settings.for_checks().setting(checked, SPEED, "uavs[0].mobility.other")
     assert settings.lines_read() == {read.source}
-    assert settings.parameters_read() == {"mobility.speed"}
 
 
 def test_knows_which_files_were_named() -> None:
@@ -83,7 +82,7 @@ def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
     ["**", "*.x.*", "*.uavs[*].mobility.s*", "**.*speed", "**.speed", "**.*.speed", "*.uavs[*].*.speed"],
 )
 def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
-    written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"), "General")
+    written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"))
     with pytest.raises(ConfigError) as caught:
         read_scalar(written, SPEED, "uavs[0].mobility.speed")
     assert str(caught.value) == (
@@ -94,7 +93,7 @@ def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
 
 @pytest.mark.parametrize("key", ["*.uavs[*].mobility.speed", "**.mobility.speed"])
 def test_a_parameter_that_the_key_says_in_full_is_not_repeated(key: str) -> None:
-    written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"), "General")
+    written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"))
     with pytest.raises(ConfigError, match="= 3m: `m` is the unit of a length"):
         read_scalar(written, SPEED, "uavs[0].mobility.speed")
 
@@ -111,9 +110,9 @@ def test_texts_in_a_file_need_quotes() -> None:
 
 def test_files_are_seen_from_the_folder_of_the_ini_file() -> None:
     source = Source(Path("configs/a.ini"), 7, "*.x.y", '"table.csv"')
-    assert read_scalar(Entry("*.x.y", '"table.csv"', source, "General"), file_name()) == "configs/table.csv"
-    assert read_scalar(Entry("*.x.y", '"/table.csv"', source, "General"), file_name()) == "/table.csv"
-    assert read_scalar(Entry("*.x.y", '""', source, "General"), file_name()) == ""
+    assert read_scalar(Entry("*.x.y", '"table.csv"', source), file_name()) == "configs/table.csv"
+    assert read_scalar(Entry("*.x.y", '"/table.csv"', source), file_name()) == "/table.csv"
+    assert read_scalar(Entry("*.x.y", '""', source), file_name()) == ""
 
 
 def test_what_is_drawn_is_another_value_for_each_parameter_and_seed() -> None:

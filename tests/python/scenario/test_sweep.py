@@ -24,14 +24,15 @@ from gradysim.scenario.sweep import (
 
 
 def entry(text: str, key: str = "*.x.label", line: int = 7) -> Entry:
-    return Entry(key, text, Source(Path("a.ini"), line, key, text), "General")
+    return Entry(key, text, Source(Path("a.ini"), line, key, text))
 
 
 def named(*texts: str) -> tuple[list[str], list[IterationVariable]]:
     """Entries of different keys, from line 1 on: their texts afterwards, and the variables."""
-    ranked = [(1, entry(text, f"**.p{line}", line)) for line, text in enumerate(texts, start=1)]
-    entries, variables = name_iterations(ranked)
-    return [entry.text for _, entry in entries], variables
+    entries, variables = name_iterations(
+        entry(text, f"**.p{line}", line) for line, text in enumerate(texts, start=1)
+    )
+    return [entry.text for entry in entries], variables
 
 
 def values_of(text: str) -> tuple[str, ...]:
@@ -81,23 +82,23 @@ def test_a_variable_may_be_used_above_the_line_with_its_values() -> None:
 
 
 def test_a_line_that_another_one_overrides_iterates_over_nothing() -> None:
-    ranked = [(0, entry("5")), (1, entry("${x=1,2}", line=9)), (1, entry("${3,4}", "**.other"))]
-    entries, variables = name_iterations(ranked)
-    assert [entry.text for _, entry in entries] == ["5", "${0}"]
+    written = [entry("5"), entry("${x=1,2}", line=9), entry("${3,4}", "**.other")]
+    entries, variables = name_iterations(written)
+    assert [entry.text for entry in entries] == ["5", "${0}"]
     assert [variable.values for variable in variables] == [("3", "4")]
 
 
 def test_who_needs_the_variable_of_an_overridden_line_is_told_where_it_is() -> None:
-    ranked = [(0, entry("5")), (1, entry("${x=1,2}", line=9)), (1, entry("${x}", "**.other", 10))]
+    written = [entry("5"), entry("${x=1,2}", line=9), entry("${x}", "**.other", 10)]
     with pytest.raises(ConfigError) as caught:
-        name_iterations(ranked)
+        name_iterations(written)
     assert caught.value.line == 10
     assert "a.ini:9" in str(caught.value)
 
 
 def test_what_is_ignored_iterates_over_nothing() -> None:
-    ranked = [(1, entry("${x=1,2}", "*.visualizer.x")), (1, entry("${unknown}", "result-dir"))]
-    assert name_iterations(ranked) == (ranked, [])
+    written = [entry("${x=1,2}", "*.visualizer.x"), entry("${unknown}", "result-dir")]
+    assert name_iterations(written) == (written, [])
 
 
 @pytest.mark.parametrize(
@@ -179,7 +180,7 @@ VALUES = {"x": "3", "y": "4", "t": "10ms", "p": "-80dBm", "name": '"a"', "0": "7
 
 
 def constraint(text: str) -> Entry:
-    return Entry("constraint", text, Source(Path("a.ini"), 7, "constraint", text), "General")
+    return Entry("constraint", text, Source(Path("a.ini"), 7, "constraint", text))
 
 
 @pytest.mark.parametrize(
