@@ -129,37 +129,45 @@ def shadowed_lines(sections: Iterable[Section], *, has_powers: bool = True) -> l
 
 
 def _shadowed_in(section: Section, instead: Mapping[str, Sequence[str]]) -> Iterator[Finding]:
-    same_key: dict[str, Entry] = {}
-    general: PatternIndex[Entry] = PatternIndex()
+    lines = _LinesAbove(instead)
     for entry in section.entries:
         if is_ignored(entry):
             continue
-        others = _instead_of(entry.key, instead)
-        above = _line_in_force(entry, others, same_key, general)
+        above = lines.in_force(entry)
         if above is None:
-            same_key.setdefault(entry.key, entry)
-            pattern = compile_pattern(entry.key)
-            if not is_option(entry) and _is_general(pattern):
-                general.add(pattern, entry)
+            lines.add(entry)
         elif above.source.file == entry.source.file:
             why = "fits as well and comes first; expected the special line above the general one"
-            if above.key in (entry.key, *others):
+            if above.key in (entry.key, *_instead_of(entry.key, instead)):
                 why = "says the same thing and comes first; expected one of them"
             place = place_beside(entry.source, above.source)
             yield Finding(entry.source, f"`{entry.key}` has no effect: {place} {why}")
 
 
-def _line_in_force(
-    entry: Entry, others: Sequence[str], same_key: Mapping[str, Entry], general: PatternIndex[Entry]
-) -> Entry | None:
-    """Return the line above that is in force wherever `entry` fits, if it says something else."""
-    for key in (entry.key, *others):
-        above = same_key.get(key) or _first_that_covers(compile_pattern(key), general)
-        if above is None or (above.text == entry.text and (key == entry.key or _COUNT.fullmatch(key))):
-            continue
-        if key == entry.key or above.text != "default" or not key.endswith(_NONE_BY_DEFAULT):
-            return above
-    return None
+class _LinesAbove:
+    """The lines above another one. `instead` has the other keys that set the same thing."""
+
+    def __init__(self, instead: Mapping[str, Sequence[str]]) -> None:
+        self._instead = instead
+        self._same_key: dict[str, Entry] = {}
+        self._general: PatternIndex[Entry] = PatternIndex()
+
+    def add(self, entry: Entry) -> None:
+        """Add a line below the others."""
+        self._same_key.setdefault(entry.key, entry)
+        pattern = compile_pattern(entry.key)
+        if not is_option(entry) and _is_general(pattern):
+            self._general.add(pattern, entry)
+
+    def in_force(self, entry: Entry) -> Entry | None:
+        """Return the line that is in force wherever `entry` fits, if it says something else."""
+        for key in (entry.key, *_instead_of(entry.key, self._instead)):
+            above = self._same_key.get(key) or _first_that_covers(compile_pattern(key), self._general)
+            if above is None or (above.text == entry.text and (key == entry.key or _COUNT.fullmatch(key))):
+                continue
+            if key == entry.key or above.text != "default" or not key.endswith(_NONE_BY_DEFAULT):
+                return above
+        return None
 
 
 def _instead_of(key: str, instead: Mapping[str, Sequence[str]]) -> list[str]:
@@ -219,16 +227,14 @@ def unread_variables(unread: Iterable[UnreadVariables], lines: Sequence[Entry]) 
 
 def _line_above_in_force(source: Source, lines: Sequence[Entry]) -> Source | None:
     """Return the line that is in force instead, by whatever key, in any section or file."""
-    number = [entry.source for entry in lines].index(source)
-    above = [line for line in lines[:number] if not is_ignored(line)]
-    same_key = {line.key: line for line in reversed(above)}
-    general: PatternIndex[Entry] = PatternIndex()
-    for line in above:
-        if not is_option(line) and _is_general(pattern := compile_pattern(line.key)):
-            general.add(pattern, line)
-    others = _instead_of(lines[number].key, _INSTEAD_WITH_POWERS)
-    found = _line_in_force(lines[number], others, same_key, general)
-    return found.source if found else None
+    above = _LinesAbove(_INSTEAD_WITH_POWERS)
+    for line in lines:
+        if line.source == source:
+            found = above.in_force(line)
+            return found.source if found else None
+        if not is_ignored(line):
+            above.add(line)
+    return None
 
 
 def bands_beside_frequencies(nodes: Iterable[NodeSpec]) -> list[Finding]:

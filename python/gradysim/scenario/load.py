@@ -260,14 +260,7 @@ class Networks:
     """Reads the networks of runs, one after another."""
 
     def __init__(self, lines: Sequence[Entry], folder: Path, instead: str, source: Source) -> None:
-        """Prepare for the first run.
-
-        Args:
-            lines: The entries of the configuration, with variables.
-            folder: The directory of the .ini file.
-            instead: The end of messages about nodes that do not exist.
-            source: The place of the configuration.
-        """
+        """Prepare for the first run. `lines` have variables; for the others see `read_network`."""
         self._lines = lines
         self._instead = instead
         self._source = source
@@ -343,18 +336,10 @@ def read_network(
     instead: str,
     source: Source,
 ) -> Network:
-    """Read the network of a run.
+    """Read the network of a run, whose entries have values instead of variables.
 
-    Args:
-        entries: Those of the run, with its values instead of variables.
-        settings: Reads their values.
-        loader: Loads protocols.
-        hashes: Hashes of the files that values name.
-        instead: The end of messages about nodes that do not exist.
-        source: The place of the configuration.
-
-    Raises:
-        ConfigError: Anything is wrong; all errors are reported together.
+    `instead` is the end of messages about nodes that do not exist, `source` the place of the configuration.
+    Raises ConfigError for all that is wrong.
     """
     errors = ErrorCollector()
     lookup = Lookup(entries)

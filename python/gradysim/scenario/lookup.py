@@ -277,12 +277,8 @@ def read_struct(
 ) -> dict[str, Setting]:
     """Return the fields of one struct that entries set. Of two keys for one field, the first entry is used.
 
-    Args:
-        struct: The first part of the keys' targets.
-        found: The entries in force, by key.
-        settings: Reads the values.
-        path_of: Gives the path of a key's parameter below the network.
-        errors: Takes the errors of values; their fields are left out.
+    `path_of` gives the path of a key's parameter below the network. `errors` takes the errors of values;
+    their fields are left out.
     """
     first: dict[str, tuple[Found, Key]] = {}
     for key, entry in found.items():

@@ -41,12 +41,7 @@ class NoSuchNodeError(ConfigError):
 
 
 class ProtocolAndInterfaces(NamedTuple):
-    """What decides which keys a node has.
-
-    Attributes:
-        protocol: The class of its protocol.
-        interface_count: The number of its network interfaces.
-    """
+    """What decides which keys a node has."""
 
     protocol: type[IProtocol]
     interface_count: int
@@ -140,14 +135,9 @@ def check_parameters(
     obstacles: int,
     errors: ErrorCollector,
 ) -> None:
-    """Report keys that name no parameter.
+    """Report keys that name no parameter. Those that name no node are reported before.
 
-    Args:
-        lookup: The entries. Those whose names are unknown match nothing here; they are reported before.
-        groups: The groups of nodes.
-        kinds: What decides about the keys of each node, by the node's name.
-        obstacles: The number of obstacles that have keys.
-        errors: Takes the errors.
+    `kinds` are by the names of nodes, and `obstacles` is the number of obstacles that have keys.
     """
     of_node = [key.path for key in NODE_KEYS]
     of_network = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]

@@ -8,6 +8,7 @@ from gradysim.scenario import ConfigError, load, load_scenarios
 from gradysim.scenario.errors import OF_SCRIPT, ConfigErrors
 from gradysim.scenario.load import CheckedScenarios, read_network
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
+from gradysim.scenario.unknown_keys import NoSuchNodeError
 from python.scenario.conftest import BASE
 
 
@@ -80,8 +81,8 @@ def test_values_may_depend_on_the_run(folder: Any) -> None:
 
 
 def test_a_variable_in_the_name_of_the_network_is_an_error_at_its_line(folder: Any) -> None:
-    with pytest.raises(ConfigError, match=r"\.ini:\d+: network = \$\{x=A, B\}: it is the same in all runs"):
-        folder.load('network = ${x=A, B}\n**.label = "${x}"\n')
+    error = folder.mistake('network = ${x=A, B}\n**.label = "${x}"\n')
+    assert (error.line, error.key, error.value) == (6, "network", "${x=A, B}")
 
 
 def speeds(scenarios: list[Scenario]) -> list[object]:
@@ -120,8 +121,9 @@ def test_an_override_fixes_what_the_file_iterates_over(folder: Any) -> None:
 
 def test_a_mistake_in_one_of_the_values_is_found_at_once(folder: Any) -> None:
     folder.load()
-    with pytest.raises(ConfigError, match=r"\$\{1mps, 2s\}.* expected a speed"):
+    with pytest.raises(ConfigError) as caught:
         load_scenarios(folder.ini, overrides=["**.speed=${1mps, 2s}"])
+    assert caught.value.value == "${1mps, 2s}"
 
 
 @pytest.mark.parametrize(
@@ -290,23 +292,26 @@ def test_groups_without_nodes_are_told_at_the_line_of_the_first(folder: Any, siz
 
 def test_keys_of_nodes_without_any_are_told_the_same(folder: Any) -> None:
     folder.write("test.ini", '[General]\nsim-time-limit = 1s\n**.protocol.class = "protocols.py:Sensor"\n')
-    with pytest.raises(ConfigError, match=r"there are no nodes; expected some, such as `\*\.numUavs = 2`"):
+    with pytest.raises(ConfigError) as caught:
         load_scenarios(folder.ini)
+    assert (caught.value.line, caught.value.expected) == (1, "some, such as `*.numUavs = 2`")
 
 
 def test_a_misspelt_general_is_named(folder: Any) -> None:
     folder.write("test.ini", "[Genral]\nsim-time-limit = 1s\n*.numUavs = 2\n[Config X]\n")
     for config in ["General", "X"]:
-        with pytest.raises(
-            ConfigError, match=r"\[Genral\] at line 1 is not used: did you mean \[General\]\?"
-        ):
+        with pytest.raises(ConfigErrors) as caught:
             load_scenarios(folder.ini, config)
+        assert any("did you mean [General]?" in error.hint for error in caught.value.errors)
 
 
 def test_nodes_that_only_other_configurations_have(folder: Any) -> None:
     folder.write("test.ini", '[General]\n*.uavs[*].protocol.class = "a.py:A"\n[Ten]\n*.numUavs = 10\n')
-    with pytest.raises(ConfigError, match=r"matches no node.*`config = NAME`, Ten$"):
+    with pytest.raises(ConfigErrors) as caught:
         load_scenarios(folder.ini)
+    *_, error = caught.value.errors
+    assert isinstance(error, NoSuchNodeError)
+    assert error.hint.endswith("`config = NAME`, Ten")
 
 
 def test_what_is_no_name_of_a_configuration(folder: Any) -> None:

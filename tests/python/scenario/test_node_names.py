@@ -45,8 +45,9 @@ def test_an_unknown_name_says_what_there_is(scenario):
 
 def test_of_several_runs_the_one_without_such_a_node_is_named(scenario):
     one_of_two = replace(scenario, run_number=1, run_count=2)
-    with pytest.raises(ConfigError, match=r"^--pcap uavs\[7\]: no such node in run 1; expected"):
+    with pytest.raises(ConfigError) as caught:
         check_node_names([one_of_two], ["uavs[7]"], "--pcap")
+    assert "run 1" in caught.value.problem
 
 
 @pytest.fixture

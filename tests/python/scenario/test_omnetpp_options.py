@@ -69,7 +69,6 @@ def test_what_says_how_omnetpp_runs_and_records_is_ignored(load, option):
 
 @pytest.mark.parametrize("option", REFUSED.split())
 def test_what_would_make_another_run_is_refused(load, option):
-    with pytest.raises(
-        ConfigError, match=f"shared.ini:6: `{option}` is an option that only OMNeT\\+\\+ has: .*expected"
-    ):
+    with pytest.raises(ConfigError) as caught:
         load(f"{option} = 1")
+    assert (caught.value.line, caught.value.key) == (6, option)

@@ -94,8 +94,9 @@ def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
 @pytest.mark.parametrize("key", ["*.uavs[*].mobility.speed", "**.mobility.speed"])
 def test_a_parameter_that_the_key_says_in_full_is_not_repeated(key: str) -> None:
     written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"))
-    with pytest.raises(ConfigError, match="= 3m: `m` is the unit of a length"):
+    with pytest.raises(ConfigError) as caught:
         read_scalar(written, SPEED, "uavs[0].mobility.speed")
+    assert "uavs[0]" not in caught.value.problem
 
 
 def test_texts_of_overrides_need_no_quotes() -> None:
@@ -169,8 +170,9 @@ def test_an_override_that_is_no_expression_is_the_text_itself(written: str) -> N
 
 @pytest.mark.parametrize("written", ["parentIndx()", 'select(parentIndex(), "a")', 'false ? "a" : 1/0'])
 def test_an_override_of_a_text_that_is_a_wrong_expression_is_refused(written: str) -> None:
-    with pytest.raises(ConfigError, match=r"for x\[1\]\.label: "):
+    with pytest.raises(ConfigError) as caught:
         read_scalar(entry(written, option="--set"), text(), "x[1].label", ParameterContext(1, "x[1].mac.y"))
+    assert "for x[1].label: " in caught.value.problem
 
 
 def test_what_was_drawn_is_told_with_the_seed() -> None:
