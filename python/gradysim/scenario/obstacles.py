@@ -105,9 +105,10 @@ def _obstacle(name: str, values: Mapping[str, Setting], source: Source) -> Obsta
         if name_of_field in values:
             errors.add(ConfigError.at(values[name_of_field].source, f"{name}: {why}"))
     needed = [key for key in OBSTACLE_KEYS if key.default == HAS_TO_BE_GIVEN and key.field not in idle]
-    if missing := [key.path.rpartition(".")[2] for key in needed if key.field not in values]:
+    missing = [key.path.rpartition(".")[2] for key in needed if key.field not in values]
+    if missing and not errors.errors:  # after a wrong typename, all of the others would be missing
         example = '"0 0 10 0 10 5"' if missing[0] == "points" else "10m"
-        problem = f"{name} has no {' and no '.join(missing)}"
+        problem = f"{name} has no {', '.join(missing)}"
         expected = f"`*.environment.{name}.{missing[0]} = {example}`"
         errors.add(ConfigError(problem, replace(source, part=name), expected=expected))
     for axis in "xyz" if is_box else "z":

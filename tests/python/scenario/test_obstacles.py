@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.errors import ConfigError, ConfigErrors
 from gradysim.scenario.obstacles import (
     ObstacleSpec,
     Ring,
@@ -136,6 +136,12 @@ def test_errors_of_all_obstacles_are_reported_at_once(folder: Any) -> None:
     error = folder.mistake(lines)
     assert [each.line for each in error.errors] == [10, 12, 13, 14, 15, 16]
     assert [each.source.part for each in error.errors] == ["", "", "", "", "obstacle[2]", ""]
+
+
+def test_points_without_a_typename_are_one_error(folder: Any) -> None:
+    error = folder.mistake(PRISM.replace('*.environment.obstacle[0].typename = "prism"\n', ""))
+    assert not isinstance(error, ConfigErrors)
+    assert (error.line, error.key) == (7, "*.environment.obstacle[0].points")
 
 
 def test_an_obstacle_names_all_that_it_lacks(folder: Any) -> None:
