@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "netsim/config/check.hpp"
 #include "netsim/config/medium_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/units.hpp"
@@ -51,11 +52,8 @@ const Schema AntennaConfig::schema{"antenna", "wlan[0].radio.antenna", true, fie
 
 void AntennaConfig::validate(double carrier_hz) const {
     check_fields(*this);
-    if (type_name == "ParabolicAntenna" && min_gain > max_gain) {
-        throw ConfigError({"antenna.min_gain",
-                           Quantity{min_gain, ""},
-                           {"expected at most ", FieldName{"antenna.max_gain"}, ", ", Quantity{max_gain, ""}},
-                           {"antenna.max_gain"}});
+    if (type_name == "ParabolicAntenna") {
+        check_at_most("antenna.min_gain", min_gain, "antenna.max_gain", max_gain);
     }
     const bool has_beam = type_name == "CosineAntenna" || type_name == "ParabolicAntenna";
     if (has_beam && beam_width_rad == 0) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "netsim/error.hpp"
@@ -16,6 +17,9 @@ void check_greater(std::string_view field, double value, double bound, std::stri
 void check_between(std::string_view field, double value, double minimum, double maximum,
                    std::string_view unit);
 void check_finite(std::string_view field, double value, std::string_view unit);
+// Compares two fields: `value` must not exceed `most`, the value of the field `other`.
+void check_at_most(std::string_view field, double value, const std::string& other, double most,
+                   std::string_view unit = "");
 void check_name(std::string_view field, std::string_view value, std::span<const std::string_view> names);
 
 }  // namespace netsim

@@ -1,5 +1,6 @@
 #include "netsim/config/csma_config.hpp"
 
+#include "netsim/config/check.hpp"
 #include "netsim/config/interface_type.hpp"
 
 namespace netsim {
@@ -55,12 +56,7 @@ const Schema CsmaConfig::schema{"csma", "wlan[0]", true, fields, with_ieee802154
 
 void CsmaConfig::validate() const {
     check_fields(*this);
-    if (min_be > max_be) {
-        throw ConfigError({"csma.min_be",
-                           Quantity{1.0 * min_be, ""},
-                           {"expected at most ", FieldName{"csma.max_be"}, ", ", Quantity{1.0 * max_be, ""}},
-                           {"csma.max_be"}});
-    }
+    check_at_most("csma.min_be", min_be, "csma.max_be", max_be);
 }
 
 }  // namespace netsim

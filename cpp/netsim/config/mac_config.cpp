@@ -1,5 +1,6 @@
 #include "netsim/config/mac_config.hpp"
 
+#include "netsim/config/check.hpp"
 #include "netsim/config/interface_type.hpp"
 
 namespace netsim {
@@ -95,19 +96,13 @@ const Schema MacConfig::schema{"mac", "wlan[0]", true, fields, with_ieee80211};
 
 void MacConfig::validate() const {
     check_fields(*this);
-    if (cw_max != -1 && cw_max < cw_min) {
-        throw ConfigError({"mac.cw_max",
-                           Quantity{1.0 * cw_max, ""},
-                           {"expected at least ", FieldName{"mac.cw_min"}, ", ", Quantity{1.0 * cw_min, ""}},
-                           {"mac.cw_min"}});
+    if (cw_max != -1) {
+        check_at_most("mac.cw_min", cw_min, "mac.cw_max", cw_max);
     }
     // ARF has no upper bound, so the bound of AARF must not reject its threshold.
-    if (rate_control == "AarfRateControl" && max_increase_threshold < increase_threshold) {
-        throw ConfigError({"mac.max_increase_threshold",
-                           Quantity{1.0 * max_increase_threshold, ""},
-                           {"expected at least ", FieldName{"mac.increase_threshold"}, ", ",
-                            Quantity{1.0 * increase_threshold, ""}},
-                           {"mac.increase_threshold"}});
+    if (rate_control == "AarfRateControl") {
+        check_at_most("mac.increase_threshold", increase_threshold, "mac.max_increase_threshold",
+                      max_increase_threshold);
     }
 }
 

@@ -13,14 +13,14 @@ TEST(MacConfig, TheBoundOfAarfIsAtLeastItsThreshold) {
     EXPECT_EQ(error_text([&] { config.validate(); }), "no error");
     config.rate_control = "AarfRateControl";
     EXPECT_EQ(error_text([&] { config.validate(); }),
-              "mac.max_increase_threshold = 50: expected at least mac.increase_threshold, 60");
+              "mac.increase_threshold = 60: expected at most mac.max_increase_threshold, 50");
 }
 
 TEST(MacConfig, WindowsMustNotCross) {
     MacConfig config;
     config.cw_min = 63;
     config.cw_max = 31;
-    EXPECT_EQ(error_text([&] { config.validate(); }), "mac.cw_max = 31: expected at least mac.cw_min, 63");
+    EXPECT_EQ(error_text([&] { config.validate(); }), "mac.cw_min = 63: expected at most mac.cw_max, 31");
 }
 
 }  // namespace
