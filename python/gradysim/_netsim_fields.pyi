@@ -125,7 +125,7 @@ class RadioFields:
     carrier_hz: float
     """Center of the channel."""
     bandwidth_hz: float
-    """Width of the channel."""
+    """Width of the channel; 802.11: 20MHz to 22MHz."""
     tx_power_w: float
     """Transmit power."""
     communication_range_m: float

@@ -20,7 +20,8 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(RadioConfig, carrier_hz), "centerFrequency",
      quantity("Hz").shown_in("MHz").at_least(1e6).at_most(1e12), "Center of the channel"},
     {NETSIM_FIELD(RadioConfig, bandwidth_hz), "bandwidth",
-     quantity("Hz").shown_in("MHz").at_least(1e3).at_most(1e9), "Width of the channel"},
+     quantity("Hz").shown_in("MHz").at_least(1e3).at_most(1e9),
+     "Width of the channel; 802.11: 20MHz to 22MHz"},
     {NETSIM_FIELD(RadioConfig, tx_power_w), "transmitter.power",
      quantity("W").shown_in("mW").at_least(0).at_most(largest_tx_power_w), "Transmit power"},
     {NETSIM_FIELD(RadioConfig, communication_range_m), "transmitter.communicationRange",
@@ -86,12 +87,7 @@ RadioConfig::RadioConfig(std::string_view interface_type_name) {
 
 void RadioConfig::validate() const {
     check_fields(*this);
-    if (bandwidth_hz > carrier_hz) {
-        throw ConfigError({"radio.bandwidth_hz",
-                           Quantity{bandwidth_hz, "Hz"},
-                           {"expected at most the center frequency, ", Quantity{carrier_hz, "Hz"}},
-                           {"radio.carrier_hz"}});
-    }
+    check_at_most("radio.bandwidth_hz", bandwidth_hz, "radio.carrier_hz", carrier_hz, "Hz");
     antenna.validate(carrier_hz);
 }
 

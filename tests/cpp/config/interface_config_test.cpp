@@ -51,5 +51,23 @@ TEST(InterfaceConfig, TheErrorModelHasToFitTheType) {
               "\"Ieee80211BerTableErrorModel\" for an Ieee80211Interface");
 }
 
+TEST(InterfaceConfig, TheBandwidthHasToFitTheBitRatesOfTheOperationMode) {
+    InterfaceConfig config;
+    for (const double fitting_hz : {20e6, 22e6}) {
+        config.radio.bandwidth_hz = fitting_hz;
+        EXPECT_NO_THROW(config.validate()) << fitting_hz;
+    }
+    for (const double other_hz : {5e6, 10e6, 40e6}) {
+        config.radio.bandwidth_hz = other_hz;
+        EXPECT_THROW(config.validate(), ConfigError) << other_hz;
+    }
+    EXPECT_EQ(error_text([&] { config.validate(); }),
+              "radio.bandwidth_hz = 40000000 Hz: expected from 20000000 Hz to 22000000 Hz for the operation "
+              "mode g(mixed)");
+    config = InterfaceConfig{std::string(ieee802154_interface)};
+    config.radio.bandwidth_hz = 5e6;
+    EXPECT_NO_THROW(config.validate());
+}
+
 }  // namespace
 }  // namespace netsim

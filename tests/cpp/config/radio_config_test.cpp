@@ -50,7 +50,7 @@ TEST(RadioConfig, ABandIsNoWiderThanItsCentreIsHigh) {
     RadioConfig config;
     config.carrier_hz = 1e6;
     EXPECT_EQ(error_text([&] { config.validate(); }),
-              "radio.bandwidth_hz = 22000000 Hz: expected at most the center frequency, 1000000 Hz");
+              "radio.bandwidth_hz = 22000000 Hz: expected at most radio.carrier_hz, 1000000 Hz");
 }
 
 }  // namespace

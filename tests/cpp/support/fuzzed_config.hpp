@@ -36,6 +36,7 @@ public:
         do {
             InterfaceConfig& added = config.wlan.emplace_back(interface());
             added.radio.carrier_hz += 5e6 * bytes_.below(6);
+            added.radio.bandwidth_hz -= 1e6 * bytes_.below(3);
         } while (config.wlan.size() <= most_interfaces && bytes_.below(4) == 1);
         if (bytes_.flag()) {
             config.mobility.type_name = bytes_.name(mobility_type_names);
@@ -56,7 +57,8 @@ private:
     void fields(const Schema& schema, void* config) {
         for (const Field& field : schema.fields) {
             const bool is_elsewhere = field.name == "typename" || field.name == "carrier_hz" ||
-                                      field.name == "error_model" || field.type.kind == ValueType::Kind::file;
+                                      field.name == "bandwidth_hz" || field.name == "error_model" ||
+                                      field.type.kind == ValueType::Kind::file;
             if (is_elsewhere) {
                 continue;
             }

@@ -94,6 +94,7 @@ PARABOLIC = (f'{ANTENNA}.typename = "ParabolicAntenna"', f"{ANTENNA}.beamWidth =
             5,
             "radio.ber_table_file",
         ),
+        (['**.opMode = "g(erp)"', f"{WLAN}.radio.bandwidth = 5MHz"], 6, "radio.bandwidth_hz"),
         (["*.uavs[*].numWlanInterfaces = 2"], 5, "radio.carrier_hz"),
         ([f"{WLAN}.bitrate = 7Mbps"], 5, "mac.bitrate_bps"),
         (["**.wlan[*].bitrate = 7Mbps"], 5, "mac.bitrate_bps"),

@@ -400,9 +400,9 @@ def test_a_node_does_not_receive_its_own_interfaces(findings: Findings) -> None:
 def test_a_wider_listener_hears_what_one_of_the_same_width_does_not(
     findings: Findings,
 ) -> None:
-    narrow, wide = "*.uavs[0].wlan[*].radio.bandwidth=10MHz", "*.uavs[1].wlan[*].radio.bandwidth=40MHz"
-    (finding,) = findings("*.numUavs=3", narrow, wide)
-    assert unreceived(finding) == "uavs[1]"
+    widths = [f"*.uavs[{uav}].wlan[*].radio.bandwidth={20 + uav}MHz" for uav in range(3)]
+    (finding,) = findings("*.numUavs=3", *widths)
+    assert unreceived(finding) == "uavs[2]"
 
 
 @pytest.mark.parametrize(
