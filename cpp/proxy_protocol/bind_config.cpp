@@ -39,7 +39,9 @@ void bind_fields(py::class_<Config>& config) {
                 using Value = std::remove_pointer_t<Pointer>;
                 const auto of = field.of;
                 const auto get = [of](Config& self) -> Value { return *std::get<Pointer>(of(&self)); };
-                const auto set = [of](Config& self, Value given) { *std::get<Pointer>(of(&self)) = given; };
+                const auto set = [of](Config& self, const Value& given) {
+                    *std::get<Pointer>(of(&self)) = given;
+                };
                 const std::string name(field.name);
                 if (has_fixed_type && name == "typename") {
                     config.def_property_readonly(name.c_str(), get);

@@ -33,8 +33,8 @@ public:
     enum class Rule : std::uint8_t { frame_counters, station_counters };
     // Usually the same for all stations.
     struct Rules {
-        Limits limits;
-        Window window;
+        Limits limits{};
+        Window window{};
         Rule rule = Rule::frame_counters;
     };
 
