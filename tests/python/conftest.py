@@ -4,6 +4,7 @@ import json
 import shutil
 import signal
 import stat
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -104,6 +105,27 @@ def flown_scenario(
         return make_scenario(python, *settings, *FLOWN)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def type_errors(pytestconfig: pytest.Config) -> Callable[[Path], str]:
+    """`type_errors(file)`: what mypy --strict says against a file, run in its folder; empty for nothing."""
+    package = Path(__file__).parents[2] / "python"
+    assert pytestconfig.cache is not None
+    cache = f"--cache-dir={pytestconfig.cache.mkdir('mypy')}"
+
+    def errors(file: Path) -> str:
+        check = subprocess.run(
+            [sys.executable, "-m", "mypy", "--strict", "--config-file=", cache, file.name],
+            cwd=file.parent,
+            env={"MYPYPATH": str(package), "PATH": ""},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        return "" if check.returncode == 0 else check.stdout + check.stderr
+
+    return errors
 
 
 class WallClock:

@@ -54,24 +54,6 @@ def code_blocks(root: Path) -> Callable[[str, str], list[str]]:
     return blocks
 
 
-@pytest.fixture(scope="session")
-def type_errors(root: Path) -> Callable[[Path], str]:
-    """`type_errors(file)`: what mypy --strict says against a file, run in its folder; empty for nothing."""
-
-    def errors(file: Path) -> str:
-        check = subprocess.run(
-            [sys.executable, "-m", "mypy", "--strict", "--config-file=", file.name],
-            cwd=file.parent,
-            env={"MYPYPATH": str(root / "python"), "PATH": ""},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        return "" if check.returncode == 0 else check.stdout + check.stderr
-
-    return errors
-
-
 @pytest.fixture
 def imported(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Path], Any]]:
     """`imported(file)`: a document's script as a module; afterwards it and those beside it are forgotten."""
