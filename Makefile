@@ -38,7 +38,7 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 	$(if $(ONLY),build/asan/netsim_tests --gtest_brief=1 --gtest_filter='$(ONLY)',ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error)
 
 test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel; some: ONLY='FILE -k NAME'.
-	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=auto)
+	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=auto --dist=loadfile)
 
 test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
 	cmake -S cpp --preset tsan --log-level=WARNING
@@ -73,8 +73,10 @@ format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
 
 build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the engine compiled.
 
-verify: build $(STAMPS)/test  ## Compare with INET, ns-3 and closed forms; draws docs/verification.
+verify: build $(STAMPS)/test system-gtest  ## Compare with INET, ns-3 and closed forms; draws docs/verification; the tests that take long.
 	$(BIN)/python -m pytest tests/verification --verify
+	$(BIN)/python -m pytest tests/python --numprocesses=auto --dist=loadfile -m verify
+	NETSIM_THOROUGHNESS=10 $(MAKE) --no-print-directory test-cpp
 
 bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals, and a profile by layer.
 	cmake -S cpp --preset bench --log-level=WARNING

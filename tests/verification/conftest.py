@@ -16,8 +16,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--verify",
         action="store_true",
-        help="print the findings, draw the pictures and write the table of docs/verification",
+        help="also run what is marked `verify`, print the findings, draw the pictures and write the table of "
+        "docs/verification",
     )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("--verify"):
+        config.option.markexpr = ""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
@@ -54,7 +60,7 @@ def picture(request: pytest.FixtureRequest) -> Callable[[str, Callable[[Path], N
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    if not config.getoption("--verify"):
+    if not config.getoption("--verify") or config.getoption("collectonly"):
         return
     findings = [
         Finding.from_json(str(value))

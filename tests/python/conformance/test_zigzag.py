@@ -50,7 +50,7 @@ TOLERANCE_M = MissionMobilityConfiguration().tolerance
 CASES = [  # configuration, seed, time between two updates in seconds, seconds without a marginal event
     ("ZigZag5", 8, 0.01, 300),
     ("ZigZag5", 9, 0.01, 450),
-    ("ZigZag5", 1, 0.001, 700),
+    pytest.param(("ZigZag5", 1, 0.001, 700), marks=pytest.mark.verify),
     ("ZigZag15", 0, 0.01, 90),
     ("ZigZag15", 1, 0.001, 120),
 ]

@@ -75,6 +75,7 @@ def test_at_the_ground_station_all_heartbeats_meet_its_own(
     assert sum(node["tracked_variables"].get("collected", 0) for node in nodes) == int(stay.replace(",", ""))
 
 
+@pytest.mark.verify
 def test_the_mean_of_ten_runs_is_that_of_the_table(root: Path, text: str) -> None:
     mean, half_width = mean_with_half_width(readings(root, "ZigZag5", "repeat = 10"))
     told = f"{mean:,.0f} ± {half_width:.0f}"
@@ -82,6 +83,7 @@ def test_the_mean_of_ten_runs_is_that_of_the_table(root: Path, text: str) -> Non
     assert f"| -96.616 dBm, that of the scenario | {told} |" in text
 
 
+@pytest.mark.verify
 def test_more_noise_leaves_what_the_table_says(root: Path, text: str) -> None:
     noise = "*.radioMedium.backgroundNoise.power = -93dBm"
     mean, half_width = mean_with_half_width(readings(root, "ZigZag5", noise, "repeat = 10"))
@@ -98,6 +100,7 @@ def test_half_of_the_frames_arrive_over_the_ranges_of_the_table(root: Path, text
         assert power_w == pytest.approx(0.95e-3, rel=0.01)  # 1 % of power is 0.3 % of range
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize(("step", "told"), [("1m", "collects nothing"), ("0m", "9,295 readings arrive")])
 def test_the_last_uav_is_out_of_reach_unless_it_flies_as_low_as_the_first(
     root: Path, text: str, step: str, told: str
@@ -108,6 +111,7 @@ def test_the_last_uav_is_out_of_reach_unless_it_flies_as_low_as_the_first(
     assert counts == [9295 if step == "0m" else 0]
 
 
+@pytest.mark.verify
 def test_without_timeout_the_offset_frees_uavs_too(root: Path, text: str) -> None:
     assert "5 % fewer on the real channel" in " ".join(text.split())
     (with_it,) = re.findall(r"that of the scenario \| ([\d,]+) ±", text)

@@ -25,11 +25,13 @@ def test_the_guide_shows_all_steps_in_both_modes() -> None:
     ]
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("number", range(4))
 def test_a_step_in_integrated_mode_is_as_shown(number: int) -> None:
     assert row("ZigZag5", STEPS[number], "integrated") == shown()[2 * number + 1]
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("number", [1, 2, 3])
 def test_a_step_in_prototype_mode_is_as_shown(number: int) -> None:
     assert row("ZigZag5", STEPS[number], "prototype") == shown()[2 * number]

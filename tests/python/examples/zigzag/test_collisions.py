@@ -1,4 +1,7 @@
-"""ZigZag on the realistic network: what the paper found, and what prototype mode cannot show."""
+"""ZigZag on the realistic network: what the paper found, and what prototype mode cannot show.
+
+Twenty minutes of the smallest size; `test_paper_claims.py` has all sizes at full length.
+"""
 
 from functools import cache
 from pathlib import Path
@@ -13,13 +16,12 @@ from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
-SIZES = ["ZigZag5", "ZigZag15", "ZigZag25"]
 
 
 @cache
 def fly(config: str, mode: str = "integrated") -> RunResult:
     run = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}[mode]
-    (scenario,) = load_scenarios(FILE, config)
+    (scenario,) = load_scenarios(FILE, config, overrides=["sim-time-limit = 20min"])
     return run(scenario)
 
 
@@ -36,18 +38,16 @@ def uavs(result: RunResult, variable: str) -> list[int]:
     return [int(str(value)) for value in values]
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_when_all_heartbeats_leave_in_the_same_instant_nothing_arrives(size: str) -> None:
-    assert arrived(fly(f"{size}Synchronised")) == 0
+def test_when_all_heartbeats_leave_in_the_same_instant_nothing_arrives() -> None:
+    assert arrived(fly("ZigZag5Synchronised")) == 0
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_then_no_uav_ever_hears_another_one_or_the_ground_station(size: str) -> None:
-    assert set(uavs(fly(f"{size}Synchronised"), "interactions")) == {0}
+def test_then_no_uav_ever_hears_another_one_or_the_ground_station() -> None:
+    assert set(uavs(fly("ZigZag5Synchronised"), "interactions")) == {0}
 
 
 def test_then_uavs_still_collect_the_readings_of_sensors() -> None:
-    assert min(uavs(fly("ZigZag5Synchronised"), "collected")) > 1000
+    assert min(uavs(fly("ZigZag5Synchronised"), "collected")) > 200
 
 
 def test_the_ledger_says_why() -> None:
@@ -56,9 +56,8 @@ def test_the_ledger_says_why() -> None:
     assert broadcast["receiver_transmitting"] > sum(others)
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_with_jitter_data_arrives(size: str) -> None:
-    result = fly(size)
+def test_with_jitter_data_arrives() -> None:
+    result = fly("ZigZag5")
     assert arrived(result) > 0.8 * sum(uavs(result, "collected"))
 
 

@@ -20,6 +20,8 @@ from gradysim.integrated.run import run
 from gradysim.results.result import RunResult
 from gradysim.scenario import load_scenarios
 
+pytestmark = pytest.mark.verify
+
 FILE = Path(__file__).parents[4] / "configs" / "zigzag.ini"
 SIZES = ["ZigZag5", "ZigZag15", "ZigZag25"]
 WITH_JITTER = [("ZigZag5", 0), ("ZigZag5", 1), ("ZigZag5", 2), ("ZigZag15", 0), ("ZigZag25", 0)]
@@ -61,6 +63,12 @@ def arrived(result: RunResult) -> int:
     return count
 
 
+def uavs(result: RunResult, variable: str) -> list[int]:
+    values = [node.tracked_variables[variable] for node in result.nodes if node.name.startswith("uavs[")]
+    assert all(isinstance(value, int) for value in values)
+    return [int(str(value)) for value in values]
+
+
 @pytest.mark.parametrize("size", SIZES)
 def test_synchronised_heartbeats_bring_nothing_to_the_ground_station(size: str) -> None:
     assert arrived(integrated(f"{size}Synchronised").result) == 0
@@ -68,6 +76,11 @@ def test_synchronised_heartbeats_bring_nothing_to_the_ground_station(size: str) 
 
 def test_synchronised_heartbeats_work_in_the_prototype() -> None:
     assert arrived(prototype("ZigZag5Synchronised")) > 0
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_then_no_uav_ever_hears_another_one_or_the_ground_station(size: str) -> None:
+    assert set(uavs(integrated(f"{size}Synchronised").result, "interactions")) == {0}
 
 
 @pytest.mark.parametrize("size", SIZES)
@@ -98,7 +111,8 @@ def test_with_jitter_the_ground_station_receives_heartbeats(size: str) -> None:
 
 @pytest.mark.parametrize(("size", "seed"), WITH_JITTER)
 def test_with_jitter_data_arrives(size: str, seed: int) -> None:
-    assert arrived(integrated(size, seed).result) > 0
+    result = integrated(size, seed).result
+    assert arrived(result) > 0.8 * sum(uavs(result, "collected"))
 
 
 @pytest.mark.parametrize(("size", "seed"), WITH_JITTER)
