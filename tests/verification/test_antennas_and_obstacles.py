@@ -6,6 +6,8 @@ from math import acos, cos, hypot, log, log10, pi, radians, sin
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
 from verification.finding import Finding
 
 if TYPE_CHECKING:
@@ -151,6 +153,7 @@ def is_in_shadow(place: tuple[float, float, float]) -> bool:
     return False
 
 
+@pytest.mark.verify
 def test_the_shadow_of_a_building(
     report: Callable[[Finding], None], picture: Callable[[str, Callable[[Path], None]], None]
 ) -> None:

@@ -5,6 +5,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
+
 from gradysim.scenario.ini import config_names, read_ini
 from verification.finding import Finding
 from verification.nist import success_probability
@@ -14,6 +16,8 @@ from verification.sampling import fisher_p, least_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+pytestmark = pytest.mark.verify
 
 STRONG_BYTES, WEAK_BYTES = 36, 37
 INTERVAL_S = 0.01

@@ -7,6 +7,8 @@ from pathlib import Path
 from statistics import fmean, stdev
 from typing import TYPE_CHECKING
 
+import pytest
+
 import gradysim.integrated.run
 from verification.finding import Finding
 from verification.reference_data import rows
@@ -15,6 +17,8 @@ from verification.sampling import least_p, welch_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+pytestmark = pytest.mark.verify
 
 Window = tuple[int, int]
 """In microseconds, and the number of nodes that send first within it."""

@@ -16,6 +16,8 @@ from verification.sampling import least_p, welch_p
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+pytestmark = pytest.mark.verify
+
 CASES = [
     *((2, 1), (3, 1), (5, 1), (10, 1), (20, 1), (30, 1), (50, 1)),
     *((5, 10), (10, 10), (20, 10), (30, 10), (50, 10)),

@@ -24,6 +24,8 @@ from verification.sampling import least_p, weakest, welch_p
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+pytestmark = pytest.mark.verify
+
 STATIONS = (1, 2, 5, 10, 20, 30)
 SEEDS = range(8)
 MEASURED_S = 20.0

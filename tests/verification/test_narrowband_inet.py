@@ -26,6 +26,8 @@ from verification.sampling import fisher_p, least_p, weakest, welch_p
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+pytestmark = pytest.mark.verify
+
 CASES = {"General": "noise", "Threshold": "SNIR threshold", "LessNoise": "sensitivity"}
 """What decides."""
 FRAMES = 20_000

@@ -6,12 +6,16 @@ from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING
 
+import pytest
+
 from verification.finding import Finding
 from verification.reference_data import rows
 from verification.reference_run import run_reference, tracked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+pytestmark = pytest.mark.verify
 
 MEASURED_S = 4.0
 SEEDS = range(5)

@@ -6,6 +6,8 @@ from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING
 
+import pytest
+
 from verification.finding import Finding
 from verification.reference_data import rows
 from verification.reference_run import run_reference, tracked
@@ -13,6 +15,8 @@ from verification.sampling import least_p, weakest, welch_p
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+pytestmark = pytest.mark.verify
 
 SEEDS = range(5)
 ALIKE = ("ArfOnce", "AarfOnce", "ArfTimer")

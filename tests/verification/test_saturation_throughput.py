@@ -7,6 +7,8 @@ from pathlib import Path
 from statistics import fmean
 from typing import TYPE_CHECKING
 
+import pytest
+
 from verification.bianchi import Timing, throughput_bps
 from verification.finding import Finding
 from verification.reference_data import rows
@@ -14,6 +16,8 @@ from verification.reference_run import run_reference, tracked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+pytestmark = pytest.mark.verify
 
 MEASURED_S = 4.0
 PAYLOAD_BITS = 8000
