@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include "netsim/node/network.hpp"
 #include "proxy_protocol/bindings.hpp"
@@ -147,6 +148,7 @@ void bind_network(py::module_& module) {
                                  [callback = std::move(callback)] { callback(); });
             },
             py::arg("time"), py::arg("callback"))
+        .def("record", &Network::record, py::arg("recorded"), py::return_value_policy::reference_internal)
         .def("finish", &Network::finish)
         .def("release_protocols", &Network::release_protocols)
         .def_property_readonly("now", [](const Network& network) { return network.now().seconds(); })

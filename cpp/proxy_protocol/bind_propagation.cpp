@@ -30,7 +30,7 @@ double gain(const Propagation& propagation, const std::array<double, 3>& from_po
             const std::array<double, 3>& to_position, double carrier_hz, NodeId from_node, NodeId to_node,
             double time, std::uint64_t transmission) {
     Transmission sent;
-    sent.id = transmission;
+    sent.label.number = transmission;
     sent.sender.node = from_node;
     sent.start = SimTime::from_seconds(time);
     sent.band.carrier_hz = carrier_hz;

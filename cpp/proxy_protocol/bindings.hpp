@@ -12,6 +12,7 @@ void bind_link_budget(pybind11::module_& module);
 void bind_random(pybind11::module_& module);
 void bind_native_protocols(pybind11::module_& module);
 void bind_node(pybind11::module_& module);
+void bind_replay(pybind11::module_& module);
 void bind_network(pybind11::module_& module);
 
 }  // namespace proxy_protocol

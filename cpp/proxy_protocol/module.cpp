@@ -15,5 +15,6 @@ PYBIND11_MODULE(_netsim, module) {
     proxy_protocol::bind_random(module);
     proxy_protocol::bind_native_protocols(module);
     proxy_protocol::bind_node(module);
+    proxy_protocol::bind_replay(module);
     proxy_protocol::bind_network(module);
 }

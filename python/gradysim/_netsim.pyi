@@ -227,13 +227,13 @@ class Node:
         """What a native protocol tracks; those of a protocol in Python are its provider's."""
     def observe(
         self,
-        on_telemetry: Callable[[int, float, float, float], object],
-        on_variable: Callable[[int, str, bool | int | float | str], object],
+        on_telemetry: Callable[[int, float, float, float], object] | None,
+        on_variable: Callable[[str, bool | int | float | str], object],
     ) -> None:
         """Have somebody told what the node does, from now on.
 
         `on_telemetry(time_ps, x, y, z)`, in picoseconds and metres, is called before the protocol gets that
-        telemetry, `on_variable(time_ps, name, value)` when a native protocol sets a tracked variable.
+        telemetry, `on_variable(name, value)` when a native protocol sets a tracked variable.
         """
     def send_communication_command(self, command: Any) -> None: ...
     def send_mobility_command(self, command: Any) -> None: ...
@@ -243,6 +243,20 @@ class Node:
     def current_time_ps(self) -> int:
         """Return the simulated time, whole: float seconds do not tell all picoseconds apart."""
     def get_id(self) -> int: ...
+
+class ReplayRecorder:
+    """Records what happens in a network; see `gradysim.replay.tables`."""
+
+    def sample_path(self, node: int) -> None:
+        """Record where the node is every 0.2 s, not each of its legs."""
+    def variable_set(self, node: int, name: str, value: bool | int | float | str) -> None: ...
+    def event(self, node: int, kind: int, text: str) -> None:
+        """Record an event of a kind of `EVENT_KINDS`, by number."""
+    def close_chunk(self) -> None: ...
+    def finish(self) -> None:
+        """Close the last chunk, with the frames that are on the air."""
+    def take(self) -> list[dict[str, Any]]:
+        """Give the chunks that are closed, as fields of `RawChunk`."""
 
 class Network:
     def __init__(self, medium: MediumConfig, seed: int) -> None: ...
@@ -255,6 +269,8 @@ class Network:
         """
     def close_captures(self) -> None:
         """Complete the capture files; `finish` does it, too. SimulationError if one could not be written."""
+    def record(self, recorded: list[int]) -> ReplayRecorder:
+        """Record the run from now on: the paths of all nodes, all that happens at the `recorded` ones."""
     def initialize(self) -> None: ...
     def run_until(self, time: float, max_events: int = ...) -> bool:
         """Run the events up to and including `time` (seconds). False when `max_events` came first."""

@@ -25,7 +25,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
     radio_.stop_watching_channel();
 }
 
-void CsmaCa802154::send(NodeId destination, Payload payload) {
+void CsmaCa802154::send(NodeId destination, Payload payload, CauseId cause) {
     if (payload->size() > longest_message_bytes()) {
         throw SimulationError(
             "a message of " + std::to_string(payload->size()) + " bytes does not fit: the longest is " +
@@ -34,6 +34,7 @@ void CsmaCa802154::send(NodeId destination, Payload payload) {
     }
     const int psdu_bytes = narrowband_psdu_bytes(static_cast<int>(payload->size()));
     Frame frame = queue_.frame_of(destination, std::move(payload), psdu_bytes, simulator_.now());
+    frame.cause = cause;
     if (destination != broadcast_id && config_.use_acks) {
         frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
     }

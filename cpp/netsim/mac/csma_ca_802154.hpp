@@ -50,7 +50,7 @@ public:
     CsmaCa802154(const CsmaCa802154&) = delete;
     CsmaCa802154& operator=(const CsmaCa802154&) = delete;
 
-    void send(NodeId destination, Payload payload) override;
+    void send(NodeId destination, Payload payload, CauseId cause) override;
     void prefetch(int step) const override {
         if (step == 0) {
             netsim::prefetch(*this);

@@ -24,7 +24,7 @@ Dcf::Dcf(Radio& radio, std::shared_ptr<const DcfParameters> parameters, std::uin
     radio_.remember_channel(parameters_.longest_wait);
 }
 
-void Dcf::send(NodeId destination, Payload payload) {
+void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
     if (payload->size() > longest_message_bytes()) {
         throw SimulationError(
             "a message of " + std::to_string(payload->size()) + " bytes does not fit: the longest is " +
@@ -33,6 +33,7 @@ void Dcf::send(NodeId destination, Payload payload) {
     }
     const int psdu_bytes = data_psdu_bytes(static_cast<int>(payload->size()));
     Frame frame = queue_.frame_of(destination, std::move(payload), psdu_bytes, simulator().now());
+    frame.cause = cause;
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }

@@ -50,7 +50,7 @@ public:
     Dcf(const Dcf&) = delete;
     Dcf& operator=(const Dcf&) = delete;
 
-    void send(NodeId destination, Payload payload) override;
+    void send(NodeId destination, Payload payload, CauseId cause) override;
     void prefetch(int step) const override {
         if (step == 0) {
             prefetch_before(*this, nav_sequence_number_);

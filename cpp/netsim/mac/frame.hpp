@@ -40,6 +40,9 @@ constexpr int datagram_bytes(int payload_bytes) {
     return ipv4_header_bytes + udp_header_bytes + payload_bytes;
 }
 
+// What made a node send a message: a callback of its protocol, as a recorder numbers them; 0: not recorded.
+using CauseId = std::uint32_t;
+
 struct Frame {
     FrameKind kind = FrameKind::broadcast;
     NodeId transmitter = 0;
@@ -50,7 +53,8 @@ struct Frame {
     SimTime duration_field{};  // NOLINT(readability-redundant-member-init): g++ asks for it
     int psdu_bytes = 0;
     Payload payload;   // of data frames only
-    SimTime accepted;  // of data frames only: when the interface accepted the message
+    CauseId cause = 0;  // of data frames only
+    SimTime accepted;   // of data frames only: when the interface accepted the message
 };
 
 // Of the message in a data frame.

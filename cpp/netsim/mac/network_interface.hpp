@@ -31,7 +31,7 @@ public:
     void set_listener(NetworkInterfaceListener* listener) { listener_ = listener; }
     // Accepts a message for `destination` (broadcast_id: for all nodes in reach). Throws
     // SimulationError if it is longer than longest_message_bytes().
-    virtual void send(NodeId destination, Payload payload) = 0;
+    virtual void send(NodeId destination, Payload payload, CauseId cause) = 0;
     virtual std::size_t longest_message_bytes() const = 0;
     // A message will probably be sent soon: prefetches what that reads (kernel/prefetch.hpp). The
     // first line of the interface is already in the cache. Step 0 prefetches what it points to,

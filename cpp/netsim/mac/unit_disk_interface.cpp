@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "netsim/error.hpp"
+#include "netsim/propagation/transmission.hpp"
 
 namespace netsim {
 
@@ -23,18 +24,20 @@ UnitDiskInterface::UnitDiskInterface(Simulator& simulator, UnitDiskChannel& chan
     }
 }
 
-void UnitDiskInterface::send(NodeId destination, Payload payload) {
+void UnitDiskInterface::send(NodeId destination, Payload payload, CauseId cause) {
     if (sent_.exceeds(simulator_.now())) {
         throw SimulationError("node " + std::to_string(id_) + " has sent " + std::to_string(max_per_instant) +
                               " messages at " + std::to_string(simulator_.now().seconds()) +
                               " s on a medium without delay: time stands still; expected answers that end");
     }
     const bool broadcast = destination == broadcast_id;
-    const FrameLabel label{broadcast ? FrameKind::broadcast : FrameKind::unicast, destination};
+    const FrameLabel label{broadcast ? FrameKind::broadcast : FrameKind::unicast, destination,
+                           channel_.frame_count++};
     const auto frame = std::make_shared<const Frame>(Frame{.kind = label.kind,
                                                            .transmitter = id_,
                                                            .receiver = destination,
                                                            .payload = std::move(payload),
+                                                           .cause = cause,
                                                            .accepted = simulator_.now()});
     const MessageKind kind = message_kind(*frame);
     message_fates_.accept(kind);
@@ -58,8 +61,16 @@ void UnitDiskInterface::send(NodeId destination, Payload payload) {
             flight = free_flights_.back();
             free_flights_.pop_back();
         }
-        flights_[flight] = Flight{frame, receiver};
+        flights_[flight] = Flight{frame, label.number, receiver};
         simulator_.schedule_after(SimTime{}, [this, flight] { deliver(flight); });
+    }
+    if (FrameObserver* const observer = frame_fates_.observer(); observer != nullptr) {
+        Transmission transmission;
+        transmission.start = simulator_.now();
+        transmission.sender = {id_, 0};
+        transmission.label = label;
+        transmission.frame = frame;
+        observer->frame_begins(transmission, addressed.made - addressed.too_weak, addressed.too_weak);
     }
     frame_fates_.book_transmission(label, addressed, CopyCount{});
     if (broadcast) {
@@ -80,7 +91,7 @@ bool UnitDiskInterface::reaches(const UnitDiskInterface& other) const {
 void UnitDiskInterface::deliver(std::size_t flight) {
     const Flight landed = std::move(flights_[flight]);
     free_flights_.push_back(flight);
-    frame_fates_.book(landed.receiver->id_, {landed.frame->kind, landed.frame->receiver},
+    frame_fates_.book(landed.receiver->id_, {landed.frame->kind, landed.frame->receiver, landed.number},
                       FrameFate::delivered);
     landed.receiver->pass_on_message(*landed.frame);
 }

@@ -27,6 +27,7 @@ class UnitDiskInterface;
 // The first interface of each node of one network, by node id.
 struct UnitDiskChannel {
     std::vector<UnitDiskInterface*> interfaces;
+    FrameNumber frame_count = 0;
 };
 
 class UnitDiskInterface final : public NetworkInterface {
@@ -37,7 +38,7 @@ public:
     UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 
     // Also throws SimulationError if messages answer each other endlessly at one instant.
-    void send(NodeId destination, Payload payload) override;
+    void send(NodeId destination, Payload payload, CauseId cause) override;
     void prefetch(int /*step*/) const override { netsim::prefetch(*this); }
     std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
     const MessageFates& message_fates() const override { return message_fates_; }
@@ -59,6 +60,7 @@ private:
 
     struct Flight {  // a message between its sending and its delivery within the same instant
         std::shared_ptr<const Frame> frame;
+        FrameNumber number = 0;
         UnitDiskInterface* receiver = nullptr;
     };
     std::vector<Flight> flights_;

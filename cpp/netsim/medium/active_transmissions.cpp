@@ -14,7 +14,7 @@ ActiveTransmission& ActiveTransmissions::put(Transmission transmission, SimTime 
     spare_.pop_back();
     ActiveTransmission& entry = *entries_.back();
     entry.transmission = std::move(transmission);
-    entry.transmission.id = next_id_++;
+    entry.transmission.label.number = next_id_++;
     entry.transmission.start = now;
     entry.transmission.origin = links_.position(entry.transmission.radio, now);
     entry.last_end = now;
@@ -59,7 +59,7 @@ void ActiveTransmissions::find_concurrent(const ActiveTransmission& newest,
     std::size_t count = 0;
     for (const std::unique_ptr<ActiveTransmission>& other : entries_) {
         concurrent[count] = other.get();
-        count += static_cast<std::size_t>(other->transmission.id < newest.transmission.id) &
+        count += static_cast<std::size_t>(other->transmission.id() < newest.transmission.id()) &
                  static_cast<std::size_t>(other->last_end > newest.transmission.start);
     }
     concurrent.resize(count);

@@ -81,7 +81,7 @@ public:
     const std::vector<std::unique_ptr<ActiveTransmission>>& entries() const { return entries_; }
     // Ids count up from 0 in the order of starts. The entries have the ids from first_id() to
     // next_id() - 1.
-    std::uint64_t first_id() const { return entries_.front()->transmission.id; }
+    std::uint64_t first_id() const { return entries_.front()->transmission.id(); }
     std::uint64_t next_id() const { return next_id_; }
     ActiveTransmission& of_id(std::uint64_t id) const { return *entries_[id - first_id()]; }
     // Writes to `concurrent` those that began before `newest` and are not over everywhere when it

@@ -253,7 +253,7 @@ void CumulativeEnergyDetection::add_to_timeline(EnergyTimeline& timeline, RadioI
     if (has_ended(active, arrival, radio)) {
         return;
     }
-    const EnergyTimeline::Signal signal{sent.id, arrival.start, arrival.end, arrival.power_w};
+    const EnergyTimeline::Signal signal{sent.id(), arrival.start, arrival.end, arrival.power_w};
     const bool exceeds_ed_alone = links_.receiver(radio).exceeds_ed(arrival.power_w);
     if (arrival.lockable || exceeds_ed_alone) {
         timeline.add_reported(

@@ -73,7 +73,14 @@ void Medium::notify_all(ActiveTransmission& entry) {
         entry.last_end = std::max(entry.last_end, arrival.end);
         notify(radio, entry, arrival);
     }
+    tell_observer(sent, {addressed.made + overheard.made, addressed.too_weak + overheard.too_weak});
     fates_.book_transmission(sent.label, addressed, overheard);
+}
+
+void Medium::tell_observer(const Transmission& sent, CopyCount copies) const {
+    if (FrameObserver* const observer = fates_.observer(); observer != nullptr) {
+        observer->frame_begins(sent, copies.made - copies.too_weak, copies.too_weak);
+    }
 }
 
 void Medium::find_all_receivers(ActiveTransmission& entry) {
@@ -180,6 +187,7 @@ void Medium::partition(std::span<const NeighborSearch::Neighbor> near, const Tra
 
 void Medium::book_copies(const ActiveTransmission& entry, CopyCount copies) {
     const FrameLabel label = entry.transmission.label;
+    tell_observer(entry.transmission, copies);
     if (label.destination == broadcast_id) {
         fates_.book_transmission(label, copies, {});
         return;

@@ -107,6 +107,7 @@ private:
     // known of each.
     void partition(std::span<const NeighborSearch::Neighbor> near, const Transmission& sent,
                    double noticed_m);
+    void tell_observer(const Transmission& sent, CopyCount copies) const;
     void book_copies(const ActiveTransmission& entry, CopyCount copies);
     void prefetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(ActiveTransmission& entry);

@@ -54,7 +54,6 @@ public:
     // a time.
     void set_listener(CourseListener& listener) const { listener_ = &listener; }
 
-private:
     // The members that position_on reads come first: one cache line.
     struct Leg {
         SimTime start;
@@ -63,7 +62,9 @@ private:
         Position origin;
         Position course;  // from the origin to the target; the previous course if they are equal
     };
+    const Leg& newest_leg() const { return current_; }
 
+private:
     static Position position_on(const Leg& leg, SimTime time) {
         if (time >= leg.arrival) {
             return leg.target;

@@ -200,6 +200,20 @@ void Network::close_captures() {
     }
 }
 
+ReplayRecorder& Network::record(const std::vector<NodeId>& recorded) {
+    std::vector<bool> is_recorded(nodes_.size());
+    for (const NodeId id : recorded) {
+        is_recorded[place_of(id)] = true;
+    }
+    recorder_ = std::make_unique<ReplayRecorder>(simulator_);
+    for (const Node& node : nodes_) {
+        recorder_->add_node(node.trajectory(), is_recorded[place_of(node.id())]);
+    }
+    context_.recorder = recorder_.get();
+    frame_fates_.set_observer(recorder_.get());
+    return *recorder_;
+}
+
 std::size_t Network::place_of(NodeId node) const {
     if (node < 0 || node >= node_count()) {
         throw SimulationError("there is no node " + std::to_string(node) + ": there are " +

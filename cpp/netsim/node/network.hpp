@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/node_config.hpp"
@@ -23,6 +24,7 @@
 #include "netsim/node/network_context.hpp"
 #include "netsim/node/node.hpp"
 #include "netsim/node/radio_capture.hpp"
+#include "netsim/node/replay_recorder.hpp"
 #include "netsim/node/scheduled_calls.hpp"
 #include "netsim/node/shared_models.hpp"
 #include "netsim/node/telemetry_clock.hpp"
@@ -56,6 +58,11 @@ public:
     // Completes the capture files. Throws SimulationError, after all are closed, if one could not
     // be written.
     void close_captures();
+
+    // Records the run from now on, for a replay: the paths of all nodes, and all that happens at the
+    // `recorded` ones. To be called when all nodes exist, before initialize(). Throws SimulationError
+    // for an id without a node.
+    ReplayRecorder& record(const std::vector<NodeId>& recorded);
 
     // Calls the protocols' initialize at time 0, in the order of ids. Throws the errors of their
     // check before that, and SimulationError at the second call.
@@ -121,6 +128,7 @@ private:
     std::deque<LinkType> link_types_;                // of the radios
     std::map<double, std::string> interface_types_;  // {center frequency in Hz: type of the interfaces there}
     std::map<InterfaceId, RadioCapture> captures_;
+    std::unique_ptr<ReplayRecorder> recorder_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
     ScheduledCalls scheduled_calls_{simulator_};

@@ -12,6 +12,8 @@
 
 namespace netsim {
 
+class ReplayRecorder;  // node/replay_recorder.hpp
+
 struct NetworkContext {
     Simulator& simulator;
     Fingerprint& fingerprint;
@@ -19,6 +21,7 @@ struct NetworkContext {
     MessageDelays message_delays{};
     PayloadPadding padding{};
     std::int32_t node_count = 0;
+    ReplayRecorder* recorder = nullptr;  // if the run is recorded
 };
 
 }  // namespace netsim

@@ -5,6 +5,7 @@
 #include "netsim/error.hpp"
 #include "netsim/kernel/prefetch.hpp"
 #include "netsim/node/protocol_error.hpp"
+#include "netsim/node/replay_recorder.hpp"
 
 namespace netsim {
 
@@ -42,6 +43,9 @@ void Node::set_protocol(std::unique_ptr<Protocol> protocol) {
 template <typename Call>
 void Node::call_protocol(const char* callback, const Call& call) {
     if (protocol_) {
+        if (context_.recorder != nullptr) {
+            context_.recorder->callback_begins(callback);
+        }
         call_of_protocol(callback, id_, now(), [&] { call(*protocol_); });
     }
 }
@@ -51,13 +55,14 @@ void Node::send_through(std::int32_t interface, NodeId destination, Payload payl
     if (!payload) {
         throw SimulationError("node " + std::to_string(id_) + " cannot send nothing: the payload is null");
     }
-    through.send(destination, std::move(payload));
+    through.send(destination, std::move(payload),
+                 context_.recorder == nullptr ? 0 : context_.recorder->cause());
 }
 
 void Node::observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable) {
     on_telemetry_ = std::move(on_telemetry);
     tracked_variables_.observe(std::move(on_variable));
-    observed_ = true;
+    observed_ = on_telemetry_ != nullptr;
 }
 
 void Node::check_protocol() const {
@@ -99,6 +104,25 @@ void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
         throw SimulationError("node " + std::to_string(id_) + " cannot send a message to itself");
     }
     send_through(interface, destination, std::move(payload));
+}
+
+void Node::go_to(Position target) {
+    mobility_->go_to(now(), target);
+    if (context_.recorder != nullptr) {
+        context_.recorder->course_changed(id_);
+        context_.recorder->event(
+            id_, ReplayRecorder::EventKind::command,
+            "go to " + text_of(target.x) + ", " + text_of(target.y) + ", " + text_of(target.z) + " m");
+    }
+}
+
+void Node::set_speed(double speed_mps) {
+    mobility_->set_speed(now(), speed_mps);
+    if (context_.recorder != nullptr) {
+        context_.recorder->course_changed(id_);
+        context_.recorder->event(id_, ReplayRecorder::EventKind::command,
+                                 "fly at " + text_of(speed_mps) + " m/s");
+    }
 }
 
 void Node::schedule_timer(std::string timer, SimTime time) {
@@ -148,7 +172,12 @@ void Node::timer_due(std::size_t number) {
     fingerprint.add(timer_word ^ static_cast<std::uint64_t>(id_));
     fingerprint.add(static_cast<std::uint64_t>(now().ps()));
     fingerprint.add_text(timer);
-    call_protocol("handle_timer", [&timer](Protocol& protocol) { protocol.handle_timer(timer); });
+    call_protocol("handle_timer", [&](Protocol& protocol) {
+        if (context_.recorder != nullptr) {
+            context_.recorder->timer_due(id_, timer);
+        }
+        protocol.handle_timer(timer);
+    });
 }
 
 void Node::report_position() {

@@ -42,7 +42,7 @@ public:
     const std::vector<std::unique_ptr<NetworkInterface>>& interfaces() const { return interfaces_; }
 
     // Sets callbacks for each telemetry, called before the protocol, and for the tracked variables
-    // of a native protocol.
+    // of a native protocol. Either may be null.
     using OnTelemetry = std::function<void(const Position& position)>;
     void observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable);
 
@@ -62,8 +62,8 @@ public:
     // Through wlan[interface].
     void broadcast(Payload payload, std::int32_t interface = 0);
     void send(NodeId destination, Payload payload, std::int32_t interface = 0);
-    void go_to(Position target) { mobility_->go_to(now(), target); }
-    void set_speed(double speed_mps) { mobility_->set_speed(now(), speed_mps); }
+    void go_to(Position target);
+    void set_speed(double speed_mps);
     // At `time`, not before now. The same name may be pending several times. An endless loop at one
     // instant is an error.
     void schedule_timer(std::string timer, SimTime time);

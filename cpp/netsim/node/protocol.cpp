@@ -2,6 +2,7 @@
 
 #include "netsim/node/network_context.hpp"
 #include "netsim/node/protocol_error.hpp"
+#include "netsim/node/replay_recorder.hpp"
 
 namespace netsim {
 
@@ -17,6 +18,9 @@ void Protocol::message_received(const Frame& frame) {
     context_->fingerprint.add(packet_word ^ (static_cast<std::uint64_t>(frame.transmitter) << 40) ^
                               static_cast<std::uint64_t>(node_));
     context_->fingerprint.add(context_->payload_hash.of(frame.payload));
+    if (context_->recorder != nullptr) {
+        context_->recorder->callback_begins("handle_packet");
+    }
     call_of_protocol("handle_packet", node_, now, [&] { handle_packet(frame.payload); });
 }
 

@@ -50,10 +50,10 @@ public:
         }
         // Usually at the end.
         const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
-            return id < other.transmission->id;
+            return id < other.transmission->id();
         };
         std::vector<PresentArrival>& all = content_.several->arrivals;
-        all.insert(std::upper_bound(all.begin(), all.end(), arrival.transmission->id, is_later), arrival);
+        all.insert(std::upper_bound(all.begin(), all.end(), arrival.transmission->id(), is_later), arrival);
     }
 
     // Removes the arrival of `transmission`, which must be present, and not locked on to.

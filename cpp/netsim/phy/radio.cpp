@@ -191,22 +191,19 @@ void Radio::end_report() {
 
 void Radio::end_reception(const Arrival& arrival) {
     const Transmission& transmission = *arrival.transmission;
-    const std::vector<NodeId>* interferers = nullptr;
+    InterferenceSum* interference = nullptr;
     const FrameFate fate =
-        model_.by_chunks ? decide_data(arrival, interferers) : decide_at_once(arrival, interferers);
+        model_.by_chunks ? decide_data(arrival, interference) : decide_at_once(arrival, interference);
     const bool decoded = fate == FrameFate::delivered;
     add_to_fingerprint(transmission, fate);
     if (is_observed_) {
         observer_->received(arrival, model_.reception.noise_w, decoded);
     }
-    if (interferers != nullptr) {
-        medium().fates().book_interference(node(), transmission.label, *interferers);
-    } else {
-        book(transmission, fate);
-    }
     if (decoded) {
+        book(transmission, fate);
         listener_->frame_received(transmission);
     } else {
+        book_loss(arrival, fate, interference);
         others_are_weak_ = model_.reception.noise_w + medium().max_interference_w(arrival) <
                            model_.energy_detection_w * (1 - 1e-6);
         listener_->frame_corrupted();
@@ -215,7 +212,7 @@ void Radio::end_reception(const Arrival& arrival) {
 
 // One draw decides both cases, with interference and without. A frame counts as lost to noise if
 // the same draw would have lost it without interference.
-FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
+FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause) {
     // In a large network, some transmission is always on the air, usually far away. Then a bound
     // suffices, without the sum of interference, and usually without the draw.
     const double min_success = model_.reception.min_success(arrival, medium().max_interference_w(arrival));
@@ -236,13 +233,13 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, const std::vector<NodeId
         return FrameFate::delivered;
     }
     if (interference_w > 0 && model_.reception.survives(draw, arrival, 0)) {
-        interferers = &interference.interferers();
+        cause = &interference;
         return FrameFate::interference;
     }
     return FrameFate::noise;
 }
 
-FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers) {
+FrameFate Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
     if (simulator().cancel(header_end_) && !header_survives()) {
         return FrameFate::header_error;  // the frame ends with its header
     }
@@ -252,7 +249,7 @@ FrameFate Radio::decide_data(const Arrival& arrival, const std::vector<NodeId>*&
         return FrameFate::delivered;
     }
     if (draw < model_.reception.success_undisturbed(FramePart::data, arrival)) {
-        interferers = &interference.interferers();
+        cause = &interference;
         return FrameFate::interference;
     }
     return FrameFate::noise;
@@ -265,12 +262,30 @@ bool Radio::header_survives() {
 }
 
 void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
-    medium().fingerprint().add((transmission.id << 8) ^ static_cast<std::uint64_t>(fate));
+    medium().fingerprint().add((transmission.id() << 8) ^ static_cast<std::uint64_t>(fate));
     medium().fingerprint().add(std::uint64_t{stream_});
 }
 
 void Radio::book(const Transmission& transmission, FrameFate fate) {
     medium().fates().book(node(), transmission.label, fate);
+}
+
+void Radio::book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference) {
+    const Transmission& lost = *arrival.transmission;
+    FrameFates& fates = medium().fates();
+    if (FrameObserver* const observer = fates.observer(); observer != nullptr) {
+        FrameObserver::Loss loss{.power_w = arrival.power_w};
+        if (interference != nullptr) {
+            loss.interference_w = interference->worst_w();
+            loss.interferers = interference->interferers();
+        }
+        observer->frame_lost(lost.id(), node(), loss);
+    }
+    if (interference != nullptr) {
+        fates.book_interference(node(), lost.label, interference->interferers());
+    } else {
+        book(lost, fate);
+    }
 }
 
 void Radio::update_busy() {

@@ -154,9 +154,10 @@ private:
     void end_reception(const Arrival& arrival);
     void end_report();
     double draw() { return RandomStream(model_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
-    // Both draw a random number, and set `interferers` only if interference is the cause.
-    FrameFate decide_at_once(const Arrival& arrival, const std::vector<NodeId>*& interferers);
-    FrameFate decide_data(const Arrival& arrival, const std::vector<NodeId>*& interferers);
+    // Both draw a random number, and set `cause` only if interference is the cause.
+    FrameFate decide_at_once(const Arrival& arrival, InterferenceSum*& cause);
+    FrameFate decide_data(const Arrival& arrival, InterferenceSum*& cause);
+    void book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
     bool header_survives();
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
         return medium().interference_with(id_, arrival, period.start, period.end);

@@ -16,7 +16,7 @@ double Propagation::other_gain(const Transmission& sent, InterfaceId receiver, c
     // Every factor of the gain is here. The constructor multiplies their largest values; that of
     // obstacles is 1.
     const double gain =
-        of_path * fading_.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id, least / of_path);
+        of_path * fading_.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id(), least / of_path);
     return obstacles_.empty() ? gain : gain * obstacles_.gain(sent.origin, place, sent.band.carrier_hz);
 }
 

@@ -54,13 +54,13 @@ struct Transmission {
     Band band;
     RadioId radio = 0;  // the sender's
     InterfaceId sender;
-    std::uint64_t id = 0;  // 0, 1, 2, … in the order of starting
     FrameLabel label;
     PpduFormat format = PpduFormat::erp_ofdm;
     int psdu_bytes = 0;
     const Mode* mode = nullptr;
     std::shared_ptr<const Frame> frame;
 
+    FrameNumber id() const { return label.number; }
     // Whether a receiver can decode it that listens to that band and knows those formats.
     bool can_be_decoded(const Band& listener, PpduFormats known) const {
         return known.contains(format) && band.fits_in(listener);

@@ -12,6 +12,9 @@ void FrameFates::book(NodeId receiver, FrameLabel label, FrameFate fate) {
         column.resize(interferers_.node_count());
     }
     ++column[receiver];
+    if (observer_ != nullptr) {
+        observer_->reception_ends(label.number, receiver, fate);
+    }
 }
 
 void FrameFates::book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers) {

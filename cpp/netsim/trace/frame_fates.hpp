@@ -16,6 +16,7 @@
 #include "netsim/kernel/prefetch.hpp"
 #include "netsim/node_id.hpp"
 #include "netsim/trace/frame_label.hpp"
+#include "netsim/trace/frame_observer.hpp"
 #include "netsim/trace/interferers.hpp"
 
 namespace netsim {
@@ -49,6 +50,10 @@ public:
     using Counts = std::array<std::uint64_t, frame_fate_count>;
 
     void add_node() { interferers_.add_node(); }
+
+    // Of every frame from now on; none if null.
+    void set_observer(FrameObserver* observer) { observer_ = observer; }
+    FrameObserver* observer() const { return observer_; }
 
     // One copy of `label`'s frame ended at `receiver`.
     void book(NodeId receiver, FrameLabel label, FrameFate fate);
@@ -95,6 +100,7 @@ private:
     // [kind][fate]. Each copy adds to one number, usually `delivered`, and a cache line has eight
     // of them. A column without counts is empty.
     std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
+    FrameObserver* observer_ = nullptr;
     Interferers interferers_;
     std::array<std::uint64_t, frame_kind_count> frames_{};
     std::array<Book, frame_kind_count> addressed_{};

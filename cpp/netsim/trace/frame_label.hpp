@@ -1,4 +1,4 @@
-// The kind and the destination of a frame, for the ledger. Part of its transmission.
+// The kind, the destination and the number of a frame, for the ledger. Part of its transmission.
 #pragma once
 
 #include <array>
@@ -14,9 +14,13 @@ constexpr std::size_t frame_kind_count = 5;
 constexpr std::array<const char*, frame_kind_count> frame_kind_names{"broadcast", "unicast", "ack", "rts",
                                                                      "cts"};
 
+// Frames on the air are numbered 0, 1, 2, … in the order of starting.
+using FrameNumber = std::uint64_t;
+
 struct FrameLabel {
     FrameKind kind = FrameKind::broadcast;
     NodeId destination = broadcast_id;
+    FrameNumber number = 0;  // given when it begins
 
     bool is_for(NodeId node) const { return destination == node || destination == broadcast_id; }
 };

@@ -2,6 +2,7 @@
 
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim check FILE.ini [-c CONFIG]
+    gradysim view FILE.ini|FILE.html...
     gradysim runs FILE.ini [-c CONFIG]
     gradysim means DIR [QUANTITY...] [--csv]
     gradysim keys [PATTERN] [--markdown]
@@ -27,6 +28,7 @@ from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
+from gradysim.cli.view import view
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -61,6 +63,7 @@ app = App(
 )
 app.command(run)
 app.command(check_file, name="check")
+app.command(view)
 app.command(list_runs, name="runs")
 app.command(print_means, name="means")
 app.command(list_keys, name="keys")

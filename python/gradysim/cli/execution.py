@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol, TextIO
 
 from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure
 from gradysim.cli.options import RunOptions
-from gradysim.cli.output import captures, ids_of_fates, nodes_of_vectors
+from gradysim.cli.output import captures, ids_of_fates, nodes_of_vectors, replay_writer
 from gradysim.cli.progress import RunProgress, waiting
 from gradysim.cli.runner import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
@@ -161,7 +161,9 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
 
         def build_prototype(scenario: "Scenario") -> "Run":
             return PrototypeRun(
-                scenario, vectors_of=[node.id for node in nodes_of_vectors(scenario, options)]
+                scenario,
+                vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
+                replay=replay_writer(scenario, options),
             )
 
         return check_all, build_prototype
@@ -179,6 +181,7 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
             captures(scenario, options),
             fates_at=ids_of_fates(scenario, options),
             vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
+            replay=replay_writer(scenario, options),
         )
 
     return check, build
@@ -200,5 +203,6 @@ def check_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
         ("--pcap", options.pcap),
         ("--fates-at", options.fates_at),
         ("--vectors", options.vectors),
+        ("--replay", options.replay),
     ):
         check_node_names(scenarios, names, option)

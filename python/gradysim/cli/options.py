@@ -67,7 +67,7 @@ class RunOptions:
 
     resume: Flag = False
     """Leave out runs whose file in --result-dir is complete and of the same settings, seed and files
-    (protocols, obstacles), with what --scalars, --vectors, --pcap and --fates-at ask for."""
+    (protocols, obstacles), with what --scalars, --vectors, --pcap, --replay and --fates-at ask for."""
 
     jobs: Annotated[Integer, Parameter(alias="-j")] = 1
     """How many runs at once."""
@@ -84,6 +84,10 @@ class RunOptions:
     """NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap (that of
     its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a group (uavs),
     or all."""
+
+    replay: NodeNames = ()
+    """NODE...: write what happens at these nodes to DIR/CONFIG-#RUN.MODE.html, DIR as above,
+    a page that any browser shows. A node (uavs[0]), a group (uavs), or all."""
 
     fates_at: NodeNames = ()
     """NODE...: report what became of the frames that reached these nodes, who interfered, and what became of
@@ -103,4 +107,29 @@ class RunOptions:
     @property
     def writes_files(self) -> bool:
         """Whether the directory has to exist before the runs; captures make it themselves."""
-        return self.result_dir is not None or self.scalars or bool(self.vectors)
+        return self.result_dir is not None or self.scalars or bool(self.vectors) or bool(self.replay)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class ViewOptions:
+    """Options of `gradysim view`."""
+
+    config: ConfigOption = "General"
+
+    run: Annotated[Integer, Parameter(alias="-r")] = 0
+    """Number of the run."""
+
+    mode: Mode = "integrated"
+    """As of `gradysim run`."""
+
+    settings: SetOption = ()
+
+    seed: Integer | None = None
+    """As of `gradysim run`."""
+
+    port: Integer = 0
+    """Of the server on 127.0.0.1; 0 for a free one."""
+
+    browser: Annotated[bool, Parameter(negative="--no-browser", show_default=False)] = True
+    """Open the page. Otherwise only its address is printed."""

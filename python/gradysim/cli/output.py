@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from gradysim.cli.options import Mode, RunOptions
 
 if TYPE_CHECKING:
+    from gradysim.replay.sink import ReplaySink
     from gradysim.results.result import RunResult
     from gradysim.scenario.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
@@ -30,6 +31,26 @@ def nodes_of_vectors(scenario: "Scenario", options: RunOptions) -> "list[NodeSpe
     from gradysim.scenario.scenario import nodes_named
 
     return nodes_named(scenario, options.vectors)
+
+
+def replay_file(scenario: "Scenario", options: RunOptions) -> Path:
+    """Return the page of a run's replay."""
+    from gradysim.results.files import run_file
+
+    return run_file(options.directory, scenario.config, scenario.run_number, options.mode, ".html")
+
+
+def replay_writer(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
+    """Return what writes the replay of a run; None without --replay. Raises OSError if it cannot."""
+    if not options.replay:
+        return None
+    from gradysim.replay.sink import ReplayWriter
+    from gradysim.scenario.node_names import nodes_named
+
+    recorded = {node.id for node in nodes_named(scenario, options.replay)}
+    return ReplayWriter(
+        replay_file(scenario, options), None if len(recorded) == len(scenario.nodes) else recorded
+    )
 
 
 def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
@@ -57,7 +78,8 @@ def omnetpp_file(scenario: "Scenario", options: RunOptions, suffix: str) -> Path
 
 def files_beside_result(scenario: "Scenario", options: RunOptions) -> list[Path]:
     """Return all files of a run that are asked for, but for that of its result."""
-    return [*capture_files_of(scenario, options), *files_for_omnetpp(scenario, options)]
+    replays = [replay_file(scenario, options)] if options.replay else []
+    return [*capture_files_of(scenario, options), *replays, *files_for_omnetpp(scenario, options)]
 
 
 def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
@@ -121,6 +143,8 @@ def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
     from gradysim.results.files import run_file
 
     yield from capture_files_of(scenario, options)
+    if options.replay:
+        yield replay_file(scenario, options)
     complete = files_for_omnetpp(scenario, options)
     if options.result_dir is not None:
         complete.append(run_file(options.directory, scenario.config, scenario.run_number, options.mode))
@@ -148,6 +172,8 @@ def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) 
         yield from _write_for_omnetpp(scenario, result, options)
     for capture in capture_files_of(scenario, options):
         yield f"captured in {capture}"
+    if options.replay:
+        yield f"replay in {replay_file(scenario, options)}"
     if options.result_dir is not None and (others := files_beside_result(scenario, options)):
         write_run_file(result, options.result_dir, others)
 

@@ -25,12 +25,16 @@ from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
 from gradysim.integrated.real_time import RealTimeRun
+from gradysim.integrated.replay import EngineRecorder, VariableListener, ranges_m
 from gradysim.protocol.errors import NativeProtocolError, add_protocol_note
 from gradysim.protocol.interface import IProtocol
+from gradysim.replay.chunk import RawChunk
+from gradysim.replay.description import describe, recorded_nodes
+from gradysim.replay.sink import ReplaySink
 from gradysim.results.delays import Delays
 from gradysim.results.files import run_name
 from gradysim.results.outcomes import Counts
-from gradysim.results.recorder import NodeRecorder, checked_ids
+from gradysim.results.recorder import checked_ids
 from gradysim.results.result import RunResult
 from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.parameters import parametrize
@@ -60,6 +64,7 @@ class IntegratedRun(ScenarioRun):
         vectors_of: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
+        replay: ReplaySink | None = None,
     ) -> None:
         """Build the network and the protocols.
 
@@ -76,6 +81,7 @@ class IntegratedRun(ScenarioRun):
                 frame: then the run is slow. Other handlers do not slow it.
             real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed. For
                 viewers: events are up to 10 ms of wall time late.
+            replay: Takes what happens, such as `ReplayWriter`, which makes a page of it.
 
         Raises:
             CompiledPartMissingError: The engine has not been built.
@@ -85,7 +91,7 @@ class IntegratedRun(ScenarioRun):
                 two interfaces would write one file, a handler cannot work in this mode, or `real_time` is not
                 a factor. Exceptions of a protocol's constructor are raised, too.
         """
-        super().__init__(scenario, vectors_of)
+        super().__init__(scenario, vectors_of, replay)
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = frozenset(checked_ids("fates_at", fates_at, len(scenario.nodes)))
         files = checked_captures(captures or {}, scenario)
@@ -94,6 +100,11 @@ class IntegratedRun(ScenarioRun):
         start_captures(self._network, scenario, files)
         # Protocols and network form a cycle; `execute` breaks it, but may never be called.
         weakref.finalize(self, self._network.release_protocols)
+        self._recorder = (
+            None
+            if replay is None
+            else EngineRecorder(self._network, scenario, recorded_nodes(scenario, replay))
+        )
         self._handlers = EngineHandlers(handlers, self._network)
         self._autopilots = AutopilotNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
@@ -106,8 +117,9 @@ class IntegratedRun(ScenarioRun):
         name = run_name(scenario, self.mode)
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
             recorder = self._recorders.get(node.id)
-            if recorder is not None:
-                node.observe(recorder.position_told, recorder.variable_set)
+            tell_variable = self._variable_listener(node)
+            if tell_variable is not None:
+                node.observe(None if recorder is None else recorder.position_told, tell_variable)
             if is_native(spec):
                 view = NativeView(node, spec)
                 self._encapsulators.append(view)
@@ -123,12 +135,27 @@ class IntegratedRun(ScenarioRun):
             )
             provider.run_name = name
             provider.has_telemetry = spec.has_telemetry
-            if recorder is not None:
-                _record_tracked_variables(provider, node, recorder)
+            if tell_variable is not None:
+                watch_tracked_variables(provider, tell_variable)
             encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(node, provider)
             encapsulator.encapsulate(parametrize(spec.protocol, spec.protocol_parameters))
             self._encapsulators.append(encapsulator)
             self._handlers.register_node(node, encapsulator, scenario.seed)
+
+    def _variable_listener(self, node: "Node") -> VariableListener | None:
+        """Return what records the tracked variables of a node; None if nobody wants them."""
+        vectors = self._recorders.get(node.id)
+        replay = None if self._recorder is None else self._recorder.variable_listener(node.id)
+        if vectors is None:
+            return replay
+        record_vector, current_time_ps = vectors.variable_set, node.current_time_ps
+
+        def tell(name: str, value: object) -> None:
+            record_vector(current_time_ps(), name, value)
+            if replay is not None:
+                replay(name, value)
+
+        return tell
 
     @contextmanager
     def _execution(self) -> Iterator[None]:
@@ -151,6 +178,13 @@ class IntegratedRun(ScenarioRun):
         if factor == 0:
             return lambda max_events: handlers.run_until(limit_s, max_events)
         return RealTimeRun(handlers.run_until, limit_s, factor, lambda: handlers.held_up_s).advance
+
+    def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
+        return describe(self._scenario, self.mode, recorded, ranges_m(self._scenario))
+
+    def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
+        assert self._recorder is not None
+        return self._recorder.chunks(cut=cut, last=last)
 
     def _now(self) -> float:
         return self._network.now
@@ -207,13 +241,6 @@ class IntegratedRun(ScenarioRun):
         }
 
 
-def _record_tracked_variables(provider: NetsimProvider, node: "Node", recorder: NodeRecorder) -> None:
-    """Record what a protocol in Python tracks; to be called before the protocol is made."""
-    watch_tracked_variables(
-        provider, lambda name, value: recorder.variable_set(node.current_time_ps(), name, value)
-    )
-
-
 def _without_zeros(counts: Counts) -> dict[str, dict[str, int]]:
     met = {
         kind: {outcome: count for outcome, count in each.items() if count} for kind, each in counts.items()
@@ -231,6 +258,7 @@ def run(
     vectors_of: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
+    replay: ReplaySink | None = None,
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the arguments."""
     integrated_run = IntegratedRun(
@@ -240,6 +268,7 @@ def run(
         vectors_of=vectors_of,
         handlers=handlers,
         real_time=real_time,
+        replay=replay,
     )
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

@@ -7,7 +7,11 @@ run.
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
+from gradysim.prototype.replay import PrototypeRecorder
 from gradysim.prototype.simulation import build_simulation
+from gradysim.replay.chunk import RawChunk
+from gradysim.replay.description import describe, recorded_nodes
+from gradysim.replay.sink import ReplaySink
 from gradysim.results.delays import constant_delays
 from gradysim.results.result import RunResult
 from gradysim.results.scenario_run import ScenarioRun
@@ -27,6 +31,7 @@ class PrototypeRun(ScenarioRun):
         vectors_of: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
+        replay: ReplaySink | None = None,
     ) -> None:
         """Build the simulation and the protocols.
 
@@ -35,6 +40,7 @@ class PrototypeRun(ScenarioRun):
             vectors_of: Ids of the nodes whose results have numbers over time, `NodeResult.vectors`.
             handlers: Added to those of communication, timers and mobility: assertions, a viewer, your own.
             real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed.
+            replay: Takes what happens, such as `ReplayWriter`, which makes a page of it.
 
         Raises:
             ConfigError: The simulator does not accept a value of the scenario.
@@ -43,9 +49,14 @@ class PrototypeRun(ScenarioRun):
                 exist, a handler cannot be added, or `real_time` is not a factor. Exceptions of a protocol's
                 constructor are raised, too.
         """
-        super().__init__(scenario, vectors_of)
+        super().__init__(scenario, vectors_of, replay)
+        self._recorder = (
+            None if replay is None else PrototypeRecorder(self._now, recorded_nodes(scenario, replay))
+        )
         with self._building():
-            self._simulator, self._ledger = build_simulation(scenario, handlers, real_time, self._recorders)
+            self._simulator, self._ledger = build_simulation(
+                scenario, handlers, real_time, self._recorders, self._recorder
+            )
 
     def _start(self) -> Callable[[int], bool]:
         simulator = self._simulator
@@ -53,8 +64,17 @@ class PrototypeRun(ScenarioRun):
         self._lint.after_initialize(node.protocol_encapsulator.protocol for node in simulator.nodes)
         return lambda max_events: not simulator.run_events(max_events)
 
+    def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
+        nodes = self._scenario.nodes
+        ranges_m = [self._scenario.communication_medium.transmission_range_m] * len(nodes)
+        return describe(self._scenario, self.mode, recorded, ranges_m)
+
+    def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
+        assert self._recorder is not None
+        return self._recorder.chunks(cut=cut, last=last)
+
     def _now(self) -> float:
-        return self._simulator.current_time
+        return self._simulator.current_time if hasattr(self, "_simulator") else 0.0
 
     def _finish(self) -> None:
         self._simulator.finalize(complete=self._complete)
@@ -87,8 +107,11 @@ def run(
     vectors_of: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
+    replay: ReplaySink | None = None,
 ) -> RunResult:
     """Run `scenario` on the plain simulator and return its result; see `PrototypeRun` for the arguments."""
-    prototype_run = PrototypeRun(scenario, vectors_of=vectors_of, handlers=handlers, real_time=real_time)
+    prototype_run = PrototypeRun(
+        scenario, vectors_of=vectors_of, handlers=handlers, real_time=real_time, replay=replay
+    )
     prototype_run.execute(progress, should_stop)
     return prototype_run.result()

@@ -1,11 +1,12 @@
 """A scenario as a simulation of the plain simulator in Python."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
-from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.interface import IProvider
+from gradysim.prototype.replay import PrototypeRecorder, precede
 from gradysim.results.files import run_name
 from gradysim.results.recorder import NodeRecorder
 from gradysim.scenario.errors import ConfigError
@@ -31,11 +32,12 @@ def build_simulation(
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
     recorders: Mapping[int, NodeRecorder] | None = None,
+    replay: PrototypeRecorder | None = None,
 ) -> tuple[Simulator, DeliveryLedger]:
     """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
     `handlers` come beside those of communication, timers and mobility, and after them; `real_time` is that of
-    `SimulationConfiguration`; `recorders` record nodes, by id, over time.
+    `SimulationConfiguration`; `recorders` record nodes, by id, over time; `replay` records the run.
 
     Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
     handlers cannot be added, what the constructor of a protocol raises, and SitlError when an autopilot does
@@ -56,6 +58,9 @@ def build_simulation(
     )
     # Idle updates are not skipped if handlers count events, or if the wall clock paces them.
     mobility = mobility_handler(scenario, skips_idle=not given and not real_time)
+    if replay is not None:
+        replay.watch_messages(communication)
+        replay.watch_paths(mobility, scenario)
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
     for handler in given.values():
         builder.add_handler(handler)
@@ -68,8 +73,9 @@ def build_simulation(
         provider = node.protocol_encapsulator.provider
         provider.run_name = name
         provider.has_telemetry = scenario.nodes[node.id].has_telemetry
-        if node.id in recorded:
-            record_node(node, recorded[node.id])
+        if replay is not None:
+            replay.watch_node(node, is_flown=scenario.nodes[node.id].autopilot is not None)
+        record_node(node, recorded.get(node.id), replay)
 
     simulator = builder.prepare_nodes(prepare).build()
     if isinstance(mobility, AutopilotMobilityHandler):
@@ -158,21 +164,30 @@ def _stands_still(spec: NodeSpec) -> bool:
 _PS_PER_S = 1e12
 
 
-def record_node(node: Node[Any], recorder: NodeRecorder) -> None:
+def record_node(
+    node: Node[Any], recorder: NodeRecorder | None, replay: PrototypeRecorder | None = None
+) -> None:
     """Have a node recorded. To be called before its protocol is made: it may keep `tracked_variables`."""
-    encapsulator = node.protocol_encapsulator
-    handle_telemetry = encapsulator.handle_telemetry
-    current_time: Callable[[], float] = encapsulator.provider.current_time
+    provider: IProvider = node.protocol_encapsulator.provider
+    is_replayed = replay is not None and replay.is_recorded(node.id)
+    if recorder is None and not is_replayed:
+        return
 
     def now_ps() -> int:
-        return round(current_time() * _PS_PER_S)
+        return round(provider.current_time() * _PS_PER_S)
 
-    def record_and_handle(telemetry: Telemetry) -> None:
-        recorder.position_told(now_ps(), *telemetry.current_position)
-        handle_telemetry(telemetry)
+    def variable_set(name: str, value: object) -> None:
+        if recorder is not None:
+            recorder.variable_set(now_ps(), name, value)
+        if replay is not None:
+            replay.close_if_long()
+            replay.variable_set(node.id, name, value)
 
-    # An attribute of the instance hides the method of the class; other nodes keep the method.
-    setattr(encapsulator, "handle_telemetry", record_and_handle)  # noqa: B010
-    watch_tracked_variables(
-        encapsulator.provider, lambda name, value: recorder.variable_set(now_ps(), name, value)
-    )
+    watch_tracked_variables(provider, variable_set)
+    if recorder is not None:
+        # Before the protocol gets its telemetry.
+        precede(
+            node.protocol_encapsulator,
+            "handle_telemetry",
+            lambda telemetry: recorder.position_told(now_ps(), *telemetry.current_position),
+        )

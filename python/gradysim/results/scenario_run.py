@@ -10,6 +10,8 @@ from time import perf_counter, process_time
 from typing import Any, ClassVar
 
 from gradysim.encapsulator.run_context import gc_paused, global_random_seeded
+from gradysim.replay.chunk import RawChunk
+from gradysim.replay.sink import ReplaySink
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
 from gradysim.scenario.lint import Finding, RunLint
@@ -38,7 +40,9 @@ class ScenarioRun(ABC):
 
     mode: ClassVar[Mode]
 
-    def __init__(self, scenario: Scenario, vectors_of: Iterable[int]) -> None:
+    def __init__(
+        self, scenario: Scenario, vectors_of: Iterable[int], replay: ReplaySink | None = None
+    ) -> None:
         """Start measuring the cost. Raises TypeError and ValueError for wrong arguments."""
         require_scenario(scenario)
         self._scenario = scenario
@@ -48,6 +52,7 @@ class ScenarioRun(ABC):
         self._complete = False
         self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
+        self._replay = replay
 
     def execute(
         self,
@@ -69,18 +74,44 @@ class ScenarioRun(ABC):
         try:
             with self._execution():
                 try:
-                    advance = self._start()
+                    if self._replay is not None:
+                        self._replay.begin(self._described(self._replay.recorded))
+                    advance = self._recorded(self._start())
                     self._complete = run_in_chunks(advance, self._now, progress, should_stop)
                 except KeyboardInterrupt as pressed:
                     interrupt = pressed
                 self._finish()
+                self._end_replay()
                 if interrupt is not None:
                     raise interrupt
         except BaseException:
             self._complete = False
+            self._end_replay()
             raise
         finally:
             self._cost_s = (perf_counter() - self._started_s[0], process_time() - self._started_s[1])
+
+    def _recorded(self, advance: Callable[[int], bool]) -> Callable[[int], bool]:
+        """Return what runs the next events, and records them if the run is recorded."""
+        replay = self._replay
+        if replay is None:
+            return advance
+
+        def advance_and_record(max_events: int) -> bool:
+            is_complete = advance(max_events)
+            for chunk in self._recorded_chunks(cut=replay.wants_chunk()):
+                replay.add(chunk)
+            return is_complete
+
+        return advance_and_record
+
+    def _end_replay(self) -> None:
+        replay, self._replay = self._replay, None
+        if replay is None:
+            return
+        for chunk in self._recorded_chunks(last=True):
+            replay.add(chunk)
+        replay.close({"time_s": self._now(), "complete": self._complete})
 
     def findings(self) -> list[Finding]:
         """Return what lint checks found in the protocols up to now."""
@@ -138,6 +169,17 @@ class ScenarioRun(ABC):
     @abstractmethod
     def _start(self) -> Callable[[int], bool]:
         """Initialize the protocols, and return what runs the next events; see `run_in_chunks`."""
+
+    @abstractmethod
+    def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
+        """Return what a replay says of the run before it begins; `recorded` are nodes, None for all."""
+
+    @abstractmethod
+    def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
+        """Return the chunks of the replay that are complete.
+
+        With `cut`, the one that is growing ends now; with `last`, the run has ended.
+        """
 
     @abstractmethod
     def _now(self) -> float:

@@ -40,7 +40,7 @@ protected:
 TEST_F(ActiveTransmissionsTest, NumbersTransmissionsInTheOrderOfTheirStarts) {
     put(us(10), us(20));
     const ActiveTransmission& second = put(us(15), us(30));
-    EXPECT_EQ(second.transmission.id, 1U);
+    EXPECT_EQ(second.transmission.id(), 1U);
     EXPECT_EQ(second.transmission.start, us(15));
     EXPECT_EQ(second.transmission.origin, (Position{1, 2, 3}));
     EXPECT_EQ(&waves.of_id(1), &second);

@@ -89,7 +89,7 @@ protected:
 private:
     void arrival_needed(RadioId radio, ActiveTransmission& active, const Arrival& arrival) override {
         if (radio == receiver) {
-            notified.push_back({radio, active.transmission.id, arrival.start});
+            notified.push_back({radio, active.transmission.id(), arrival.start});
         }
     }
 };

@@ -18,7 +18,7 @@ namespace {
 Transmission sent_from(const Position& origin, NodeId sender = 0, SimTime start = SimTime(),
                        std::uint64_t id = 0) {
     Transmission sent;
-    sent.id = id;
+    sent.label.number = id;
     sent.sender.node = sender;
     sent.start = start;
     sent.band = {2.412e9, 22e6};

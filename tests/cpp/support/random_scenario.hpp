@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -144,16 +145,23 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
 // A scenario as it runs, with what it delivered.
 class ScenarioRun {
 public:
-    explicit ScenarioRun(const RandomScenario& scenario, Culling culling = Culling::enabled)
+    explicit ScenarioRun(const RandomScenario& scenario, Culling culling = Culling::enabled,
+                         bool is_recorded = false)
         : network(scenario.medium, scenario.seed, culling) {
         for (const NodeConfig& config : scenario.nodes) {
             Node& node = network.add_node(config);
             node.set_protocol(std::make_unique<Talker>(node, scenario.talk, deliveries));
         }
+        if (is_recorded) {
+            std::vector<NodeId> all(scenario.nodes.size());
+            std::iota(all.begin(), all.end(), 0);
+            recorder = &network.record(all);
+        }
         network.initialize();
     }
 
     Network network;
+    ReplayRecorder* recorder = nullptr;
     std::vector<Delivery> deliveries;
 };
 

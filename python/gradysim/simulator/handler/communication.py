@@ -3,10 +3,10 @@
 import logging
 import random
 from collections import defaultdict
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, TypeAlias, cast
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.validation import checked_interface, wrong_communication
@@ -177,11 +177,17 @@ class CommunicationDestination:
         self.node.protocol_encapsulator.handle_packet(message)
 
 
+MessageObserver: TypeAlias = Callable[[int, CommunicationCommand, list[int], list[int], int, float], None]
+"""Is told the id of the sender, its command, the ids of the receivers, the ids of those that the failure rate
+makes miss the message, the number of those out of range, and the delay in s."""
+
+
 class CommunicationHandler(INodeHandler):
     """Carries messages between nodes. Positions count at the instant of sending.
 
     Attributes:
         default_medium: Medium of commands without a medium of their own.
+        on_message: Is told of each message, for a replay; None for nobody.
     """
 
     def __init__(
@@ -192,6 +198,7 @@ class CommunicationHandler(INodeHandler):
         `ledger` counts messages and deliveries; None for no counts.
         """
         self._ledger = ledger
+        self.on_message: MessageObserver | None = None
         self.default_medium = checked_configuration(communication_medium, CommunicationMedium)
         self._event_loop: EventLoop | None = None
         self._sources: dict[int, CommunicationSource] = {}
@@ -256,10 +263,14 @@ class CommunicationHandler(INodeHandler):
                 if destination.node is not source.node:
                     self._transmit_message(message, source, destination, medium)
             return
-        copies, lost = _copies(message, source, destinations, medium)
+        copies, lost_at = _copies(message, source, destinations, medium)
+        addressed = len(destinations) - (kind == CommunicationCommandType.BROADCAST)
+        lost = len(lost_at)
+        out_of_range = addressed - len(copies) - lost
+        if self.on_message is not None:
+            receivers = [receiver_of(copy) for copy in copies]
+            self.on_message(sender.id, command, receivers, lost_at, out_of_range, medium.delay)
         if self._ledger is not None:
-            addressed = len(destinations) - (kind == CommunicationCommandType.BROADCAST)
-            out_of_range = addressed - len(copies) - lost
             copies = self._ledger.note(
                 kind, copies, lost=lost, out_of_range=out_of_range, delay_s=medium.delay
             )
@@ -311,13 +322,19 @@ def _schedule(
         event_loop.schedule_events(arrival, copies)
 
 
+def receiver_of(delivery: ScheduledEvent) -> int:
+    """Return the id of the node to which an event of `_copies` delivers a message."""
+    receive = cast("partial[None]", delivery[0]).func
+    return cast("CommunicationDestination", receive.__self__).node.id  # type: ignore[attr-defined]
+
+
 def _copies(
     message: str,
     source: CommunicationSource,
     destinations: Collection[CommunicationDestination],
     medium: CommunicationMedium,
-) -> tuple[list[ScheduledEvent], int]:
-    """Return a delivery event for each destination that the message reaches, and the number of losses.
+) -> tuple[list[ScheduledEvent], list[int]]:
+    """Return a delivery event for each destination that the message reaches, and the ids of others in range.
 
     This is `can_transmit`, inlined for speed.
     """
@@ -326,7 +343,7 @@ def _copies(
     sender = source.node
     x, y, z = sender.position
     copies: list[ScheduledEvent] = []
-    lost = 0
+    lost: list[int] = []
     for destination in destinations:
         node = destination.node
         if node is sender:
@@ -338,7 +355,7 @@ def _copies(
         if dx * dx + dy * dy + dz * dz > reach_squared:
             continue
         if failure_rate > 0 and destination.stream.random() < failure_rate:
-            lost += 1
+            lost.append(node.id)
             continue
         copies.append((partial(destination.receive_message, message, source), destination.context))
     return copies, lost

@@ -1,0 +1,214 @@
+// Records what happens in a network, for a replay: frames with the fate of each reception, paths,
+// tracked variables and events of protocols.
+//
+// The record grows in tables of rows. From time to time they are closed as a chunk, which the user
+// takes and stores, so that memory does not grow with simulated time. The columns are declared in
+// python/gradysim/replay/tables.py, too; a test compares them.
+//
+// A frame is written when its last reception has ended, and all earlier frames are written. Of its
+// receptions, only those are written that differ from the last frame of the same sender: most
+// receivers decode frame after frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/frame.hpp"
+#include "netsim/mobility/trajectory.hpp"
+#include "netsim/node/tracked_variables.hpp"
+#include "netsim/trace/frame_fates.hpp"
+#include "netsim/trace/frame_observer.hpp"
+
+namespace netsim {
+
+// What a chunk consists of: columns as little-endian octets.
+struct ReplayChunk {
+    struct Column {
+        std::string name;
+        std::string octets;  // differences of successive values where tables.py says so
+    };
+    struct Table {
+        std::string name;
+        std::vector<Column> columns;
+    };
+    struct Density {  // counts of successive intervals
+        SimTime bin;
+        std::vector<std::uint32_t> frames;
+        std::vector<std::uint32_t> lost;
+    };
+    struct Outcome {
+        NodeId node = 0;
+        FrameFate fate = FrameFate::delivered;
+        std::uint32_t count = 0;
+    };
+
+    SimTime start;
+    SimTime end;
+    std::vector<std::string> strings;
+    std::vector<Table> tables;
+    Density density;
+    std::vector<Outcome> outcomes;
+};
+
+class ReplayRecorder final : public FrameObserver {
+public:
+    // Of log lines: their level.
+    enum class EventKind : std::uint8_t { timer, command, debug, info, warning, error };
+
+    explicit ReplayRecorder(const Simulator& simulator) : simulator_(simulator) {}
+    ReplayRecorder(const ReplayRecorder&) = delete;
+    ReplayRecorder& operator=(const ReplayRecorder&) = delete;
+    // Nodes are added in the order of their ids. `is_recorded`: frames that it sends or notices, and
+    // its variables and events. The path of every node is recorded.
+    void add_node(const Trajectory& trajectory, bool is_recorded);
+
+    // Records the path of a node by its positions in intervals, not by its legs, which are many.
+    void sample_path(NodeId node) { nodes_.at(node).is_sampled = true; }
+
+    // A callback of a node's protocol begins: the cause of what it sends. A timer is an event, too.
+    void callback_begins(const char* callback) {
+        callback_ = callback;
+        timer_ = nullptr;
+    }
+    // After callback_begins. `timer` must live as long as the callback.
+    void timer_due(NodeId node, const std::string& timer);
+    CauseId cause();
+
+    void course_changed(NodeId node);
+    void variable_set(NodeId node, std::string_view name, const TrackedValue& value);
+    void event(NodeId node, EventKind kind, std::string_view text);
+
+    void frame_begins(const Transmission& transmission, std::uint64_t noticed,
+                      std::uint64_t too_weak) override;
+    void reception_ends(FrameNumber frame, NodeId receiver, FrameFate fate) override;
+    void frame_lost(FrameNumber frame, NodeId receiver, const Loss& loss) override;
+
+    // Closes the chunk now. Frames whose receptions have not all ended go to the next one.
+    void close_chunk();
+    // At the end of the run: closes the last chunk, with the frames that are on the air.
+    void finish();
+    // Gives the chunks that are closed.
+    std::vector<ReplayChunk> take() { return std::exchange(chunks_, {}); }
+
+private:
+    // Rows of the tables. Times in ns.
+    struct FrameRow {
+        std::uint64_t time = 0;
+        std::uint64_t duration = 0;
+        std::uint32_t node = 0;
+        std::uint8_t interface = 0;
+        std::uint8_t kind = 0;
+        std::uint8_t retry = 0;
+        std::uint32_t destination = 0;
+        std::uint32_t bytes = 0;
+        std::uint32_t bitrate_bps = 0;
+        std::uint32_t cause = 0;
+        std::uint32_t receptions = 0;
+        std::uint32_t unnoticed = 0;
+    };
+    struct ReceptionRow {
+        std::uint32_t frame = 0;
+        std::uint32_t receiver = 0;
+        std::uint8_t outcome = 0;
+    };
+    struct LossRow {
+        std::uint32_t frame = 0;
+        std::uint32_t receiver = 0;
+        std::int16_t power_cdbm = 0;
+        std::int16_t interference_cdbm = 0;
+    };
+    struct InterfererRow {
+        std::uint32_t frame = 0;
+        std::uint32_t receiver = 0;
+        std::uint32_t node = 0;
+    };
+    struct LegRow {
+        std::uint64_t time = 0;
+        std::uint64_t duration = 0;
+        std::uint32_t node = 0;
+        Position from;
+        Position to;
+    };
+    struct VariableRow {
+        std::uint64_t time = 0;
+        std::uint32_t node = 0;
+        std::uint32_t name = 0;
+        double value = 0;
+        std::uint32_t text = 0;
+    };
+    struct EventRow {
+        std::uint64_t time = 0;
+        std::uint32_t node = 0;
+        std::uint8_t kind = 0;
+        std::uint32_t text = 0;
+    };
+
+    // A reception in 32 bits, sorted by receiver.
+    using Reception = std::uint32_t;
+    static Reception reception_of(NodeId receiver, FrameFate fate) {
+        return static_cast<Reception>(receiver) << 8 | static_cast<Reception>(fate);
+    }
+
+    // A frame on the air, or one behind it.
+    struct OpenFrame {
+        FrameRow row;
+        std::uint64_t left = 0;  // receptions that have not ended
+        bool is_recorded = false;
+        std::vector<Reception> receptions;
+        std::vector<LossRow> losses;
+        std::vector<InterfererRow> interferers;
+    };
+    struct RecordedNode {
+        const Trajectory* trajectory = nullptr;
+        bool is_recorded = false;
+        bool is_sampled = false;
+        SimTime sampled_at;
+        Position sampled;
+        std::vector<std::vector<Reception>> heard_by;  // [interface] of the last frame in this chunk
+        std::array<std::uint32_t, frame_fate_count> outcomes{};  // in this chunk
+    };
+
+    SimTime now() const { return simulator_.now(); }
+    // Closes the chunk if it is long enough; before each row.
+    void begin_row();
+    void write_complete_frames();
+    void write(OpenFrame& frame);
+    void write_changes(OpenFrame& frame, std::uint32_t number);
+    void write_leg(NodeId node);
+    void count(const OpenFrame& frame);
+    CauseId cause_of(const std::string& text);
+    std::uint32_t string(const std::string& text);
+    OpenFrame& open(FrameNumber frame) { return open_[static_cast<std::size_t>(frame - first_open_)]; }
+
+    const Simulator& simulator_;
+    std::vector<RecordedNode> nodes_;
+    std::vector<std::string> causes_{""};  // by CauseId
+    std::unordered_map<std::string, CauseId> cause_ids_;
+    const char* callback_ = "";           // the last one that began
+    const std::string* timer_ = nullptr;  // of handle_timer
+    std::deque<OpenFrame> open_;
+    FrameNumber first_open_ = 0;
+
+    SimTime chunk_start_;
+    std::vector<FrameRow> frames_;
+    std::vector<ReceptionRow> receptions_;
+    std::vector<LossRow> losses_;
+    std::vector<InterfererRow> interferers_;
+    std::vector<LegRow> legs_;
+    std::vector<VariableRow> variables_;
+    std::vector<EventRow> events_;
+    std::vector<std::string> strings_;
+    std::unordered_map<std::string, std::uint32_t> string_ids_;
+    ReplayChunk::Density density_;
+    std::vector<ReplayChunk> chunks_;
+};
+
+}  // namespace netsim

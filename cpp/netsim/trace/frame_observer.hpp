@@ -1,0 +1,37 @@
+// Observer of every frame of a network, and of what becomes of it at each receiver. It does not
+// change the run. A network without one pays one test per frame and reception.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "netsim/node_id.hpp"
+#include "netsim/trace/frame_label.hpp"
+
+namespace netsim {
+
+struct Transmission;  // propagation/transmission.hpp
+enum class FrameFate : std::uint8_t;
+
+class FrameObserver {
+public:
+    // A frame that a receiver was locked on to, and lost.
+    struct Loss {
+        double power_w = 0;
+        double interference_w = 0;              // 0: lost to noise
+        std::span<const NodeId> interferers{};  // from strong to weak
+    };
+
+    // A frame begins. Of its receptions, `noticed` will end, each with a fate; the others are below
+    // the sensitivity.
+    virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed,
+                              std::uint64_t too_weak) = 0;
+    virtual void reception_ends(FrameNumber frame, NodeId receiver, FrameFate fate) = 0;
+    // Before reception_ends.
+    virtual void frame_lost(FrameNumber frame, NodeId receiver, const Loss& loss) = 0;
+
+protected:
+    ~FrameObserver() = default;
+};
+
+}  // namespace netsim

@@ -1,0 +1,113 @@
+"""Records runs of prototype mode for a replay."""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
+from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.replay.recorder import TableRecorder
+from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
+from gradysim.scenario.scenario import Scenario
+from gradysim.simulator.handler.communication import CommunicationHandler
+from gradysim.simulator.handler.mobility import MasslessMobilityHandler
+from gradysim.simulator.node import Node
+
+_DELIVERED, _LOST = OUTCOMES.index("delivered"), OUTCOMES.index("lost")
+_KINDS: Final = {
+    CommunicationCommandType.BROADCAST: FRAME_KINDS.index("broadcast"),
+    CommunicationCommandType.SEND: FRAME_KINDS.index("unicast"),
+}
+_TIMER, _COMMAND = EVENT_KINDS.index("timer"), EVENT_KINDS.index("command")
+_SAMPLING_S = 0.2
+"""Interval of the positions of a vehicle whose path is not straight."""
+
+
+class PrototypeRecorder(TableRecorder):
+    """Records what the handlers of a simulation do.
+
+    It puts itself before methods of handlers and nodes, as attributes of these objects: others do not pay.
+    """
+
+    def watch_messages(self, communication: CommunicationHandler) -> None:
+        """Record all messages."""
+        communication.on_message = self._message_sent
+
+    def watch_paths(self, mobility: MasslessMobilityHandler, scenario: Scenario) -> None:
+        """Record where nodes fly, from the commands that they get; vehicles of an autopilot at intervals."""
+        for spec in scenario.nodes:
+            self.path(spec.id, spec.initial_position, spec.initial_position, 0)
+        flown = {spec.id for spec in scenario.nodes if spec.autopilot is not None}
+        handle_command = mobility.handle_command
+
+        def record_and_handle(command: MobilityCommand, node: Node[Any]) -> None:
+            handle_command(command, node)
+            self.close_if_long()
+            self.event(node.id, _COMMAND, _text_of(command))
+            if node.id not in flown and node.id in mobility.targets:
+                self.path(node.id, node.position, mobility.targets[node.id], mobility.speeds[node.id])
+
+        # An attribute of the object hides the method of its class.
+        setattr(mobility, "handle_command", record_and_handle)  # noqa: B010
+
+    def watch_node(self, node: Node[Any], *, is_flown: bool) -> None:
+        """Record what the protocol of a node is called for; to be called before it is made."""
+        encapsulator = node.protocol_encapsulator
+        for name, cause in (("initialize", "initialize"), ("handle_packet", "packet"), ("finish", "finish")):
+            precede(encapsulator, name, lambda *_, cause=cause: self._begin(cause))
+        precede(encapsulator, "handle_timer", lambda timer: self._timer_due(node.id, timer))
+
+        def telemetry_comes(telemetry: Telemetry) -> None:
+            self._begin("telemetry")
+            if is_flown:
+                self.sampled(node.id, telemetry.current_position, _SAMPLING_S)
+
+        precede(encapsulator, "handle_telemetry", telemetry_comes)
+
+    def _begin(self, cause: str) -> None:
+        self.close_if_long()
+        self.cause = cause
+
+    def _timer_due(self, node_id: int, timer: str) -> None:
+        self._begin(f"timer {timer}")
+        self.event(node_id, _TIMER, timer)
+
+    def _message_sent(
+        self,
+        sender: int,
+        command: CommunicationCommand,
+        receivers: list[int],
+        lost_at: list[int],
+        out_of_range: int,
+        delay_s: float,
+    ) -> None:
+        is_broadcast = command.command_type == CommunicationCommandType.BROADCAST
+        self.message(
+            sender,
+            BROADCAST if is_broadcast else int(command.destination or 0),
+            _KINDS[command.command_type],
+            len(command.message.encode(errors="replace")),
+            delay_s,
+            dict.fromkeys(receivers, _DELIVERED) | dict.fromkeys(lost_at, _LOST),
+            out_of_range,
+        )
+
+
+def precede(owner: Any, name: str, first: Callable[..., None]) -> None:
+    """Call `first` before each call of that method of one object: its attribute hides that of the class."""
+    method = getattr(owner, name)
+
+    def both(*arguments: Any) -> Any:
+        first(*arguments)
+        return method(*arguments)
+
+    setattr(owner, name, both)
+
+
+def _text_of(command: MobilityCommand) -> str:
+    """Return a command as the engine's recorder writes it."""
+    if command.command_type == MobilityCommandType.SET_SPEED:
+        return f"fly at {command.param_1:g} m/s"
+    place = ", ".join(f"{value:g}" for value in (command.param_1, command.param_2, command.param_3))
+    unit = " m" if command.command_type == MobilityCommandType.GOTO_COORDS else ""
+    return f"go to {place}{unit}"

@@ -1,0 +1,159 @@
+"""How a chunk of a replay is packed.
+
+    4 bytes    length of the header, little-endian
+    header     JSON, see `Chunk.header`
+    columns    one after the other, in the order of the header
+
+A column is an array of little-endian numbers: differences if it is declared so, then first the first byte of
+each number, then the second one, and so on, compressed with zlib. Bytes of one place are alike, so that this
+compresses much better than whole numbers.
+"""
+
+import json
+import struct
+import sys
+import zlib
+from array import array
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import accumulate
+from typing import Any, TypeAlias, TypedDict
+
+from gradysim.replay.tables import ARRAY_TYPES, BYTES, TABLES, Column
+
+Values: TypeAlias = "array[Any]"
+
+_LEVEL = 6
+
+
+@dataclass
+class RawChunk:
+    """A chunk before it is packed.
+
+    Attributes:
+        start_ns: Where it begins: the end of the last one.
+        end_ns: Where it ends.
+        strings: Texts that columns refer to.
+        columns: {table: {column: little-endian numbers, differences where the column is declared so}}.
+        density: How many frames and losses there were over time.
+        outcomes: How many receptions of each outcome there were at each node.
+    """
+
+    start_ns: int
+    end_ns: int
+    strings: Sequence[str]
+    columns: Mapping[str, Mapping[str, bytes]]
+    density: "Density"
+    outcomes: "Outcomes"
+
+
+class Density(TypedDict):
+    """Counts of successive intervals from the start of a chunk on; what is earlier is in the first one.
+
+    Attributes:
+        bin_ns: Length of an interval.
+        frames: How many frames began.
+        lost: How many receptions began that were lost.
+    """
+
+    bin_ns: int
+    frames: Sequence[int]
+    lost: Sequence[int]
+
+
+class Outcomes(TypedDict):
+    """Counts of receptions, a row for each node and outcome that occurred.
+
+    Attributes:
+        node: Id of the receiver.
+        outcome: By number.
+        count: How often.
+    """
+
+    node: Sequence[int]
+    outcome: Sequence[int]
+    count: Sequence[int]
+
+
+@dataclass
+class Chunk:
+    """A chunk that was unpacked.
+
+    Attributes:
+        start_ns: Where it begins. Frames whose last reception ended later are in it, too.
+        end_ns: Where it ends.
+        strings: Texts that columns refer to.
+        tables: {table: {column: its values}}.
+    """
+
+    start_ns: int
+    end_ns: int
+    strings: list[str]
+    tables: dict[str, dict[str, Values]] = field(default_factory=dict)
+
+
+def pack(chunk: RawChunk) -> bytes:
+    """Return the bytes of a chunk."""
+    header: dict[str, Any] = {
+        "start_ns": chunk.start_ns,
+        "end_ns": chunk.end_ns,
+        "strings": list(chunk.strings),
+        "density": chunk.density,
+        "outcomes": chunk.outcomes,
+        "tables": {},
+    }
+    packed: list[bytes] = []
+    for table, columns in TABLES.items():
+        described = []
+        rows = 0
+        for column in columns:
+            data = chunk.columns[table][column.name]
+            width = BYTES[column.type]
+            rows = len(data) // width
+            packed.append(zlib.compress(b"".join(data[byte::width] for byte in range(width)), _LEVEL))
+            described.append([column.name, column.type, column.delta, len(packed[-1])])
+        header["tables"][table] = {"rows": rows, "columns": described}
+    text = json.dumps(header, separators=(",", ":")).encode()
+    return b"".join([struct.pack("<I", len(text)), text, *packed])
+
+
+def unpack(data: bytes) -> Chunk:
+    """Return the chunk with these bytes. Raise ValueError if they are not a chunk."""
+    try:
+        (length,) = struct.unpack_from("<I", data)
+        header = json.loads(data[4 : 4 + length])
+        chunk = Chunk(header["start_ns"], header["end_ns"], header["strings"])
+        place = 4 + length
+        for table, described in header["tables"].items():
+            columns = chunk.tables[table] = {}
+            for name, type_name, delta, size in described["columns"]:
+                columns[name] = _values(Column(name, type_name, delta), data[place : place + size])
+                place += size
+    except (struct.error, KeyError, TypeError, zlib.error) as error:
+        raise ValueError(f"not a chunk of a replay: {error}") from error
+    return chunk
+
+
+def raw(column: Column, values: Sequence[int] | Sequence[float]) -> bytes:
+    """Return the numbers of a column as `RawChunk` has them."""
+    if column.delta:
+        values = [value - before for value, before in zip(values, [0, *values], strict=False)]
+    return _little_endian(array(ARRAY_TYPES[column.type], values)).tobytes()
+
+
+def _values(column: Column, packed: bytes) -> Values:
+    shuffled = zlib.decompress(packed)
+    width = BYTES[column.type]
+    rows = len(shuffled) // width
+    data = bytearray(len(shuffled))
+    for byte in range(width):
+        data[byte::width] = shuffled[byte * rows : (byte + 1) * rows]
+    values = array(ARRAY_TYPES[column.type], bytes(data))
+    _little_endian(values)
+    return array(values.typecode, accumulate(values)) if column.delta else values
+
+
+def _little_endian(values: Values) -> Values:
+    if sys.byteorder == "big":
+        values.byteswap()
+    return values

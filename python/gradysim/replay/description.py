@@ -1,0 +1,67 @@
+"""What a replay says of a run before it begins."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from gradysim.replay.sink import ReplaySink
+from gradysim.replay.tables import EVENT_KINDS, FRAME_KINDS, OUTCOMES
+from gradysim.scenario.obstacles import ObstacleSpec
+from gradysim.scenario.scenario import Scenario
+
+
+def describe(
+    scenario: Scenario, mode: str, recorded: frozenset[int] | None, ranges_m: Sequence[float | None]
+) -> dict[str, Any]:
+    """Return what the page shows of a scenario: its nodes, its obstacles, where it comes from.
+
+    `recorded` are the ids of the nodes at which all is recorded; None for all. `ranges_m` are the distances
+    at which half of the messages of each node arrive without interference; None where that is not known.
+    """
+    return {
+        "file": scenario.file.name,
+        "config": scenario.config,
+        "run": scenario.run_number,
+        "mode": mode,
+        "seed": scenario.seed,
+        "iterations": dict(scenario.iterations),
+        "description": scenario.description,
+        "duration_s": scenario.sim_time_limit_s,
+        "ini": _text_of(scenario),
+        "recorded": None if recorded is None else sorted(recorded),
+        "nodes": [
+            {
+                "id": node.id,
+                "name": node.name,
+                "group": node.group,
+                "protocol": node.protocol.__name__,
+                "range_m": range_m,
+            }
+            for node, range_m in zip(scenario.nodes, ranges_m, strict=True)
+        ],
+        "obstacles": [_obstacle(obstacle) for obstacle in scenario.obstacles],
+        "outcomes": OUTCOMES,
+        "kinds": FRAME_KINDS,
+        "event_kinds": EVENT_KINDS,
+    }
+
+
+def _text_of(scenario: Scenario) -> str:
+    try:
+        return scenario.file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):  # it was read before, so this is about a text for people only
+        return ""
+
+
+def _obstacle(obstacle: ObstacleSpec) -> Mapping[str, Any]:
+    """Return its outer footprint and its heights in meters."""
+    return {
+        "name": obstacle.name,
+        "points": obstacle.rings[0],
+        "bottom_m": obstacle.base_m,
+        "top_m": obstacle.top_m,
+    }
+
+
+def recorded_nodes(scenario: Scenario, replay: ReplaySink) -> frozenset[int]:
+    """Return the ids of the nodes at which `replay` wants all recorded."""
+    return frozenset(range(len(scenario.nodes))) if replay.recorded is None else replay.recorded

@@ -1,0 +1,92 @@
+"""How a replay lies in its HTML file: the page, what is known of the run, then the chunks as they come.
+
+Each chunk is an element of its own, so that the file of a run that was killed has all chunks up to the last
+one, and a browser shows them.
+"""
+
+import base64
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from importlib import resources
+from pathlib import Path
+from typing import IO, Any
+
+FORMAT = 1
+"""Version of the format. Readers take no other one."""
+
+_RUN = '<script type="application/json" id="gradysim-run">'
+_CHUNK = '<script type="text/plain" class="gradysim-chunk">'
+_END = '<script type="application/json" id="gradysim-end">'
+_CLOSE = "</script>\n"
+
+
+class ReplayFile:
+    """The HTML file of a run, while it is written."""
+
+    def __init__(self, path: Path, run: Mapping[str, Any]) -> None:
+        """Create the file. `run` is what is known before the run, see `describe`.
+
+        Raises OSError if that cannot be done.
+        """
+        self.path = path
+        self._file: IO[bytes] = path.open("wb")
+        head, tail = page().split("<!-- run -->")
+        self._write(head + _RUN + _json({"format": FORMAT, **run}) + _CLOSE + tail)
+
+    def add(self, chunk: bytes) -> None:
+        """Append a packed chunk. Raises OSError, as when the disk is full."""
+        self._write(_CHUNK + base64.b64encode(chunk).decode() + _CLOSE)
+
+    def close(self, end: Mapping[str, Any]) -> None:
+        """Say how the run ended, and close the file."""
+        self._write(_END + _json(end) + _CLOSE)
+        self._file.close()
+
+    def _write(self, text: str) -> None:
+        self._file.write(text.encode())
+        self._file.flush()
+
+
+def live_page(socket: str) -> str:
+    """Return the page for a run that goes on; its chunks come from the WebSocket with that path."""
+    return _page_with(f'<script type="application/json" id="gradysim-live">{_json({"socket": socket})}')
+
+
+def page_beside(replays: Sequence[Path]) -> str:
+    """Return a page that shows several replays beside each other, on one clock."""
+    addresses = [path.resolve().as_uri() for path in replays]
+    return _page_with(f'<script type="application/json" id="gradysim-beside">{_json(addresses)}')
+
+
+def _page_with(element: str) -> str:
+    return page().replace("<!-- run -->", element + _CLOSE)
+
+
+def page() -> str:
+    """Return the page that shows a run, with a comment where the run goes."""
+    return resources.files("gradysim.replay").joinpath("page.html").read_text(encoding="utf-8")
+
+
+def read_parts(path: Path) -> tuple[dict[str, Any], Iterator[bytes], dict[str, Any] | None]:
+    """Return what a file says of the run, its packed chunks, and how the run ended; None if it was killed.
+
+    Raises ValueError if the file is not a replay, OSError if it cannot be read.
+    """
+    text = path.read_text(encoding="utf-8")
+    found = re.search(re.escape(_RUN) + "(.*?)</script>", text, re.DOTALL)
+    if found is None:
+        raise ValueError(f"{path}: expected a replay, as `gradysim run --replay` writes it")
+    run = json.loads(found[1])
+    if run.get("format") != FORMAT:
+        raise ValueError(f"{path}: a replay of format {run.get('format')}; expected format {FORMAT}")
+    chunks = (
+        base64.b64decode(chunk[1]) for chunk in re.finditer(f"{re.escape(_CHUNK)}([^<]*)</script>", text)
+    )
+    end = re.search(re.escape(_END) + "(.*?)</script>", text, re.DOTALL)
+    return run, chunks, None if end is None else json.loads(end[1])
+
+
+def _json(value: Mapping[str, Any] | Sequence[str]) -> str:
+    # Nothing in it may end the element.
+    return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")

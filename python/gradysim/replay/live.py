@@ -1,0 +1,232 @@
+"""Shows a run while it goes on: the page of replays, from a server on this machine, with chunks as they come.
+
+    GET /?token=T        the page
+    /chunks?token=T      a WebSocket: {"run": ...}, then chunks as binary messages, then {"end": ...}
+    from the page        {"time_s": what it shows, "speed": simulated seconds for each second}
+
+Only pages of this server, and who knows its token, get anything.
+"""
+
+import contextlib
+import json
+import os
+import secrets
+import socket
+import threading
+import time
+from collections.abc import Mapping
+from http import HTTPStatus
+from tempfile import TemporaryFile
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs, urlsplit
+
+from gradysim.replay.chunk import RawChunk, pack
+from gradysim.replay.file import live_page
+
+if TYPE_CHECKING:
+    from websockets.http11 import Request, Response
+    from websockets.sync.server import ServerConnection
+
+HOST = "127.0.0.1"
+CHUNK_S = 0.1
+"""Wall time between two chunks, in seconds."""
+LONGEST_MESSAGE_BYTES = 1000
+"""Of a viewer."""
+LOOKAHEAD_S = 2.0
+"""How far the run may be ahead of the fastest viewer, in seconds of wall time at its speed."""
+
+_HANDSHAKE_S = 2.0
+"""Wall time that a viewer may take to connect or to leave, in seconds."""
+
+
+class LiveView:
+    """A `ReplaySink` for viewers. The run waits for the fastest of them, and for nobody if there is none.
+
+    Attributes:
+        recorded: None: all is recorded at all nodes.
+        recorded_s: The end of the record, in seconds of simulated time.
+        clocks: Up to where each viewer wants the run to go, in seconds of simulated time.
+    """
+
+    recorded: frozenset[int] | None = None
+
+    def __init__(self, port: int = 0) -> None:
+        """Listen on a port, 0 for a free one.
+
+        Raises OSError if that cannot be done, ModuleNotFoundError without the package `websockets`.
+        """
+        try:
+            from websockets.sync.server import serve
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError(
+                'a live view needs the package websockets: pip install "gradysim[visualization]"',
+                name=error.name,
+            ) from error
+        self._token = secrets.token_urlsafe(16)
+        self._run: Mapping[str, Any] | None = None
+        self._end: Mapping[str, Any] | None = None
+        self._history = TemporaryFile()  # noqa: SIM115 (open as long as the view)
+        self._places: list[tuple[int, int]] = []
+        self.recorded_s = 0.0
+        self._news = threading.Condition()
+        self.clocks: dict[ServerConnection, float] = {}
+        self._viewers: set[ServerConnection] = set()
+        self._cut_at = time.monotonic()
+        self._is_stopped = False
+        # Pings would draw from Python's random numbers, which belong to the run.
+        self._server = serve(
+            self._meet,
+            HOST,
+            port,
+            process_request=self._answer,
+            max_size=LONGEST_MESSAGE_BYTES,
+            ping_interval=None,
+            open_timeout=_HANDSHAKE_S,
+            close_timeout=_HANDSHAKE_S,
+            compression=None,
+            logger=_silent_logger(),
+        )
+        self._port: int = self._server.socket.getsockname()[1]
+        threading.Thread(target=self._server.serve_forever, name="gradysim view", daemon=True).start()
+
+    @property
+    def address(self) -> str:
+        """Where a browser finds the page."""
+        return f"http://{HOST}:{self._port}/?token={self._token}"
+
+    @property
+    def viewers(self) -> int:
+        """How many viewers there are."""
+        return len(self._viewers)
+
+    def wait_for_viewer(self) -> None:
+        """Return when somebody watches."""
+        with self._news:
+            while not self._viewers:
+                self._news.wait(0.2)  # with a timeout Ctrl-C gets through on every system
+
+    def begin(self, run: Mapping[str, Any]) -> None:
+        """Take what is known before the run."""
+        with self._news:
+            self._run = run
+            self._news.notify_all()
+
+    def wants_chunk(self) -> bool:
+        """Return whether it is time to show more."""
+        return time.monotonic() - self._cut_at >= CHUNK_S
+
+    def add(self, chunk: RawChunk) -> None:
+        """Show a chunk, and wait as long as viewers are far behind it."""
+        data = pack(chunk)
+        with self._news:
+            if self._is_stopped:  # nobody watches any more
+                return
+            place = self._places[-1][0] + self._places[-1][1] if self._places else 0
+            os.pwrite(self._history.fileno(), data, place)
+            self._places.append((place, len(data)))
+            self.recorded_s = chunk.end_ns / 1e9
+            self._news.notify_all()
+            while not self._is_stopped and self.clocks and self.recorded_s > max(self.clocks.values()):
+                self._news.wait(0.2)
+        self._cut_at = time.monotonic()
+
+    def close(self, end: Mapping[str, Any]) -> None:
+        """Show how the run ended. The server goes on until `stop`."""
+        with self._news:
+            self._end = end
+            self._news.notify_all()
+
+    def stop(self) -> None:
+        """End all connections, and the server."""
+        with self._news:
+            self._is_stopped = True
+            self._news.notify_all()
+        for viewer in list(self._viewers):
+            with contextlib.suppress(OSError):
+                viewer.socket.shutdown(socket.SHUT_RDWR)  # also of one that never reads
+        self._server.shutdown()
+        self._history.close()
+
+    def _answer(self, connection: "ServerConnection", request: "Request") -> "Response | None":
+        """Answer a request that is not for the WebSocket, and all that is not allowed."""
+        url = urlsplit(request.path)
+        own = {f"{host}:{self._port}" for host in (HOST, "localhost")}
+        origin = request.headers.get("Origin")
+        token = parse_qs(url.query).get("token", [""])[0]
+        if (
+            request.headers.get("Host") not in own
+            or (origin is not None and origin.removeprefix("http://") not in own)
+            or not secrets.compare_digest(token.encode(), self._token.encode())
+        ):
+            return connection.respond(HTTPStatus.FORBIDDEN, "Open the address that gradysim view printed.\n")
+        if url.path == "/chunks":
+            return None
+        if url.path != "/":
+            return connection.respond(HTTPStatus.NOT_FOUND, "There is nothing here.\n")
+        response = connection.respond(HTTPStatus.OK, live_page(f"/chunks?token={self._token}"))
+        del response.headers["Content-Type"]
+        response.headers["Content-Type"] = "text/html; charset=utf-8"
+        return response
+
+    def _meet(self, viewer: "ServerConnection") -> None:
+        """Serve one viewer until it leaves."""
+        from websockets.exceptions import ConnectionClosed
+
+        with self._news:
+            self._viewers.add(viewer)
+            self._news.notify_all()
+        writer = threading.Thread(target=self._tell, args=(viewer,), daemon=True)
+        writer.start()
+        try:
+            for message in viewer:
+                self._take_clock(viewer, message)
+        except (ConnectionClosed, ValueError):  # it left, or what it says makes no sense
+            pass
+        finally:
+            with self._news:
+                self._viewers.discard(viewer)
+                self.clocks.pop(viewer, None)
+                self._news.notify_all()
+
+    def _take_clock(self, viewer: "ServerConnection", message: str | bytes) -> None:
+        """Note how far a viewer has seen. Raises ValueError for anything else."""
+        content = json.loads(message)
+        if not isinstance(content, dict):
+            raise ValueError("expected an object")
+        time_s, speed = (float(content.get(name, "")) for name in ("time_s", "speed"))
+        with self._news:
+            if viewer in self._viewers:
+                self.clocks[viewer] = time_s + LOOKAHEAD_S * max(1.0, abs(speed))
+                self._news.notify_all()
+
+    def _tell(self, viewer: "ServerConnection") -> None:
+        """Send a viewer all there is, and what comes."""
+        from websockets.exceptions import ConnectionClosed
+
+        told, has_run = 0, False
+        with contextlib.suppress(ConnectionClosed, OSError, ValueError):  # it left, or the view was stopped
+            while viewer in self._viewers:
+                with self._news:
+                    while viewer in self._viewers and not (
+                        (self._run and not has_run) or told < len(self._places) or self._end
+                    ):
+                        self._news.wait(0.5)
+                    run, end, places = self._run, self._end, self._places[told:]
+                if run is not None and not has_run:
+                    has_run = True
+                    viewer.send(json.dumps({"run": run}))
+                for place, length in places:
+                    viewer.send(os.pread(self._history.fileno(), length, place))
+                told += len(places)
+                if end is not None and told == len(self._places):
+                    viewer.send(json.dumps({"end": end}))
+                    return
+
+
+def _silent_logger() -> Any:
+    """Return a logger for the library, which logs each handshake that fails."""
+    import logging
+
+    logger = logging.getLogger("gradysim.replay.websockets")
+    logger.setLevel(logging.CRITICAL + 1)
+    return logger

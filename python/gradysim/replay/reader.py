@@ -1,0 +1,165 @@
+"""Reads the tables of a replay."""
+
+from array import array
+from bisect import bisect_right
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from gradysim.replay.chunk import Chunk, Values, unpack
+from gradysim.replay.file import read_parts
+from gradysim.replay.tables import BELOW_SENSITIVITY, OUTCOMES, TABLES
+
+_NS_PER_S = 1e9
+
+
+class Reception(NamedTuple):
+    """What became of a frame at a receiver that noticed it.
+
+    Attributes:
+        frame: Row of the table `frames` of the whole run.
+        receiver: Id of a node.
+        outcome: Its name, see `OUTCOMES`.
+    """
+
+    frame: int
+    receiver: int
+    outcome: str
+
+
+@dataclass(frozen=True)
+class Replay:
+    """A recorded run.
+
+    Attributes:
+        run: What was known before it: `config`, `run`, `mode`, `seed`, `duration_s`, `nodes` with `id`,
+            `name` and `protocol`, and so on.
+        end: How it ended, `time_s` and `complete`; None if its process was killed.
+        chunks: Its parts, by time.
+    """
+
+    run: Mapping[str, Any]
+    end: Mapping[str, Any] | None
+    chunks: tuple[Chunk, ...]
+
+    @property
+    def end_s(self) -> float:
+        """Where the record ends, in seconds."""
+        return self.chunks[-1].end_ns / _NS_PER_S if self.chunks else 0.0
+
+    def table(self, name: str) -> "dict[str, Values | list[str]]":
+        """Return a table of the whole run as {column: values}.
+
+        `frame` numbers frames through the run, and texts are strings. The columns are declared in
+        `gradysim.replay.tables`, but for `receptions`, which has each reception, its outcome by number.
+
+        Raises KeyError for a name that no table has.
+        """
+        if name == "receptions":
+            return self._all_receptions()
+        columns: dict[str, Any] = {}
+        for column in TABLES[name]:
+            parts: Any = [] if _is_text(name, column.name) else array(_type(self.chunks, name, column.name))
+            frames = 0
+            for chunk in self.chunks:
+                values = chunk.tables[name][column.name]
+                if _is_text(name, column.name):
+                    parts.extend(chunk.strings[index] for index in values)
+                elif column.name == "frame":
+                    parts.extend(frames + frame for frame in values)
+                else:
+                    parts.extend(values)
+                frames += len(chunk.tables["frames"]["node"])
+            columns[column.name] = parts
+        return columns
+
+    def receptions(self) -> Iterator[Reception]:
+        """Give each reception that a receiver noticed, in the order of frames, then of receivers."""
+        first = 0
+        for chunk in self.chunks:
+            for frame, receiver, outcome in _receptions(chunk):
+                yield Reception(first + frame, receiver, OUTCOMES[outcome])
+            first += len(chunk.tables["frames"]["node"])
+
+    def outcomes(self) -> dict[str, int]:
+        """Count the receptions by outcome: those of the result of the run but for `in_air`."""
+        counts: Counter[str] = Counter(reception.outcome for reception in self.receptions())
+        unnoticed = sum(sum(chunk.tables["frames"]["unnoticed"]) for chunk in self.chunks)
+        if unnoticed:
+            counts["out_of_range" if self.run["mode"] == "prototype" else "below_sensitivity"] += unnoticed
+        return dict(counts)
+
+    def positions(self, time_s: float) -> list[tuple[float, float, float]]:
+        """Return where each node is at a time, in meters, by id. Raises ValueError before the first chunk."""
+        if not self.chunks or time_s < 0:
+            raise ValueError(f"no position at {time_s} s: expected a time from 0 s to {self.end_s} s")
+        time_ns = time_s * _NS_PER_S
+        starts = [chunk.start_ns for chunk in self.chunks]
+        legs = self.chunks[max(0, bisect_right(starts, time_ns) - 1)].tables["legs"]
+        places: dict[int, tuple[float, float, float]] = {}
+        for row, node in enumerate(legs["node"]):
+            since_ns = time_ns - legs["time_ns"][row]
+            if since_ns < 0 and node in places:  # a later leg
+                continue
+            duration_ns = legs["duration_ns"][row]
+            share = 1.0 if since_ns >= duration_ns else max(0.0, since_ns / duration_ns)
+            x, y, z = (
+                legs[f"{axis}0"][row] + share * (legs[f"{axis}1"][row] - legs[f"{axis}0"][row])
+                for axis in "xyz"
+            )
+            places[node] = (x, y, z)
+        return [places[node] for node in sorted(places)]
+
+    def _all_receptions(self) -> dict[str, Any]:
+        frames, receivers, outcomes = array("I"), array("I"), array("B")
+        first = 0
+        for chunk in self.chunks:
+            for frame, receiver, outcome in _receptions(chunk):
+                frames.append(first + frame)
+                receivers.append(receiver)
+                outcomes.append(outcome)
+            first += len(chunk.tables["frames"]["node"])
+        return {"frame": frames, "receiver": receivers, "outcome": outcomes}
+
+
+def read_replay(path: str | Path) -> Replay:
+    """Read the file that `gradysim run --replay` wrote, also of a run that was killed.
+
+    Raises ValueError if the file is not a replay, OSError if it cannot be read.
+    """
+    run, chunks, end = read_parts(Path(path))
+    return Replay(run, end, tuple(unpack(chunk) for chunk in chunks))
+
+
+def _receptions(chunk: Chunk) -> Iterator[tuple[int, int, int]]:
+    """Give (frame, receiver, outcome) of a chunk: what the file has are the changes."""
+    frames, changes = chunk.tables["frames"], chunk.tables["receptions"]
+    rows = zip(changes["frame"], changes["receiver"], changes["outcome"], strict=True)
+    change = next(rows, None)
+    heard: dict[tuple[int, int], dict[int, int]] = {}
+    for frame, sender in enumerate(zip(frames["node"], frames["interface"], strict=True)):
+        outcomes = heard.setdefault(sender, {})
+        while change is not None and change[0] == frame:
+            _, receiver, outcome = change
+            if outcome == BELOW_SENSITIVITY:
+                del outcomes[receiver]
+            else:
+                outcomes[receiver] = outcome
+            change = next(rows, None)
+        for receiver, outcome in sorted(outcomes.items()):
+            yield frame, receiver, outcome
+
+
+def _is_text(table: str, column: str) -> bool:
+    return (table, column) in {
+        ("frames", "cause"),
+        ("variables", "name"),
+        ("variables", "text"),
+        ("events", "text"),
+    }
+
+
+def _type(chunks: tuple[Chunk, ...], table: str, column: str) -> str:
+    return chunks[0].tables[table][column].typecode if chunks else "d"

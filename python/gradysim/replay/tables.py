@@ -1,0 +1,137 @@
+"""The tables of a replay, each column declared once.
+
+Times are nanoseconds of simulated time, nodes are ids, positions are meters. A text is an index of the
+strings of its chunk; string 0 is "". `frame` is a row of the table `frames` of the same chunk.
+"""
+
+import json
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from gradysim.protocol.plain_value import plain_value
+
+ColumnType = Literal["u8", "i16", "u32", "u64", "f64"]
+
+BYTES: Final[dict[ColumnType, int]] = {"u8": 1, "i16": 2, "u32": 4, "u64": 8, "f64": 8}
+"""Bytes of a value."""
+
+ARRAY_TYPES: Final[dict[ColumnType, str]] = {"u8": "B", "i16": "h", "u32": "I", "u64": "Q", "f64": "d"}
+"""Type codes of Python's `array`."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column.
+
+    Attributes:
+        name: Its name in the table.
+        type: Of its values.
+        delta: Whether the file has the differences of successive values, which never fall.
+    """
+
+    name: str
+    type: ColumnType
+    delta: bool = False
+
+
+BROADCAST: Final = 0xFFFFFFFF
+"""The destination of a frame for all."""
+
+BELOW_SENSITIVITY: Final = 255
+"""The outcome of a row of `receptions` whose receiver no longer notices the frames of this sender."""
+
+NO_POWER: Final = -32768
+"""In a column of powers: not known, or no interference."""
+
+FRAME_KINDS: Final = ("broadcast", "unicast", "ack", "rts", "cts")
+
+OUTCOMES: Final = (
+    "delivered",
+    "below_sensitivity",
+    "noise",
+    "interference",
+    "receiver_transmitting",
+    "receiver_locked",
+    "preamble_undetected",
+    "header_error",
+    "captured",
+    "in_air",
+    "out_of_range",
+    "lost",
+)
+"""Names of the outcomes of a reception, by number. The last two are of prototype mode."""
+
+NOT_LOST: Final = frozenset({"delivered", "below_sensitivity", "in_air", "out_of_range"})
+"""Outcomes that are not losses."""
+
+EVENT_KINDS: Final = ("timer", "command", "debug", "info", "warning", "error")
+"""Names of the kinds of events, by number. The last four are log lines, by their level."""
+
+TABLES: Final[dict[str, tuple[Column, ...]]] = {
+    # Frames on the air, in the order of their starts.
+    "frames": (
+        Column("time_ns", "u64", delta=True),
+        Column("duration_ns", "u64"),
+        Column("node", "u32"),
+        Column("interface", "u8"),
+        Column("kind", "u8"),
+        Column("retry", "u8"),
+        Column("destination", "u32"),
+        Column("bytes", "u32"),
+        Column("bitrate_bps", "u32"),
+        Column("cause", "u32"),  # text: the callback that sent it
+        Column("receptions", "u32"),  # how many receivers noticed it
+        Column("unnoticed", "u32"),  # how many did not: below their sensitivity, or out of range
+    ),
+    # Outcomes at receivers, where they differ from those of the last frame of the same sender and interface
+    # in this chunk. Before the first one no receiver notices a frame.
+    "receptions": (
+        Column("frame", "u32", delta=True),
+        Column("receiver", "u32"),
+        Column("outcome", "u8"),
+    ),
+    # Frames that a receiver was locked on to and lost; powers in 0.01 dBm.
+    "losses": (
+        Column("frame", "u32", delta=True),
+        Column("receiver", "u32"),
+        Column("power_cdbm", "i16"),
+        Column("interference_cdbm", "i16"),
+    ),
+    # The nodes that caused a loss by interference, from strong to weak.
+    "interferers": (
+        Column("frame", "u32", delta=True),
+        Column("receiver", "u32"),
+        Column("node", "u32"),
+    ),
+    # Straight legs at constant speed; after its last leg a node stands. A chunk begins with one of each node.
+    "legs": (
+        Column("time_ns", "u64"),
+        Column("duration_ns", "u64"),
+        Column("node", "u32"),
+        Column("x0", "f64"),
+        Column("y0", "f64"),
+        Column("z0", "f64"),
+        Column("x1", "f64"),
+        Column("y1", "f64"),
+        Column("z1", "f64"),
+    ),
+    # Values that protocols assigned to tracked variables.
+    "variables": (
+        Column("time_ns", "u64", delta=True),
+        Column("node", "u32"),
+        Column("name", "u32"),  # text
+        Column("value", "f64"),  # NaN for what is not a number
+        Column("text", "u32"),  # the value if it is not a number
+    ),
+    "events": (
+        Column("time_ns", "u64", delta=True),
+        Column("node", "u32"),
+        Column("kind", "u8"),
+        Column("text", "u32"),
+    ),
+}
+
+
+def text_of_value(value: object) -> str:
+    """Return the text of a tracked variable that is not a number."""
+    return value if isinstance(value, str) else json.dumps(plain_value(value))

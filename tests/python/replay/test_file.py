@@ -1,0 +1,40 @@
+import pytest
+
+from gradysim.replay.file import ReplayFile, read_parts
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "run.html"
+
+
+def test_what_is_written_is_read(path):
+    file = ReplayFile(path, {"config": "</script><b>"})
+    file.add(b"one")
+    file.add(b"two")
+    file.close({"complete": True})
+    run, chunks, end = read_parts(path)
+    assert run == {"format": 1, "config": "</script><b>"}
+    assert list(chunks) == [b"one", b"two"]
+    assert end == {"complete": True}
+
+
+def test_a_file_that_was_cut_off_has_its_first_chunks(path):
+    file = ReplayFile(path, {})
+    file.add(b"one")
+    size = path.stat().st_size
+    file.add(b"two")
+    file.close({})
+    path.write_bytes(path.read_bytes()[: size + 40])
+    _, chunks, end = read_parts(path)
+    assert list(chunks) == [b"one"]
+    assert end is None
+
+
+@pytest.mark.parametrize(
+    "text", ["<html></html>", '<script type="application/json" id="gradysim-run">{"format": 99}</script>']
+)
+def test_another_file_is_refused(path, text):
+    path.write_text(text)
+    with pytest.raises(ValueError, match="replay"):
+        read_parts(path)
