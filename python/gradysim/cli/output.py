@@ -45,7 +45,7 @@ def replay_writer(scenario: "Scenario", options: RunOptions) -> "ReplaySink | No
     if not options.replay:
         return None
     from gradysim.replay.sink import ReplayWriter
-    from gradysim.scenario.node_names import nodes_named
+    from gradysim.scenario.scenario import nodes_named
 
     recorded = {node.id for node in nodes_named(scenario, options.replay)}
     return ReplayWriter(
