@@ -1,5 +1,6 @@
 """The command `gradysim`.
 
+    gradysim new NAME
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim check FILE.ini [-c CONFIG]
     gradysim view FILE.ini|FILE.html...
@@ -26,6 +27,7 @@ from gradysim.cli.check import check_file
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
+from gradysim.cli.new import make_project
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
 from gradysim.cli.view import view
@@ -64,6 +66,7 @@ app = App(
 app.command(run)
 app.command(check_file, name="check")
 app.command(view)
+app.command(make_project, name="new")
 app.command(list_runs, name="runs")
 app.command(print_means, name="means")
 app.command(list_keys, name="keys")

@@ -1,0 +1,44 @@
+import subprocess
+import sys
+
+import pytest
+
+from gradysim.cli.app import main
+from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "swarm"]) == 0
+    return tmp_path / "swarm"
+
+
+def test_its_first_command_ends_in_the_viewer(project, capsys):
+    assert project.is_dir()
+    assert capsys.readouterr().out.splitlines()[0].startswith("gradysim view swarm/swarm.ini ")
+
+
+def test_its_test_passes(project):
+    subprocess.run([sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", project], check=True)
+
+
+def test_jitter_mends_what_the_radio_breaks(project):
+    heard = {}
+    for config in ("General", "Jittered"):
+        (scenario,) = load_scenarios(project / "swarm.ini", config)
+        heard[config] = run(scenario).nodes[-1].tracked_variables["heard"]
+    assert heard["General"] == 0
+    assert heard["Jittered"] > 200
+
+
+def test_every_run_of_its_study_can_be_checked(project):
+    assert main(["check", "swarm/swarm.ini", "-c", "Study"]) == 0
+
+
+def test_no_folder_is_written_over(project, capsys):
+    before = (project / "swarm.ini").read_bytes()
+    assert main(["new", "swarm"]) == 2
+    assert "swarm" in capsys.readouterr().err
+    assert (project / "swarm.ini").read_bytes() == before

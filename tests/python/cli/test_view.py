@@ -1,0 +1,67 @@
+import json
+import subprocess
+import sys
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
+
+import pytest
+from websockets.sync.client import connect
+
+from gradysim.cli.app import main
+
+VIEW = (sys.executable, "-m", "gradysim", "view", "--no-browser")
+
+
+@pytest.fixture
+def folder(make_scenario, tmp_path, monkeypatch):
+    make_scenario()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def watch(process):
+    """Connect to what `gradysim view` printed, and return how the run ended."""
+    address = urlsplit(process.stdout.readline().strip())
+    with connect(f"ws://{address.netloc}/chunks?{address.query}", max_size=None) as viewer:
+        for message in viewer:
+            if isinstance(message, str) and "end" in (told := json.loads(message)):
+                return told["end"]
+    return None
+
+
+@pytest.mark.parametrize("mode", ["integrated", "prototype"])
+def test_a_run_is_shown_and_ends_when_its_viewers_have_left(folder, mode):
+    with subprocess.Popen([*VIEW, "test.ini", "--mode", mode], stdout=subprocess.PIPE, text=True) as process:
+        assert watch(process) == {"time_s": pytest.approx(2.05), "complete": True}
+        assert process.wait(20) == 0
+
+
+def test_a_failure_of_a_protocol_is_told_in_the_end(folder, make_scenario):
+    make_scenario("class Tested(Talker):\n    def handle_packet(self, message): raise RuntimeError('spoilt')")
+    with subprocess.Popen(
+        [*VIEW, "test.ini"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert watch(process)["complete"] is False
+        assert process.wait(20) == 1
+        assert "spoilt" in process.stderr.read()
+
+
+def test_a_replay_and_two_beside_each_other(folder, capsys):
+    assert main(["run", "test.ini", "--replay", "all", "--quiet"]) == 0
+    page = "results/General-#0.integrated.html"
+    capsys.readouterr()
+    assert main(["view", page, "--no-browser"]) == 0
+    assert capsys.readouterr().out.strip() == (folder / page).as_uri()
+    assert main(["view", page, page, "--no-browser"]) == 0
+    beside = url2pathname(urlsplit(capsys.readouterr().out.strip()).path)
+    with open(beside) as file:
+        assert file.read().count((folder / page).as_uri()) == 2
+
+
+@pytest.mark.parametrize(
+    "files", [["missing.html"], ["missing.ini"], ["test.ini", "test.ini"], ["protocol.html"]]
+)
+def test_what_cannot_be_shown_is_a_mistake(folder, files, capsys):
+    (folder / "protocol.html").write_text("<p>")
+    assert main(["view", *files, "--no-browser"]) == 2
+    assert capsys.readouterr().err
