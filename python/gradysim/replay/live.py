@@ -59,7 +59,7 @@ class LiveView:
             from websockets.sync.server import serve
         except ModuleNotFoundError as error:
             raise ModuleNotFoundError(
-                'a live view needs the package websockets: pip install "gradysim[visualization]"',
+                'a live view needs the package websockets: pip install "websockets>=15"',
                 name=error.name,
             ) from error
         self._token = secrets.token_urlsafe(16)
