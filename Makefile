@@ -19,10 +19,11 @@ cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
 python_packages := $(shell find python -name __init__.py)
 cpp_checked := $(shell find cpp tests/cpp tests/fuzz bench -name '*.[ch]pp')
 python_checked := python tests examples bench
+node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang again
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -30,7 +31,7 @@ help:  ## List the commands.
 demo: build  ## Run ZigZag in both modes and print the comparison.
 	$(BIN)/python examples/zigzag/compare.py
 
-test: test-cpp test-python  ## Build and run all tests, C++ and Python.
+test: test-cpp test-python test-viewer  ## Build and run all tests: C++, Python, the page of replays.
 
 test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer; some: ONLY='Contention*'.
 	cmake -S cpp --preset asan --log-level=WARNING
@@ -39,6 +40,9 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 
 test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel; some: ONLY='FILE -k NAME'.
 	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=auto --dist=loadfile)
+
+test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays, in Chromium.
+	$(BIN)/python -m pytest tests/viewer
 
 test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
 	cmake -S cpp --preset tsan --log-level=WARNING
@@ -86,6 +90,9 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 	build/bench/netsim_layers 10000
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
 
+viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/replay/page.html, from viewer/.
+	cd viewer && npm run --silent check && npm run --silent build
+
 schema: build  ## Rewrite what is derived from the declarations of the engine's fields.
 	$(BIN)/python cpp/proxy_protocol/write_schema.py
 
@@ -98,8 +105,8 @@ golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages
 clean:  ## Remove what was built; .venv stays.
 	rm -rf build dist $(STAMPS)/editable
 
-distclean: clean  ## Remove .venv, too.
-	rm -rf $(VENV)
+distclean: clean  ## Remove .venv and the packages of npm, too.
+	rm -rf $(VENV) viewer/node_modules
 
 # ---- set-up ---------------------------------------------------------------------------------------------------------
 
@@ -134,6 +141,16 @@ need-ns3:
 
 system-tshark:
 	$(call need,command -v tshark,tshark)
+
+system-npm:
+	$(call need,command -v npm,nodejs npm)
+
+system-chromium:
+	$(call need,command -v chromium,chromium fonts-dejavu-core)
+
+$(node_packages): viewer/package-lock.json | system-npm
+	cd viewer && npm ci --silent --no-audit --no-fund
+	@touch $@
 
 $(VENV)/bin/python:
 	$(call need,$(PYTHON) -c 'import venv$(comma) ensurepip',python3-venv)

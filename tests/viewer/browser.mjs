@@ -1,0 +1,99 @@
+// Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
+// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, screenshot, color}, or
+// {file, beside} for a page with two replays, of which the first one gets a key. `url` instead of `file`, and the
+// time `after` which to look, are for a run that goes on. Writes one object to standard output.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+
+const { chromium } = createRequire(new URL("../../viewer/package.json", import.meta.url))("playwright-core");
+const asked = JSON.parse(readFileSync(0, "utf8"));
+
+const browser = await chromium.launch({
+  executablePath: "/usr/bin/chromium",
+  args: ["--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
+});
+const context = await browser.newContext({
+  viewport: { width: asked.width ?? 1280, height: asked.height ?? 800 },
+  deviceScaleFactor: asked.scale ?? 1,
+  colorScheme: asked.dark ? "dark" : "light",
+});
+const said = { console: [], requests: [] };
+const page = await context.newPage();
+page.on("console", (message) => said.console.push(`${message.type()}: ${message.text()}`));
+page.on("pageerror", (error) => said.console.push(`error: ${error.message}`));
+page.on("request", (request) => {
+  if (request.isNavigationRequest() || request.url().startsWith("data:")) return;
+  said.requests.push(request.url());
+});
+
+const opened = performance.now();
+await page.goto(asked.url ?? `file://${asked.file}${asked.address ?? ""}`);
+if (asked.beside) said.times = await pressBeside(asked.beside);
+else await look();
+await browser.close();
+process.stdout.write(JSON.stringify(said));
+
+async function look() {
+  await page.evaluate(() => gradysim.ready);
+  said.open_s = (performance.now() - opened) / 1000;
+  await page.waitForFunction((time) => document.querySelector("input.time").value >= time, asked.after ?? 0);
+  said.states = await page.evaluate(async (times) => {
+    const states = [];
+    for (const time of times) states.push(await gradysim.state(time));
+    return states;
+  }, asked.times ?? []);
+  said.seek_s = await page.evaluate(async (times) => {
+    const took = [];
+    for (const time of times) {
+      const start = performance.now();
+      await gradysim.seek(time);
+      took.push((performance.now() - start) / 1000);
+    }
+    return took;
+  }, asked.seeks ?? []);
+  if (asked.fill) await page.getByRole("combobox", { name: "Filter of frames" }).fill(asked.fill);
+  for (const key of asked.keys ?? []) await page.keyboard.press(key);
+  if (asked.until)
+    await page.waitForFunction(
+      (text) => decodeURIComponent(location.hash).includes(text) || document.body.innerText.includes(text),
+      asked.until,
+    );
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  said.address = decodeURIComponent(await page.evaluate(() => location.hash));
+  said.text = await page.evaluate(() => document.body.innerText);
+  said.scrolls_sideways = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  const picture = await page.screenshot(asked.screenshot ? { path: asked.screenshot } : {});
+  Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0]]));
+}
+
+/** Press a key in the first of two replays; return the times that both show once they agree. */
+async function pressBeside(key) {
+  const [first, second] = page.frames().slice(1);
+  for (const frame of [first, second]) await frame.evaluate(() => gradysim.ready);
+  await first.locator("canvas.scene").press(key);
+  await first.waitForFunction(() => location.hash.includes("frame="));
+  const shown = () => document.querySelector("input.time").value;
+  const time = await first.evaluate(shown);
+  await second.waitForFunction((wanted) => document.querySelector("input.time").value === wanted, time);
+  return [time, await second.evaluate(shown)];
+}
+
+/** How many colors a picture has, and how many pixels of it are near one color. */
+async function countColors([base64, [red, green, blue]]) {
+  const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+  const { data } = (() => {
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const drawing = canvas.getContext("2d");
+    drawing.drawImage(image, 0, 0);
+    return drawing.getImageData(0, 0, image.width, image.height);
+  })();
+  const colors = new Set();
+  let near = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    colors.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
+    const off = Math.abs(data[at] - red) + Math.abs(data[at + 1] - green) + Math.abs(data[at + 2] - blue);
+    if (off < 40) near += 1;
+  }
+  return { colors: colors.size, near_pixels: near };
+}

@@ -1,0 +1,64 @@
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from gradysim.integrated.run import IntegratedRun
+from gradysim.replay.sink import ReplayWriter
+from gradysim.scenario import load_scenarios
+
+ROOT = Path(__file__).parents[2]
+
+
+def record(path, file, config, duration):
+    """Write the replay of the first seconds of an example."""
+    scenario = load_scenarios(ROOT / "configs" / file, config, overrides=[f"sim-time-limit={duration}"])[0]
+    IntegratedRun(scenario, replay=ReplayWriter(path)).execute()
+    return path
+
+
+@pytest.fixture(scope="session")
+def zigzag(tmp_path_factory):
+    """The replay of a run in which all send their heartbeats at the same instants."""
+    path = tmp_path_factory.mktemp("replay") / "zigzag.html"
+    return record(path, "zigzag.ini", "ZigZag5Synchronised", "250s")
+
+
+@pytest.fixture(scope="session")
+def town(tmp_path_factory):
+    """The replay of a run with obstacles."""
+    return record(tmp_path_factory.mktemp("replay") / "town.html", "town/town.ini", "Concrete", "1s")
+
+
+@pytest.fixture(scope="session")
+def viewer():
+    """The directory of the page's sources, with the packages of npm."""
+    need((ROOT / "viewer/node_modules").is_dir(), "the packages of npm: `make viewer` installs them")
+    return ROOT / "viewer"
+
+
+@pytest.fixture(scope="session")
+def browser(viewer):
+    """A function that opens a replay in Chromium and returns what it shows; see browser.mjs."""
+    need(shutil.which("chromium"), "Chromium: `make test-viewer` installs it")
+
+    def show(file, **asked):
+        done = subprocess.run(
+            ["node", Path(__file__).with_name("browser.mjs")],
+            input=json.dumps({"file": str(file), **asked}),
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    return show
+
+
+def need(is_there, what):
+    if not is_there:
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(f"needs {what}")

@@ -1,0 +1,107 @@
+"""What the page shows of a replay, in a browser."""
+
+import json
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+from random import Random
+from subprocess import PIPE
+
+import pytest
+
+from gradysim.replay import read_replay
+from gradysim.replay.file import page
+
+ROOT = Path(__file__).parents[2]
+INTERFERENCE = [0xC1, 0x12, 0x1F]
+RECEIVER_TRANSMITTING = [0xD9, 0x48, 0x0F]
+
+
+def state(replay, time_s):
+    """What `gradysim.state` of the page says, from the tables."""
+    began = [start <= time_s * 1e9 for start in replay.table("frames")["time_ns"]]
+    outcomes = Counter(reception.outcome for reception in replay.receptions() if began[reception.frame])
+    positions = [list(place) for place in replay.positions(time_s)]
+    return {"time_s": time_s, "positions": positions, "frames": sum(began), "outcomes": dict(outcomes)}
+
+
+def test_states_equal_those_of_the_reader(zigzag, browser):
+    replay, random = read_replay(zigzag), Random(1)
+    times = [0, 60, replay.end_s, *(random.uniform(0, replay.end_s) for _ in range(20))]
+    assert browser(zigzag, times=times)["states"] == [state(replay, time_s) for time_s in times]
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_it_is_quiet_and_not_blank(town, browser, dark):
+    said = browser(town, address="#t=0.7&node=drones[1]", dark=dark)
+    assert said["console"] == []
+    assert said["requests"] == []
+    assert said["colors"] > 50
+
+
+def test_losses_at_the_ground_station_are_red(zigzag, browser):
+    near = browser(zigzag, address="#t=1.1&node=groundStation&follow=1", color=RECEIVER_TRANSMITTING)
+    assert near["near_pixels"] > 100
+    assert "receiver was transmitting" in near["text"]
+    far = browser(zigzag, address="#t=1.1&filter=kind:ack", color=RECEIVER_TRANSMITTING)
+    assert far["near_pixels"] < near["near_pixels"]
+
+
+def test_it_fits_at_200_percent(zigzag, browser):
+    assert not browser(zigzag, width=640, height=400, scale=2)["scrolls_sideways"]
+
+
+def test_a_link_shows_what_it_says(zigzag, browser):
+    address = "#t=30.5&node=uavs[1]&follow=1&filter=kind:broadcast"
+    said = browser(zigzag, address=address, until="id 1 · uavs")
+    assert said["address"] == address
+
+
+def test_the_next_loss_says_who_interfered(zigzag, browser):
+    replay = read_replay(zigzag)
+    lost = next(row for row in replay.receptions() if row.outcome == "interference")
+    rows = replay.table("interferers")
+    interferer = rows["node"][list(rows["frame"]).index(lost.frame)]
+    said = browser(
+        zigzag,
+        address="#t=0&filter=outcome:interference",
+        keys=["Shift+ArrowRight", "z"],
+        until=f"&frame={lost.frame}&",
+        color=INTERFERENCE,
+    )
+    assert f"with {replay.run['nodes'][interferer]['name']} (" in said["text"]
+    assert said["near_pixels"] > 300
+
+
+def test_a_wrong_filter_says_so(zigzag, browser):
+    browser(zigzag, fill="colour:red", until='"colour" is not a key')
+
+
+def test_a_run_that_was_killed_opens(zigzag, browser, tmp_path):
+    killed = tmp_path / "killed.html"
+    killed.write_bytes(zigzag.read_bytes()[:-2000])
+    replay = read_replay(killed)
+    said = browser(killed, times=[replay.end_s])
+    assert said["states"] == [state(replay, replay.end_s)]
+    assert "ended early" in said["text"]
+
+
+def test_two_replays_beside_each_other_have_one_clock(zigzag, town, browser, tmp_path):
+    both = tmp_path / "both.html"
+    names = json.dumps([zigzag.as_uri(), town.as_uri()])
+    element = f'<script type="application/json" id="gradysim-beside">{names}</script>'
+    both.write_text(page().replace("<!-- run -->", element))
+    first, second = browser(both, beside="Shift+ArrowRight")["times"]
+    assert first == second != "0.000000"
+
+
+def test_a_run_is_shown_while_it_goes_on(zigzag, browser):
+    command = [sys.executable, "-m", "gradysim", "view", ROOT / "configs/zigzag.ini", "--no-browser"]
+    with subprocess.Popen([*command, "-c", "ZigZag5Synchronised"], stdout=PIPE, text=True) as view:
+        try:
+            said = browser(None, url=view.stdout.readline().strip(), after=2, times=[1.5])
+        finally:
+            view.kill()
+    assert said["states"] == [state(read_replay(zigzag), 1.5)]
+    assert said["console"] == []

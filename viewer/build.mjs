@@ -1,0 +1,33 @@
+// Builds python/gradysim/replay/page.html: one file, with the script and the styles in it.
+// `node build.mjs FILE` writes it to another place.
+import { build } from "esbuild";
+import { readFile, writeFile } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
+
+const here = fileURLToPath(new URL(".", import.meta.url));
+const target = process.argv[2] ?? `${here}../python/gradysim/replay/page.html`;
+
+const licenses = [];
+for (const name of ["three", "uplot"])
+  licenses.push(`${name}\n\n${await readFile(`${here}node_modules/${name}/LICENSE`, "utf8")}`);
+
+const bundled = await build({
+  absWorkingDir: here,
+  entryPoints: ["src/main.ts"],
+  bundle: true,
+  minify: true,
+  write: false,
+  outdir: "out",
+  format: "iife",
+  target: ["chrome103", "firefox113", "safari16.4"],
+  charset: "utf8",
+  legalComments: "none",
+  footer: { js: `/*\n${licenses.join("\n")}*/` }, // they ask for it
+  loader: { ".css": "css" },
+});
+const text = (end) => bundled.outputFiles.find((file) => file.path.endsWith(end)).text;
+const page = (await readFile(`${here}src/page.html`, "utf8"))
+  .replace("/* styles */", () => text(".css").trim())
+  .replace("/* script */", () => text(".js").trim());
+if (page.split("<!-- run -->").length !== 2) throw new Error("expected one place for the run in the page");
+await writeFile(target, page);

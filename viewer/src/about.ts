@@ -1,0 +1,43 @@
+// What was run: enough to run it again.
+
+import { make } from "./dom";
+import { dialog } from "./keys";
+import { Replay } from "./replay";
+
+export function titleOf({ run }: Replay): string {
+  return `${run.config} #${run.run}`;
+}
+
+export function subtitleOf(replay: Replay): string {
+  const { description, iterations, mode, seed, file, nodes } = replay.run;
+  const values = Object.entries(iterations).map(([name, value]) => `${name} = ${value}`);
+  const parts = [description, ...values, `${mode} mode`, `seed ${seed}`, `${nodes.length} nodes`, file];
+  return parts.filter(Boolean).join(" · ");
+}
+
+/** A note if the record does not show the whole run; "" otherwise. */
+export function warningOf(replay: Replay): string {
+  const { recorded, nodes } = replay.run;
+  const { end, isLive, isLost } = replay.source;
+  const parts: string[] = [];
+  if (isLost && isLive) parts.push("The process of the run has gone.");
+  else if (isLost || end?.complete === false) parts.push("The run ended early.");
+  if (recorded !== null && recorded.length < nodes.length)
+    parts.push(`Receptions were recorded at ${recorded.length} of ${nodes.length} nodes.`);
+  return parts.join(" ");
+}
+
+export function runDialog({ run }: Replay): HTMLDialogElement {
+  const facts: [string, string][] = [
+    ["file", run.file],
+    ["configuration", run.config],
+    ["run", String(run.run)],
+    ["mode", run.mode],
+    ["seed", String(run.seed)],
+    ["duration", `${run.duration_s} s`],
+    ...Object.entries(run.iterations).map(([name, value]): [string, string] => [name, String(value)]),
+  ];
+  const rows = facts.map(([name, value]) => make("tr", {}, make("th", {}, name), make("td", {}, value)));
+  const ini = run.ini ? [make("h3", {}, "Configuration file"), make("pre", { tabindex: "0" }, run.ini)] : [];
+  return dialog("What was run", make("table", {}, make("tbody", {}, ...rows)), ...ini);
+}

@@ -1,0 +1,68 @@
+// The address holds the time, the node, the frame and the filter, so that a bug report is a link.
+
+import { Replay, Frame } from "./replay";
+import { State } from "./state";
+
+const DELAY_MS = 300;
+
+export interface Place {
+  timeNs: number | null;
+  state: Partial<State>;
+  /** Number of the frame in the run. */
+  frame: number | null;
+}
+
+export function readAddress(replay: Replay): Place {
+  const values = new URLSearchParams(location.hash.slice(1));
+  const time = Number.parseFloat(values.get("t") ?? "");
+  const name = values.get("node");
+  const node = replay.run.nodes.find((one) => one.name === name || String(one.id) === name);
+  const frame = Number.parseInt(values.get("frame") ?? "", 10);
+  return {
+    timeNs: Number.isNaN(time) ? null : time * 1e9,
+    frame: Number.isNaN(frame) ? null : frame,
+    state: {
+      node: node?.id ?? null,
+      isFollowing: values.get("follow") === "1",
+      filter: values.get("filter") ?? "",
+    },
+  };
+}
+
+export class Address {
+  private timer = 0;
+
+  constructor(private readonly replay: Replay) {}
+
+  /** Write it a little later: browsers limit how often it may change. */
+  write(timeNs: number, state: Readonly<State>): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => {
+      const values: [string, string][] = [["t", String(Number((timeNs / 1e9).toFixed(9)))]];
+      if (state.node !== null) values.push(["node", this.replay.nameOf(state.node)]);
+      if (state.isFollowing) values.push(["follow", "1"]);
+      if (state.frame !== null) values.push(["frame", String(frameNumber(this.replay, state.frame))]);
+      if (state.filter) values.push(["filter", state.filter]);
+      // Readable: only what would end the address or a value is escaped.
+      const text = values.map(([key, value]) => `${key}=${value.replace(/[&%+# ]/g, encodeURIComponent)}`);
+      history.replaceState(null, "", `#${text.join("&")}`);
+    }, DELAY_MS);
+  }
+}
+
+export function frameNumber(replay: Replay, { chunk, row }: Frame): number {
+  return firstFrame(replay, chunk.index) + row;
+}
+
+/** Return the frame with this number; null if the run has none. */
+export async function findNumber(replay: Replay, number: number): Promise<Frame | null> {
+  for (const [index, { header }] of replay.chunks.entries()) {
+    const row = number - firstFrame(replay, index);
+    if (row >= 0 && row < header.tables.frames.rows) return { chunk: await replay.loadChunk(index), row };
+  }
+  return null;
+}
+
+function firstFrame(replay: Replay, index: number): number {
+  return replay.chunks.slice(0, index).reduce((sum, { header }) => sum + header.tables.frames.rows, 0);
+}

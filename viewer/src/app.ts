@@ -1,0 +1,301 @@
+// Puts the parts of the page together and draws them when something has changed.
+
+import { runDialog, subtitleOf, titleOf, warningOf } from "./about";
+import { Address, findNumber, readAddress } from "./address";
+import { Neighbors } from "./beside";
+import { Clock } from "./clock";
+import { Actions, Controls } from "./controls";
+import { make } from "./dom";
+import { Filter, parseFilter, senderOf } from "./filter";
+import { FrameDetails } from "./frame_details";
+import { FrameList } from "./frames";
+import { Inspector } from "./inspector";
+import { keysDialog, listenToKeys } from "./keys";
+import { Overlay } from "./overlay";
+import { Frame, Replay, startOf } from "./replay";
+import { setText } from "./rows";
+import { Scene, TRAIL_S } from "./scene";
+import { Source } from "./source";
+import { State, Store } from "./state";
+import { findStep, Goal } from "./steps";
+import { Timeline } from "./timeline";
+
+/** How often texts change: less often than the picture. */
+const TEXTS_MS = 160;
+
+const SLANT = Math.PI * 0.27;
+
+export class App implements Actions {
+  readonly replay: Replay;
+  readonly ready: Promise<void>;
+  private readonly clock = new Clock();
+  private readonly store = new Store();
+  private readonly scene: Scene;
+  private readonly overlay: Overlay;
+  private readonly timeline: Timeline;
+  private readonly controls: Controls;
+  private readonly inspector: Inspector;
+  private readonly list: FrameList;
+  private readonly chosen: FrameDetails;
+  private readonly address: Address;
+  private readonly dialogs: { run: HTMLDialogElement; keys: HTMLDialogElement };
+  private readonly neighbors: Neighbors;
+  private readonly warning = make("p", { class: "mistake" });
+  private filter: Filter;
+  private isDirty = true;
+  private areTextsOld = true;
+  private lastTickMs = 0;
+  private lastTextsMs = 0;
+
+  constructor(source: Source) {
+    this.replay = new Replay(source);
+    this.filter = parseFilter("", this.replay);
+    this.address = new Address(this.replay);
+    this.dialogs = { run: runDialog(this.replay), keys: keysDialog() };
+    this.controls = new Controls(this.clock, this.store, this);
+    this.inspector = new Inspector(this.replay, this.store, (timeNs) => this.seek(timeNs));
+    this.chosen = new FrameDetails(this.replay, () => this.store.set({ frame: null }));
+    this.list = new FrameList(this.replay, this.store, (frame) => void this.chooseFrame(frame));
+    this.timeline = new Timeline(
+      this.replay,
+      (timeNs) => this.seek(timeNs),
+      () => this.redraw(),
+    );
+    const canvas = make("canvas", { class: "scene", tabindex: "0", "aria-label": "The nodes in space" });
+    const labels = make("canvas", { class: "labels", "aria-hidden": "true" });
+    this.layOut(canvas, labels);
+    this.scene = new Scene(canvas, this.replay, () => this.redraw());
+    this.overlay = new Overlay(labels, this.replay, this.scene);
+    this.overlay.onClick(canvas, (node) => {
+      if (node !== null || this.store.now.node !== null) this.store.set({ node });
+    });
+    this.neighbors = new Neighbors(({ timeNs, ...told }) => {
+      Object.assign(this.clock, told);
+      this.goTo(timeNs);
+    });
+    this.listen(canvas);
+    source.onChange = () => this.takeNews();
+    this.takeNews();
+    this.clock.isPlaying = source.isLive;
+    this.ready = this.open();
+  }
+
+  redraw(): void {
+    this.isDirty = true;
+  }
+
+  /** Go to a time, choosing no frame, and draw it. */
+  async show(timeNs: number): Promise<void> {
+    this.seek(timeNs);
+    await this.replay.load(this.clock.timeNs);
+    this.draw();
+  }
+
+  seek(timeNs: number): void {
+    this.neighbors.leads = true;
+    this.goTo(timeNs);
+  }
+
+  playOrPause(): void {
+    this.neighbors.leads = true;
+    this.clock.toggle();
+    this.redraw();
+  }
+
+  setSpeed(speed: number): void {
+    this.neighbors.leads = true;
+    this.clock.speed = speed;
+    this.redraw();
+  }
+
+  async step(goal: Goal, direction: 1 | -1): Promise<void> {
+    this.clock.isPlaying = false;
+    const from = this.store.now.frame ?? this.clock.timeNs;
+    const frame = await findStep(this.replay, goal, this.filter, from, direction);
+    if (frame) await this.chooseFrame(frame);
+    else if (this.clock.mayGrow) this.seek(this.clock.endNs);
+  }
+
+  stepOfNode(direction: 1 | -1): void {
+    const { node } = this.store.now;
+    if (node !== null) void this.step({ node }, direction);
+  }
+
+  chooseNode(direction: 1 | -1): void {
+    const ids = this.replay.run.nodes.map((node) => node.id);
+    const { node } = this.store.now;
+    const place = node === null ? (direction > 0 ? -1 : ids.length) : ids.indexOf(node);
+    this.store.set({ node: ids[(place + direction + ids.length) % ids.length] });
+  }
+
+  clearChoice(): void {
+    this.store.set(this.store.now.frame ? { frame: null } : { node: null, isFollowing: false });
+  }
+
+  showAll(): void {
+    this.scene.fit(this.replay.positions(this.clock.timeNs));
+    this.redraw();
+  }
+
+  /** Show the chosen frame or node from near. */
+  zoom(): void {
+    const { frame, node } = this.store.now;
+    if (frame !== null) {
+      const nodes = [senderOf(frame), ...frame.chunk.frames.receptions(frame.row).map(({ receiver }) => receiver)];
+      this.scene.zoomTo(nodes.flatMap((one) => [...this.replay.position(one, frame)]));
+    } else if (node !== null) {
+      const [x, y, z] = this.replay.positions(this.clock.timeNs).subarray(node * 3, node * 3 + 3);
+      const range = this.replay.nodes.get(node)?.range_m ?? 50;
+      this.scene.zoomTo([x - range, y - range, z, x + range, y + range, z]);
+    } else return this.showAll();
+    this.redraw();
+  }
+
+  toggleTop(): void {
+    this.scene.camera.toggleTop();
+    this.redraw();
+  }
+
+  focusFilter(): void {
+    this.list.field.focus();
+    this.list.field.select();
+  }
+
+  showRun(): void {
+    this.dialogs.run.showModal();
+  }
+
+  showKeys(): void {
+    this.dialogs.keys.showModal();
+  }
+
+  /** More of the run has come. */
+  private takeNews(): void {
+    const { end, isLive, isLost } = this.replay.source;
+    this.clock.endNs = this.replay.endNs;
+    this.clock.mayGrow = isLive && !isLost && end === null;
+    setText(this.warning, warningOf(this.replay));
+    this.redraw();
+  }
+
+  private goTo(timeNs: number): void {
+    this.clock.seek(timeNs);
+    if (this.store.now.frame !== null) this.store.set({ frame: null });
+    this.redraw();
+  }
+
+  private layOut(canvas: HTMLCanvasElement, labels: HTMLCanvasElement): void {
+    document.title = `${titleOf(this.replay)} – gradysim replay`;
+    document.body.append(
+      make(
+        "header",
+        {},
+        make("h1", {}, titleOf(this.replay)),
+        make("p", { class: "about", title: subtitleOf(this.replay) }, subtitleOf(this.replay)),
+        this.warning,
+        this.controls.tools,
+      ),
+      make("main", { class: "stage" }, canvas, labels),
+      make(
+        "aside",
+        {},
+        this.inspector.element,
+        make("section", { "aria-label": "Frames" }, this.chosen.element, ...this.list.elements),
+      ),
+      make("footer", {}, this.controls.bar, this.timeline.element),
+      this.dialogs.run,
+      this.dialogs.keys,
+    );
+  }
+
+  private listen(canvas: HTMLCanvasElement): void {
+    this.store.onChange((changed) => this.react(changed));
+    listenToKeys(this.controls, this, this.clock);
+    new ResizeObserver(() => this.redraw()).observe(canvas);
+    window.addEventListener("hashchange", () => void this.goToAddress());
+  }
+
+  private react(changed: Partial<State>): void {
+    if ("filter" in changed)
+      try {
+        this.filter = parseFilter(this.store.now.filter, this.replay);
+        this.list.showMistake("");
+      } catch (error) {
+        this.list.showMistake((error as Error).message);
+      }
+    if ("node" in changed && this.store.now.node === null && this.store.now.isFollowing)
+      this.store.set({ isFollowing: false });
+    if (changed.isFollowing && this.store.now.node === null) this.chooseNode(1);
+    if ("frame" in changed) void this.chosen.read(this.store.now.frame).then(() => this.redraw());
+    this.redraw();
+  }
+
+  private async chooseFrame(frame: Frame): Promise<void> {
+    this.clock.isPlaying = false;
+    this.seek(startOf(frame));
+    await this.replay.load(this.clock.timeNs);
+    this.store.set({ frame });
+  }
+
+  private async goToAddress(): Promise<void> {
+    const place = readAddress(this.replay);
+    this.store.set(place.state);
+    const frame = place.frame === null ? null : await findNumber(this.replay, place.frame);
+    if (frame) await this.chooseFrame(frame);
+    else await this.show(place.timeNs ?? this.clock.timeNs);
+  }
+
+  private async open(): Promise<void> {
+    await this.replay.load(0);
+    const chunk = this.replay.chunk(0);
+    const ends = chunk ? [...chunk.legs.ends()].flat() : [];
+    this.scene.fit(ends, SLANT);
+    await this.goToAddress();
+    requestAnimationFrame((nowMs) => this.tick(nowMs));
+  }
+
+  private tick(nowMs: number): void {
+    const wallS = Math.min(0.1, (nowMs - this.lastTickMs) / 1000);
+    this.lastTickMs = nowMs;
+    const isReady = this.replay.isReady(this.clock.timeNs);
+    this.replay.source.tell(this.clock.timeNs, this.clock.speed);
+    if (this.clock.isPlaying && isReady && this.neighbors.mayAdvance) {
+      if (this.store.now.frame !== null) this.store.set({ frame: null });
+      this.clock.advance(wallS);
+      this.isDirty = true;
+      // What comes next is decoded before it is needed.
+      void this.replay.load(Math.min(this.clock.endNs, this.clock.timeNs + this.clock.speed * 1e9));
+    }
+    if (this.isDirty && this.replay.isReady(this.clock.timeNs)) this.draw();
+    else if (this.isDirty) void this.replay.load(this.clock.timeNs);
+    if (this.areTextsOld && nowMs - this.lastTextsMs > TEXTS_MS) this.drawTexts(nowMs);
+    requestAnimationFrame((next) => this.tick(next));
+  }
+
+  private draw(): void {
+    this.isDirty = false;
+    this.areTextsOld = true;
+    const { timeNs, speed, isPlaying } = this.clock;
+    this.neighbors.tell({ timeNs, speed, isPlaying });
+    const positions = this.replay.positions(timeNs);
+    const state = this.store.now;
+    const { filter } = this;
+    const { interferers } = this.chosen;
+    this.scene.draw({ timeNs, speed, positions, state, filter, interferers });
+    this.overlay.draw(positions, state);
+    this.timeline.draw(timeNs);
+    this.controls.update();
+    const earlier = this.replay.chunkIndexAt(timeNs - TRAIL_S * 1e9);
+    if (earlier < this.replay.chunks.length && !this.replay.chunk(earlier))
+      void this.replay.loadChunk(earlier).then(() => this.redraw());
+  }
+
+  private drawTexts(nowMs: number): void {
+    this.areTextsOld = false;
+    this.lastTextsMs = nowMs;
+    const { timeNs, isPlaying } = this.clock;
+    this.inspector.update(timeNs, this.replay.positions(timeNs));
+    this.list.update(timeNs, this.filter);
+    if (!isPlaying) this.address.write(timeNs, this.store.now);
+  }
+}

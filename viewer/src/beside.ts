@@ -1,0 +1,49 @@
+// Several replays beside each other, on one clock: that in which the person acts tells the others the time.
+
+import { make } from "./dom";
+
+/** What a page says of its clock. */
+export interface Told {
+  timeNs: number;
+  speed: number;
+  isPlaying: boolean;
+}
+
+/** Show pages beside each other; what one of them tells goes to the others. */
+export function showBeside(addresses: string[]): void {
+  const frames = addresses.map((address) =>
+    make("iframe", { src: address + location.hash, title: decodeURIComponent(address) }),
+  );
+  document.body.className = "beside";
+  document.body.append(...frames);
+  window.addEventListener("message", (event) => {
+    if (!frames.some((frame) => frame.contentWindow === event.source)) return;
+    for (const frame of frames)
+      if (frame.contentWindow !== event.source) frame.contentWindow?.postMessage(event.data, "*");
+  });
+}
+
+/** The link of a page to those beside it. */
+export class Neighbors {
+  /** Whether this page tells the time. */
+  leads = false;
+  private readonly isAlone = window.parent === window;
+
+  constructor(onTold: (told: Told) => void) {
+    if (this.isAlone) return;
+    window.addEventListener("message", (event) => {
+      if (event.source !== window.parent) return;
+      this.leads = false;
+      onTold(event.data as Told);
+    });
+  }
+
+  /** Whether the clock goes on by itself. */
+  get mayAdvance(): boolean {
+    return this.isAlone || this.leads;
+  }
+
+  tell(told: Told): void {
+    if (!this.isAlone && this.leads) window.parent.postMessage(told, "*");
+  }
+}

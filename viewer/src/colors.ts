@@ -1,0 +1,60 @@
+// Colors that people with any color vision can tell apart, and the words for outcomes.
+
+export const isDark = window.matchMedia("(prefers-color-scheme: dark)");
+
+type Pair = readonly [light: string, dark: string];
+
+/** `dash`: length of the dashes of a lost one, in pixels. Red and orange: other frames were in the way. */
+const OUTCOMES: Record<string, { words: string; color: Pair; dash: number }> = {
+  delivered: { words: "delivered", color: ["#5f86ad", "#7fa3c7"], dash: 0 },
+  below_sensitivity: { words: "below sensitivity", color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  in_air: { words: "still in the air", color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  out_of_range: { words: "out of range", color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  interference: { words: "lost to interference", color: ["#c1121f", "#ff4d5e"], dash: 8 },
+  receiver_transmitting: { words: "receiver was transmitting", color: ["#d9480f", "#ff7a4d"], dash: 5 },
+  receiver_locked: { words: "receiver was busy", color: ["#7a3fb0", "#b795f0"], dash: 5 },
+  captured: { words: "given up for a stronger frame", color: ["#7a4a12", "#c9975a"], dash: 5 },
+  noise: { words: "lost to noise", color: ["#b39200", "#f0d03c"], dash: 2.5 },
+  preamble_undetected: { words: "preamble not detected", color: ["#007a59", "#00b386"], dash: 2.5 },
+  header_error: { words: "header not decoded", color: ["#1a8fd1", "#56b4e9"], dash: 2.5 },
+  lost: { words: "lost by chance", color: ["#b39200", "#f0d03c"], dash: 2.5 },
+};
+
+const GROUPS: Pair[] = [
+  ["#0b5cad", "#5aa9f2"],
+  ["#3d4a57", "#c3ced9"],
+  ["#00735a", "#3fc9a4"],
+  ["#7b4b94", "#c79be0"],
+  ["#8a6d1d", "#dcc36a"],
+];
+
+function pick(pair: Pair): string {
+  return pair[isDark.matches ? 1 : 0];
+}
+
+export function outcomeColor(name: string): string {
+  return pick(OUTCOMES[name]?.color ?? ["#777777", "#aaaaaa"]);
+}
+
+export function outcomeDash(name: string): number {
+  return OUTCOMES[name]?.dash ?? 4;
+}
+
+export function outcomeWords(name: string): string {
+  return OUTCOMES[name]?.words ?? name.replaceAll("_", " ");
+}
+
+export function groupColor(group: number): string {
+  return pick(GROUPS[group % GROUPS.length]);
+}
+
+/** The color of a style variable of the page, such as `--ink`. */
+export function styleColor(name: string): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}
+
+/** Red, green and blue of "#rrggbb", from 0 to 1. */
+export function rgb(color: string): [number, number, number] {
+  const value = Number.parseInt(color.slice(1), 16);
+  return [(value >> 16) / 255, ((value >> 8) & 255) / 255, (value & 255) / 255];
+}

@@ -1,0 +1,186 @@
+// What is known of the chosen node, or of all nodes, at the time of the clock.
+
+import { Charts } from "./charts";
+import { outcomeColor, outcomeDash, outcomeWords } from "./colors";
+import { countText, distanceText, make, timeText } from "./dom";
+import { Replay } from "./replay";
+import { setText, showRows } from "./rows";
+import { Store } from "./state";
+import { countUntil, History, noHistory, readOn } from "./variables";
+
+const MOST_NEIGHBORS = 12;
+const MOST_EVENTS = 12;
+
+export class Inspector {
+  readonly element = make("section", { "aria-label": "Inspector" });
+  private readonly choice = make("select", { "aria-label": "Node", title: "Choose a node" });
+  private readonly facts = make("p", { class: "message" });
+  private readonly outcomes = make("div", { class: "outcomes" });
+  private readonly outcomesNote = make("p", { class: "message" });
+  private readonly charts: Charts;
+  private readonly ofNode = make("div", {});
+  private readonly chartsNote = make("p", { class: "message" });
+  private readonly neighbors = make("div", { class: "list" });
+  private readonly neighborsTitle = make("h3", {});
+  private readonly events = make("div", { class: "list" });
+  private readonly eventsTitle = make("h3", {}, "Events");
+  private history: History | null = null;
+  private isReading = false;
+
+  constructor(
+    private readonly replay: Replay,
+    private readonly store: Store,
+    seek: (timeNs: number) => void,
+  ) {
+    this.charts = new Charts(seek);
+    this.choice.append(make("option", { value: "" }, "All nodes"));
+    for (const node of replay.run.nodes)
+      this.choice.append(make("option", { value: String(node.id) }, node.name));
+    this.choice.addEventListener("change", () =>
+      store.set({ node: this.choice.value === "" ? null : Number(this.choice.value) }),
+    );
+    for (const list of [this.neighbors, this.events])
+      list.addEventListener("click", (event) => {
+        const { node, time } = (event.target as Element).closest<HTMLElement>("button")?.dataset ?? {};
+        if (node) store.set({ node: Number(node) });
+        if (time) seek(Number(time));
+      });
+    this.ofNode.append(
+      make("h3", {}, "Tracked variables"),
+      this.chartsNote,
+      this.charts.element,
+      this.neighborsTitle,
+      this.neighbors,
+      this.eventsTitle,
+      this.events,
+    );
+    this.element.append(
+      make("div", { class: "row" }, make("h2", {}, "Node"), this.choice),
+      this.facts,
+      make("h3", {}, "Outcomes so far"),
+      this.outcomes,
+      this.outcomesNote,
+      this.ofNode,
+    );
+    store.onChange((changed) => {
+      if ("node" in changed) void this.choose();
+    });
+  }
+
+  update(timeNs: number, positions: Float64Array): void {
+    const { node } = this.store.now;
+    this.showOutcomes(timeNs, node);
+    if (node === null) {
+      setText(this.facts, "Click a node, or choose one here, to see its variables, neighbors and events.");
+      return;
+    }
+    const [x, y, z] = positions.subarray(node * 3, node * 3 + 3);
+    const { group, protocol, id, range_m } = this.replay.nodes.get(node)!;
+    const place = [x, y, z].map((value) => value.toFixed(1)).join(", ");
+    const range = range_m === null ? "" : ` · range ${distanceText(range_m)}`;
+    setText(this.facts, `id ${id} · ${group} · ${protocol}${range} · at (${place}) m`);
+    this.showNeighbors(node, positions);
+    void this.readHistory();
+    this.charts.moveTo(timeNs / 1e9);
+    this.showEvents(timeNs);
+  }
+
+  private async choose(): Promise<void> {
+    const { node } = this.store.now;
+    this.choice.value = node === null ? "" : String(node);
+    this.ofNode.hidden = node === null;
+    this.charts.clear();
+    this.history = node === null ? null : noHistory(node);
+    await this.readHistory();
+  }
+
+  /** Read what is not read yet: all, or what came of a run that goes on. */
+  private async readHistory(): Promise<void> {
+    const { history } = this;
+    if (history === null || this.isReading || history.chunks === this.replay.chunks.length) return;
+    this.isReading = true;
+    setText(this.chartsNote, history.chunks ? "" : "Reading …");
+    await readOn(this.replay, history, () => this.history === history);
+    this.isReading = false;
+    if (this.history !== history) return this.readHistory();
+    setText(this.chartsNote, history.series.size ? "" : "This node has none.");
+    this.charts.show(history.series.values(), this.replay.endNs / 1e9);
+    this.store.set({});
+  }
+
+  private showOutcomes(timeNs: number, node: number | null): void {
+    const { outcomes, recorded } = this.replay.run;
+    const { frames, counts } = this.replay.outcomes(timeNs);
+    const sums = outcomes.map(() => 0);
+    for (let place = 0; place < counts.length; place += 1)
+      if (node === null || Math.floor(place / outcomes.length) === node)
+        sums[place % outcomes.length] += counts[place];
+    const total = sums.reduce((a, b) => a + b, 0);
+    const rows = outcomes.map((name, outcome) => ({ name, count: sums[outcome] })).filter((row) => row.count);
+    const isMissing = node !== null && recorded !== null && !recorded.includes(node);
+    const whose = node === null ? "" : " at this node";
+    setText(
+      this.outcomesNote,
+      isMissing
+        ? "The receptions of this node were not recorded."
+        : `Frames: ${countText(frames)}. Receptions${whose}: ${countText(total)}.`,
+    );
+    showRows(
+      this.outcomes,
+      rows.sort((a, b) => b.count - a.count),
+      () => make("div", { class: "row outcome" }, make("i"), make("span"), make("span", { class: "end" })),
+      (element, { name, count }) => {
+        setText(element.children[1], outcomeWords(name));
+        setText(element.children[2], `${countText(count)} · ${shareText(count / total)}`);
+        element.style.setProperty("--color", outcomeColor(name));
+        element.style.setProperty("--dash", `${outcomeDash(name) || 100}px`);
+        element.style.setProperty("--share", `${(100 * count) / total}%`);
+      },
+    );
+  }
+
+  private showNeighbors(node: number, positions: Float64Array): void {
+    const { range_m } = this.replay.nodes.get(node)!;
+    const distances = [...this.replay.nodes.keys()]
+      .filter((other) => other !== node)
+      .map((other) => ({
+        other,
+        distance: Math.hypot(...[0, 1, 2].map((axis) => positions[other * 3 + axis] - positions[node * 3 + axis])),
+      }))
+      .filter(({ distance }) => range_m === null || distance <= range_m)
+      .sort((a, b) => a.distance - b.distance);
+    setText(
+      this.neighborsTitle,
+      range_m === null ? "Nearest nodes" : `In range (${distanceText(range_m)}): ${distances.length}`,
+    );
+    showRows(this.neighbors, distances.slice(0, MOST_NEIGHBORS), listButton, (element, { other, distance }) => {
+      element.dataset.node = String(other);
+      setText(element.children[0], this.replay.nameOf(other));
+      setText(element.children[1], distanceText(distance));
+    });
+  }
+
+  private showEvents(timeNs: number): void {
+    const events = this.history?.events ?? [];
+    const until = countUntil(
+      events.map((event) => event.timeNs),
+      timeNs,
+    );
+    setText(this.eventsTitle, `Events so far: ${countText(until)}`);
+    const last = events.slice(Math.max(0, until - MOST_EVENTS), until).reverse();
+    showRows(this.events, last, listButton, (element, { timeNs: atNs, kind, text }) => {
+      element.dataset.time = String(atNs);
+      element.dataset.kind = kind;
+      setText(element.children[0], `${kind}: ${text}`);
+      setText(element.children[1], `${timeText(atNs, 3)} s`);
+    });
+  }
+}
+
+function shareText(share: number): string {
+  return share < 0.0005 ? "< 0.1 %" : `${(100 * share).toFixed(1)} %`;
+}
+
+function listButton(): HTMLButtonElement {
+  return make("button", { type: "button" }, make("span"), make("span", { class: "end" }));
+}

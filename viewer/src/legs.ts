@@ -1,0 +1,76 @@
+// Where nodes are: the legs of a chunk, by node.
+
+import { Table } from "./format";
+
+export class Legs {
+  /** Rows of node n: `rows[first[n]]` to `rows[first[n + 1] - 1]`, by time. */
+  private readonly first: Uint32Array;
+  private readonly rows: Uint32Array;
+
+  constructor(
+    private readonly table: Table,
+    nodeCount: number,
+  ) {
+    ({ first: this.first, rows: this.rows } = groupRows(table.node, nodeCount));
+  }
+
+  /** Put the position of a node into `into`, from `place` on. A node without a leg is at NaN. */
+  position(node: number, timeNs: number, into: Float64Array, place = 0): void {
+    const row = this.rowAt(node, timeNs);
+    if (row < 0) {
+      into.fill(NaN, place, place + 3);
+      return;
+    }
+    const { time_ns, duration_ns, x0, y0, z0, x1, y1, z1 } = this.table;
+    const since = timeNs - time_ns[row];
+    const share = since >= duration_ns[row] ? 1 : Math.max(0, since / duration_ns[row]);
+    into[place] = x0[row] + share * (x1[row] - x0[row]);
+    into[place + 1] = y0[row] + share * (y1[row] - y0[row]);
+    into[place + 2] = z0[row] + share * (z1[row] - z0[row]);
+  }
+
+  /** Give the corners of the way of a node between two times, without its ends. */
+  *corners(node: number, fromNs: number, toNs: number): Generator<[number, number, number, number]> {
+    const { time_ns, x0, y0, z0 } = this.table;
+    for (let place = this.first[node]; place < this.first[node + 1]; place += 1) {
+      const row = this.rows[place];
+      if (time_ns[row] > fromNs && time_ns[row] < toNs) yield [time_ns[row], x0[row], y0[row], z0[row]];
+    }
+  }
+
+  /** Give the ends of all legs. */
+  *ends(): Generator<[number, number, number]> {
+    const { x0, y0, z0, x1, y1, z1 } = this.table;
+    for (let row = 0; row < x0.length; row += 1) {
+      yield [x0[row], y0[row], z0[row]];
+      yield [x1[row], y1[row], z1[row]];
+    }
+  }
+
+  private rowAt(node: number, timeNs: number): number {
+    const first = this.first[node];
+    let low = first;
+    let high = this.first[node + 1];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.table.time_ns[this.rows[middle]] <= timeNs) low = middle + 1;
+      else high = middle;
+    }
+    if (first === this.first[node + 1]) return -1;
+    return this.rows[Math.max(first, low - 1)];
+  }
+}
+
+/** Sort rows by group and keep their order within a group. */
+export function groupRows(
+  groups: ArrayLike<number>,
+  count: number,
+): { first: Uint32Array; rows: Uint32Array } {
+  const first = new Uint32Array(count + 1);
+  for (let row = 0; row < groups.length; row += 1) first[groups[row] + 1] += 1;
+  for (let group = 0; group < count; group += 1) first[group + 1] += first[group];
+  const next = first.slice();
+  const rows = new Uint32Array(groups.length);
+  for (let row = 0; row < groups.length; row += 1) rows[next[groups[row]]++] = row;
+  return { first, rows };
+}

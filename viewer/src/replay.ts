@@ -1,0 +1,275 @@
+// What a run was like at a time. Chunks are decoded when they are needed; a few are kept.
+
+import { PackedChunk, Run, RunNode, Table } from "./format";
+import { Legs } from "./legs";
+import { Frames } from "./receptions";
+import { Source } from "./source";
+
+/** How much is kept decoded; what was used the longest time ago goes first. */
+const KEPT_CHUNKS = 6;
+const KEPT_ROWS = 200_000;
+
+/** A frame may begin so long before the chunk in which it ends. */
+const LONGEST_FRAME_NS = 2e9;
+
+const NOT_LOST = ["delivered", "below_sensitivity", "in_air", "out_of_range"];
+
+/** A decoded chunk. */
+export class Chunk {
+  private readonly lazy = new Map<string, Promise<Table>>();
+
+  constructor(
+    readonly index: number,
+    readonly packed: PackedChunk,
+    readonly frames: Frames,
+    readonly legs: Legs,
+  ) {}
+
+  /** How many rows are decoded. */
+  get size(): number {
+    const { frames, receptions, legs } = this.packed.header.tables;
+    return frames.rows + receptions.rows + legs.rows;
+  }
+
+  get strings(): string[] {
+    return this.packed.header.strings;
+  }
+
+  /** A table that is not needed to draw. */
+  table(name: string): Promise<Table> {
+    let table = this.lazy.get(name);
+    if (table === undefined) this.lazy.set(name, (table = this.packed.table(name)));
+    return table;
+  }
+}
+
+export interface Frame {
+  chunk: Chunk;
+  row: number;
+}
+
+export function isSameFrame(a: Frame | null, b: Frame | null): boolean {
+  return a === b || (a !== null && b !== null && a.chunk.index === b.chunk.index && a.row === b.row);
+}
+
+export function startOf(frame: Frame): number {
+  return frame.chunk.frames.table.time_ns[frame.row];
+}
+
+export class Replay {
+  readonly run: Run;
+  readonly nodes: ReadonlyMap<number, RunNode>;
+  /** One more than the largest id. */
+  readonly nodeCount: number;
+  readonly isLost: readonly boolean[];
+
+  private readonly decoded = new Map<number, Chunk>(); // the one that was used last is the last one
+  private readonly loading = new Map<number, Promise<Chunk>>();
+  private earlier: { chunks: number; frames: number; counts: Float64Array };
+
+  constructor(readonly source: Source) {
+    this.run = source.run;
+    this.nodes = new Map(this.run.nodes.map((node) => [node.id, node]));
+    this.nodeCount = Math.max(-1, ...this.run.nodes.map((node) => node.id)) + 1;
+    this.isLost = this.run.outcomes.map((name) => !NOT_LOST.includes(name));
+    this.earlier = { chunks: 0, frames: 0, counts: this.noCounts() };
+  }
+
+  get chunks(): readonly PackedChunk[] {
+    return this.source.chunks;
+  }
+
+  get endNs(): number {
+    return this.chunks.length ? this.chunks[this.chunks.length - 1].header.end_ns : 0;
+  }
+
+  /** The end of the time axis: of a run that goes on, that of the whole run. */
+  get durationNs(): number {
+    return Math.max(this.endNs, this.source.end === null ? this.run.duration_s * 1e9 : 0, 1);
+  }
+
+  nameOf(node: number): string {
+    return this.nodes.get(node)?.name ?? String(node);
+  }
+
+  chunkIndexAt(timeNs: number): number {
+    let low = 0;
+    let high = this.chunks.length;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.chunks[middle].header.start_ns <= timeNs) low = middle + 1;
+      else high = middle;
+    }
+    return Math.max(0, low - 1);
+  }
+
+  /** Return the chunk if it is decoded. */
+  chunk(index: number): Chunk | null {
+    const chunk = this.decoded.get(index) ?? null;
+    if (chunk !== null) {
+      this.decoded.delete(index);
+      this.decoded.set(index, chunk);
+    }
+    return chunk;
+  }
+
+  loadChunk(index: number): Promise<Chunk> {
+    const chunk = this.chunk(index);
+    if (chunk !== null) return Promise.resolve(chunk);
+    let loading = this.loading.get(index);
+    if (loading === undefined) {
+      loading = this.decode(index).finally(() => this.loading.delete(index));
+      this.loading.set(index, loading);
+    }
+    return loading;
+  }
+
+  /** Whether all that is needed to show a time is decoded. */
+  isReady(timeNs: number): boolean {
+    return this.neededAt(timeNs).every((index) => this.decoded.has(index));
+  }
+
+  async load(timeNs: number): Promise<void> {
+    await Promise.all(this.neededAt(timeNs).map((index) => this.loadChunk(index)));
+  }
+
+  /** Give the decoded chunks from a time back, without a gap. */
+  *chunksBefore(timeNs: number): Generator<Chunk> {
+    for (let index = Math.max(0, ...this.neededAt(timeNs)); index >= 0; index -= 1) {
+      const chunk = this.chunk(index);
+      if (chunk === null) return;
+      yield chunk;
+    }
+  }
+
+  /** Give the decoded chunks from a time on, without a gap. */
+  *chunksAfter(timeNs: number): Generator<Chunk> {
+    for (let index = this.chunkIndexAt(timeNs); ; index += 1) {
+      const chunk = this.chunk(index);
+      if (chunk === null) return;
+      yield chunk;
+    }
+  }
+
+  /** Return the position of each node: x, y and z of node n are at 3 n. Needs `load`. */
+  positions(timeNs: number): Float64Array {
+    const places = new Float64Array(this.nodeCount * 3);
+    const chunk = this.chunk(this.chunkIndexAt(timeNs));
+    for (const node of this.nodes.keys())
+      if (chunk) chunk.legs.position(node, timeNs, places, node * 3);
+      else places.fill(NaN, node * 3, node * 3 + 3);
+    return places;
+  }
+
+  /** Return where a node was when a frame began. */
+  position(node: number, frame: Frame): Float64Array {
+    const place = new Float64Array(3);
+    const chunk = this.chunk(this.chunkIndexAt(startOf(frame))) ?? frame.chunk;
+    chunk.legs.position(node, startOf(frame), place);
+    return place;
+  }
+
+  /** Return the last frames that began after `fromNs` and until `toNs`, latest first. Needs `load`. */
+  framesBetween(fromNs: number, toNs: number, most: number): Frame[] {
+    const found: Frame[] = [];
+    for (const chunk of this.chunksBefore(toNs)) {
+      const first = chunk.frames.rowsUntil(fromNs);
+      for (let row = chunk.frames.rowsUntil(toNs) - 1; row >= first && found.length < most; row -= 1)
+        found.push({ chunk, row });
+      if (chunk.packed.header.start_ns <= fromNs || found.length >= most) break;
+    }
+    return found;
+  }
+
+  /** Return how many frames began until a time, and what became of them: see `Frames.addOutcomes`. Needs `load`. */
+  outcomes(timeNs: number): { frames: number; counts: Float64Array } {
+    const needed = this.neededAt(timeNs);
+    this.sumEarlier(needed[0]);
+    let { frames } = this.earlier;
+    const counts = this.earlier.counts.slice();
+    for (const index of needed) {
+      const chunk = this.chunk(index);
+      if (chunk === null) continue;
+      const rows = chunk.frames.rowsUntil(timeNs);
+      frames += rows;
+      chunk.frames.addOutcomes(rows, counts, this.run.outcomes.length);
+    }
+    return { frames, counts };
+  }
+
+  /**
+   * Return the next frame that passes, after (or before, by `step` -1) a frame or a time; null if there is none.
+   * `mayHave` spares decoding chunks that have no such frame.
+   */
+  async findFrame(
+    from: Frame | number,
+    step: 1 | -1,
+    passes: (chunk: Chunk, row: number) => boolean,
+    mayHave: (chunk: PackedChunk) => boolean = () => true,
+  ): Promise<Frame | null> {
+    const isFrame = typeof from !== "number";
+    let index = isFrame ? from.chunk.index : this.chunkIndexAt(from);
+    if (!isFrame && step < 0) index = Math.max(0, ...this.neededAt(from));
+    for (; index >= 0 && index < this.chunks.length; index += step) {
+      if (!mayHave(this.chunks[index])) continue;
+      const chunk = await this.loadChunk(index);
+      let row = step > 0 ? 0 : chunk.frames.count - 1;
+      if (isFrame && index === from.chunk.index) row = from.row + step;
+      else if (!isFrame && step > 0) row = chunk.frames.rowsUntil(from);
+      else if (!isFrame) row = chunk.frames.rowsUntil(Math.ceil(from) - 1) - 1;
+      for (; row >= 0 && row < chunk.frames.count; row += step)
+        if (passes(chunk, row)) return { chunk, row };
+    }
+    return null;
+  }
+
+  noCounts(): Float64Array {
+    return new Float64Array(this.nodeCount * this.run.outcomes.length);
+  }
+
+  private neededAt(timeNs: number): number[] {
+    if (!this.chunks.length) return [];
+    const index = this.chunkIndexAt(timeNs);
+    const needed = [index];
+    for (let next = index + 1; next < this.chunks.length; next += 1) {
+      if (this.chunks[next].header.start_ns > timeNs + LONGEST_FRAME_NS) break;
+      needed.push(next);
+    }
+    return needed;
+  }
+
+  /** Sum what the headers of the first `chunks` chunks say. */
+  private sumEarlier(chunks: number): void {
+    if (chunks < this.earlier.chunks) this.earlier = { chunks: 0, frames: 0, counts: this.noCounts() };
+    const outcomes = this.run.outcomes.length;
+    for (; this.earlier.chunks < chunks; this.earlier.chunks += 1) {
+      const { header } = this.chunks[this.earlier.chunks];
+      const { node, outcome, count } = header.outcomes;
+      for (let row = 0; row < node.length; row += 1)
+        this.earlier.counts[node[row] * outcomes + outcome[row]] += count[row];
+      this.earlier.frames += header.tables.frames.rows;
+    }
+  }
+
+  private async decode(index: number): Promise<Chunk> {
+    const packed = this.chunks[index];
+    const [frames, receptions, legs] = await Promise.all(
+      ["frames", "receptions", "legs"].map((name) => packed.table(name)),
+    );
+    const chunk = new Chunk(
+      index,
+      packed,
+      new Frames(frames, receptions, this.nodeCount, this.isLost),
+      new Legs(legs, this.nodeCount),
+    );
+    this.decoded.set(index, chunk);
+    let rows = 0;
+    for (const { size } of this.decoded.values()) rows += size;
+    for (const [old, { size }] of this.decoded) {
+      if (this.decoded.size <= KEPT_CHUNKS || rows <= KEPT_ROWS) break;
+      this.decoded.delete(old);
+      rows -= size;
+    }
+    return chunk;
+  }
+}

@@ -1,0 +1,216 @@
+// The 3-D picture: ground, obstacles, nodes, trails, frames on the air and their receptions.
+
+import * as THREE from "three";
+import { Air, Picture } from "./air";
+import { Camera } from "./camera";
+import { groupColor, isDark, outcomeColor, rgb, styleColor } from "./colors";
+import { pixelRatio, resolution } from "./instances";
+import { Chunk, Replay } from "./replay";
+import * as shapes from "./shapes";
+
+/** Length of trails in simulated time. */
+export const TRAIL_S = 30;
+
+export class Scene {
+  readonly camera: Camera;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly origin = new THREE.Vector3();
+  private readonly trails = shapes.lines(1);
+  private readonly ranges = shapes.rings(2);
+  private readonly air: Air;
+  private readonly marks = shapes.marks(6);
+  private readonly obstacles = new THREE.Group();
+  private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
+  private readonly groups: ReadonlyMap<string, number>;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly replay: Replay,
+    onMove: () => void,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.debug.checkShaderErrors = false; // Asking would wait for the compiler.
+    this.camera = new Camera(canvas, onMove);
+    const names = [...new Set(replay.run.nodes.map((node) => node.group))];
+    this.groups = new Map(names.map((name, index) => [name, index]));
+    this.ground = new THREE.Mesh(
+      new THREE.PlaneGeometry(1, 1),
+      new THREE.ShaderMaterial({
+        vertexShader: shapes.GROUND_VERTEX,
+        fragmentShader: shapes.GROUND_FRAGMENT,
+        uniforms: {
+          origin: { value: new THREE.Vector2() },
+          cell: { value: 100 },
+          color: { value: [0, 0, 0] },
+          fadeAt: { value: 1 },
+        },
+        transparent: true,
+        depthWrite: false,
+        side: THREE.DoubleSide,
+      }),
+    );
+    this.ground.frustumCulled = false;
+    this.ground.renderOrder = -2;
+    const sun = new THREE.DirectionalLight(0xffffff, 1.6);
+    sun.position.set(-0.5, -1, 1.6);
+    this.scene.add(this.ground, this.obstacles, sun, new THREE.AmbientLight(0xffffff, 1.5));
+    this.air = new Air(replay, (x, y, z) => this.place(x, y, z));
+    for (const shape of [this.trails, this.ranges, ...this.air.shapes, this.marks]) this.scene.add(shape.mesh);
+    this.applyTheme();
+    isDark.addEventListener("change", () => {
+      this.applyTheme();
+      onMove();
+    });
+  }
+
+  /** Where a place is in the picture: coordinates are from the middle, so that numbers stay small. */
+  place(x: number, y: number, z: number): THREE.Vector3 {
+    return new THREE.Vector3(x - this.origin.x, y - this.origin.y, z);
+  }
+
+  groupOf(node: number): number {
+    return this.groups.get(this.replay.nodes.get(node)?.group ?? "") ?? 0;
+  }
+
+  /** Show all of these places, given as x, y, z, x, …, and the obstacles. */
+  fit(values: ArrayLike<number>, polar?: number): void {
+    const corners = this.replay.run.obstacles.flatMap(({ points, top_m }) =>
+      points.flatMap(([x, y]) => [x, y, Math.min(top_m, 1000)]),
+    );
+    const all = [...Array.from(values), ...corners];
+    if (this.obstacles.children.length === 0) {
+      new THREE.Box3().setFromArray(all.filter((value) => !Number.isNaN(value))).getCenter(this.origin).setZ(0);
+      this.ground.material.uniforms.origin.value.set(this.origin.x, this.origin.y);
+      this.addObstacles();
+    }
+    this.zoomTo(all, polar);
+  }
+
+  zoomTo(values: ArrayLike<number>, polar?: number): void {
+    const places: THREE.Vector3[] = [];
+    for (let place = 0; place + 2 < values.length; place += 3)
+      if (!Number.isNaN(values[place])) places.push(this.place(values[place], values[place + 1], values[place + 2]));
+    if (!places.length) places.push(new THREE.Vector3());
+    this.resize();
+    this.camera.fit(places, polar);
+  }
+
+  draw(picture: Picture): void {
+    this.resize();
+    const { state, positions } = picture;
+    if (state.isFollowing && state.node !== null) {
+      const at = state.node * 3;
+      const range = this.replay.nodes.get(state.node)?.range_m ?? Infinity;
+      this.camera.follow(this.place(positions[at], positions[at + 1], positions[at + 2]), range);
+    } else this.camera.follow(null);
+    this.camera.update();
+    this.drawGround();
+    this.drawTrails(picture);
+    this.air.draw(picture);
+    this.drawNodes(picture);
+    this.renderer.render(this.scene, this.camera.camera);
+  }
+
+  private resize(): void {
+    const ratio = Math.min(window.devicePixelRatio, 3);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (resolution.value.x === Math.floor(width * ratio) && resolution.value.y === Math.floor(height * ratio)) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.renderer.getDrawingBufferSize(resolution.value);
+    pixelRatio.value = ratio;
+    this.camera.resize(Math.max(1, width), Math.max(1, height));
+  }
+
+  private drawGround(): void {
+    const { distance, target } = this.camera;
+    this.ground.scale.setScalar(distance * 40);
+    this.ground.position.set(target.x, target.y, 0);
+    this.ground.material.uniforms.cell.value = 10 ** Math.round(Math.log10(distance / 8));
+    this.ground.material.uniforms.fadeAt.value = distance * 4;
+  }
+
+  private drawTrails({ timeNs, state, positions }: Picture): void {
+    this.trails.clear();
+    const ink = rgb(styleColor("--muted"));
+    const fromNs = timeNs - TRAIL_S * 1e9;
+    const start = new Float64Array(3);
+    const chunks: Chunk[] = []; // by time, those that the trails go through
+    for (const chunk of this.replay.chunksBefore(timeNs)) {
+      if (chunk.packed.header.start_ns <= timeNs) chunks.unshift(chunk);
+      if (chunk.packed.header.start_ns <= fromNs) break;
+    }
+    const crowd = Math.min(1, Math.sqrt(40 / this.replay.nodes.size));
+    for (const node of this.replay.nodes.keys()) {
+      const [x, y, z] = [positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]];
+      if (Number.isNaN(x)) continue;
+      const isChosen = node === state.node;
+      const color = rgb(groupColor(this.groupOf(node)));
+      const strength = isChosen ? 0.9 : 0.7 * crowd * (state.node === null ? 1 : 0.5);
+      const end = this.place(x, y, z);
+      if (z > 0.5) this.trails.add(end.x, end.y, end.z, end.x, end.y, 0, ...ink, 0.5, 0.25, 1, 0);
+      if (!chunks.length || !(state.trails || isChosen)) continue;
+      chunks[0].legs.position(node, Math.max(0, fromNs), start);
+      const corners = chunks.flatMap(({ legs, packed: { header } }, place) => [
+        ...legs.corners(node, place === 0 ? fromNs : Math.max(fromNs, header.start_ns - 1), timeNs),
+      ]);
+      let [beforeNs, a] = [fromNs, this.place(start[0], start[1], start[2])];
+      for (const [cornerNs, cx, cy, cz] of [...corners, [timeNs, x, y, z] as const]) {
+        const b = this.place(cx, cy, cz);
+        const [alphaA, alphaB] = [beforeNs, cornerNs].map((at) => strength * Math.max(0, 1 - (timeNs - at) / (TRAIL_S * 1e9)));
+        if (a.distanceToSquared(b) > 1e-6)
+          this.trails.add(a.x, a.y, a.z, b.x, b.y, b.z, ...color, alphaA, alphaB, isChosen ? 2.5 : 1.5, 0);
+        [beforeNs, a] = [cornerNs, b];
+      }
+    }
+    this.trails.show();
+  }
+
+  private drawNodes({ positions, state, interferers }: Picture): void {
+    this.marks.clear();
+    this.ranges.clear();
+    const accent = rgb(styleColor("--accent"));
+    const interfering = new Set(state.frame ? interferers.map((interferer) => interferer.node) : []);
+    const interference = rgb(outcomeColor("interference"));
+    const size = this.replay.nodes.size > 60 ? 9 : 13;
+    for (const [node, { range_m }] of this.replay.nodes) {
+      const { x, y, z } = this.place(positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]);
+      if (Number.isNaN(x)) continue;
+      const group = this.groupOf(node);
+      this.marks.add(x, y, z, ...rgb(groupColor(group)), 1, size, group % shapes.SHAPES);
+      if (interfering.has(node)) this.marks.add(x, y, z, ...interference, 1, size + 12, shapes.CIRCLE);
+      if (node !== state.node) continue;
+      this.marks.add(x, y, z, ...accent, 1, size + 12, shapes.CIRCLE);
+      if (range_m !== null) this.ranges.add(x, y, z, range_m, ...accent, 0.8, 1.5);
+    }
+    this.marks.show();
+    this.ranges.show();
+  }
+
+  private addObstacles(): void {
+    const side = new THREE.MeshLambertMaterial({ transparent: true, opacity: 0.55, depthWrite: false });
+    const edge = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.8 });
+    for (const { points, bottom_m, top_m } of this.replay.run.obstacles) {
+      const outlinePoints = points.map(([x, y]) => new THREE.Vector2(x - this.origin.x, y - this.origin.y));
+      const geometry = new THREE.ExtrudeGeometry(new THREE.Shape(outlinePoints), {
+        depth: Math.min(top_m, 1e4) - bottom_m,
+        bevelEnabled: false,
+      }).translate(0, 0, bottom_m);
+      const body = new THREE.Mesh(geometry, side);
+      const edges = new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20), edge);
+      body.renderOrder = edges.renderOrder = -1;
+      this.obstacles.add(body, edges);
+    }
+    this.applyTheme();
+  }
+
+  private applyTheme(): void {
+    shapes.outline.value = rgb(styleColor("--scene"));
+    this.ground.material.uniforms.color.value = rgb(styleColor("--muted"));
+    for (const child of this.obstacles.children) {
+      const { material } = child as THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>;
+      material.color.setStyle(styleColor(child instanceof THREE.LineSegments ? "--muted" : "--obstacle"));
+    }
+  }
+}

@@ -1,0 +1,39 @@
+// What the person who looks has chosen.
+
+import { Frame } from "./replay";
+
+export interface State {
+  /** The chosen node. */
+  node: number | null;
+  /** The chosen frame. */
+  frame: Frame | null;
+  filter: string;
+  isFollowing: boolean;
+  labels: boolean;
+  trails: boolean;
+}
+
+export class Store {
+  private state: State = {
+    node: null,
+    frame: null,
+    filter: "",
+    isFollowing: false,
+    labels: true,
+    trails: true,
+  };
+  private readonly listeners: ((changed: Partial<State>) => void)[] = [];
+
+  get now(): Readonly<State> {
+    return this.state;
+  }
+
+  set(changed: Partial<State>): void {
+    this.state = { ...this.state, ...changed };
+    for (const listener of this.listeners) listener(changed);
+  }
+
+  onChange(listener: (changed: Partial<State>) => void): void {
+    this.listeners.push(listener);
+  }
+}
