@@ -6,6 +6,7 @@
     gradysim view FILE.ini|FILE.html...
     gradysim runs FILE.ini [-c CONFIG]
     gradysim means DIR [QUANTITY...] [--csv]
+    gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -28,6 +29,7 @@ from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_abo
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.new import make_project
+from gradysim.cli.plot import draw_figure
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
 from gradysim.cli.view import view
@@ -69,6 +71,7 @@ app.command(view)
 app.command(make_project, name="new")
 app.command(list_runs, name="runs")
 app.command(print_means, name="means")
+app.command(draw_figure, name="plot")
 app.command(list_keys, name="keys")
 app.command(calibrate_power, name="calibrate")
 

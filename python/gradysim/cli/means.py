@@ -4,12 +4,13 @@ import csv
 import shlex
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TextIO
 
 from cyclopts import Parameter
 
 from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.options import ResultsArgument
+from gradysim.cli.study import read_study, warn_of_mixed_runs
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -21,14 +22,14 @@ _AFTER = ("quantity", "runs", "mean", "half_width", "left_out")
 
 
 def print_means(
-    directory: Annotated[Path, Parameter(name="DIR", help="The directory of `run --result-dir`.")],
+    directory: ResultsArgument,
     /,
     *quantities: Annotated[
         str,
         Parameter(
             name="QUANTITY",
             help="Quantities to print, by name, such as `uavs[*] heard` or `*delay*`: `*` is any letters, `?`"
-            " any single one. Default: all.",
+            " any single one. Default: all but numbers of the run itself, such as `cpu_s` and `events`.",
         ),
     ],
     as_csv: Annotated[
@@ -37,65 +38,23 @@ def print_means(
 ) -> int:
     """Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence intervals."""
     from gradysim.cli.console import console
-    from gradysim.results.means import (
-        has_files_for_omnetpp_alone,
-        means,
-        of_different_files,
-        of_different_settings,
-        read_results,
-        repeated,
-    )
+    from gradysim.results.means import means
     from gradysim.results.quantity import name_filter
     from gradysim.scenario.errors import ConfigError, nearest
 
-    quoted = shlex.quote(str(directory))
     try:
-        if not directory.is_dir():
-            reason = "it is not a directory" if directory.exists() else "there is no such directory"
-            raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
-        results = read_results(directory)
-        if not results:
-            reason = (
-                "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
-            )
-            raise ConfigError(
-                f"{directory}: it has {reason} of complete runs; expected the JSON files of"
-                f" `gradysim run FILE --result-dir {quoted}`"
-            )
-        found = means(results)
-        names = dict.fromkeys(mean.quantity for mean in found)
+        results = read_study(directory)
+        found = means(results, quantities or None)
         for quantity in quantities:
-            if not any(map(name_filter(quantity), names)):
+            if not any(name_filter(quantity)(mean.quantity) for mean in found):
                 raise ConfigError(
                     f"{directory}: no quantity is called `{quantity}`",
-                    expected=f"one that `gradysim means {quoted}` prints",
-                    suggestion=nearest(quantity, names),
+                    expected=f"one that `gradysim means {shlex.quote(str(directory))}` prints",
+                    suggestion=nearest(quantity, results.quantities),
                 )
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
-    if (pair := of_different_settings(results)) is not None:
-        print(
-            f"{directory}: warning: {pair[0]} and {pair[1]} have different settings (`settings_hash`), and"
-            " their mean mixes both; expected a directory for each",
-            file=sys.stderr,
-        )
-    elif (changed := of_different_files(results)) is not None:
-        print(
-            f"{directory}: warning: {changed[2]} changed between {changed[0]} and {changed[1]}"
-            " (`file_hashes`), so they cannot be compared; expected one version of it: run"
-            f" `gradysim run FILE --result-dir {quoted} --resume`",
-            file=sys.stderr,
-        )
-    if repetitions := repeated(results):
-        original, repetition = repetitions[0]
-        print(
-            f"{directory}: warning: {len(repetitions)} of {len(results)} runs repeat another one with the"
-            f" same seed and results, such as {repetition} and {original}: the intervals are too narrow;"
-            " expected a seed for each, as `seed-set = ${runnumber}`, the default, sets it",
-            file=sys.stderr,
-        )
-    fits = name_filter(quantities or None)
-    found = [mean for mean in found if fits(mean.quantity)]
+    warn_of_mixed_runs(directory, results)
     if as_csv:
         write_csv(found, sys.stdout)
     else:

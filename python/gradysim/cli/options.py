@@ -16,6 +16,7 @@ Mode = Literal["integrated", "prototype"]
 DEFAULT_DIR = Path("results")
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
+ResultsArgument = Annotated[Path, Parameter(name="DIR", help="The directory of `run --result-dir`.")]
 ConfigOption = Annotated[str, Parameter(alias="-c", help="Name of the configuration: a section of the file.")]
 SetOption = Annotated[
     tuple[str, ...],
@@ -40,7 +41,53 @@ def _integer(_type: type, tokens: "Sequence[Token]") -> int:
 
 Integer = Annotated[int, Parameter(converter=_integer, n_tokens=1)]
 Flag = Annotated[bool, Parameter(negative="", show_default=False)]
-NodeNames = Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=(1, None), show_default=False)]
+
+
+Names = Annotated[tuple[str, ...], Parameter(negative="", consume_multiple=(1, None), show_default=False)]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class PlotOptions:
+    """Options of `gradysim plot`. The docstring of a field is its help."""
+
+    output: Annotated[Path, Parameter(alias="-o")]
+    """The file of the figure: .pdf, .png or .svg. Its numbers and their origin go to files of the same name
+    that end in .csv and .json."""
+
+    kind: Literal["line", "diff", "cdf", "time", "outcomes", "map"] = "line"
+    """Means over x; differences between runs of the same seed; a distribution; a tracked variable over time;
+    what became of frames or messages; where nodes were. The last but two and the last read the files of
+    `run --vectors`."""
+
+    x: str | None = None
+    """Variable of the x axis: one of `${name=...}` in the .ini file, config or mode."""
+
+    y: str | None = None
+    """Quantity, by the name that `gradysim means` prints, cpu_s or events. Of outcomes: a kind of frames or
+    messages, such as `broadcast frames`."""
+
+    by: Names = ()
+    """VARIABLE...: a curve for each value; by default of all variables that differ besides x. --kind diff
+    compares the values of the first one."""
+
+    where: Names = ()
+    """VARIABLE=VALUE...: only these runs, such as config=Study jitter=1ms jitter=10ms."""
+
+    baseline: str | None = None
+    """Of --kind diff: the value that the others are compared with; by default the first one."""
+
+    omit: Names = ()
+    """OUTCOME...: of --kind outcomes, outcomes to leave out, such as `below sensitivity`."""
+
+    log: Annotated[
+        tuple[Literal["x", "y"], ...],
+        Parameter(negative="", consume_multiple=(1, None), show_default=False),
+    ] = ()
+    """x, y: axes with a logarithmic scale."""
+
+    columns: Literal[1, 2] = 1
+    """Width of the figure, in columns of a page: 3.5 or 7.16 inches."""
 
 
 @Parameter(name="*")
@@ -76,20 +123,20 @@ class RunOptions:
     """Write the numbers of each run to DIR/CONFIG-#RUN.MODE.sca for OMNeT++'s analysis tools, DIR as in
     --result-dir (default: results)."""
 
-    vectors: NodeNames = ()
+    vectors: Names = ()
     """NODE...: write what tracked variables and positions of these nodes were over time to
     DIR/CONFIG-#RUN.MODE.vec, DIR as above. A node (uavs[0]), a group (uavs), or all."""
 
-    pcap: NodeNames = ()
+    pcap: Names = ()
     """NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap (that of
     its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a group (uavs),
     or all."""
 
-    replay: NodeNames = ()
+    replay: Names = ()
     """NODE...: write what happens at these nodes to DIR/CONFIG-#RUN.MODE.html, DIR as above,
     a page that any browser shows. A node (uavs[0]), a group (uavs), or all."""
 
-    fates_at: NodeNames = ()
+    fates_at: Names = ()
     """NODE...: report what became of the frames that reached these nodes, who interfered, and what became of
     the messages that they sent. A node (uavs[0]), a group (uavs), or all."""
 

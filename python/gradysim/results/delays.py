@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
 
 from gradysim.results.quantity import Average, Histogram, Scalar, recorded
@@ -71,6 +72,15 @@ class Delays:
             "min_s": self.min_s,
             "quantiles_s": {str(share): self.quantile_s(share) for share in QUANTILES},
             "max_s": self.max_s,
+            "cumulative": self._cumulative(),
+        }
+
+    def _cumulative(self) -> dict[str, list[float]]:
+        """Return times, and the share of the delays that do not exceed each: exact at these times."""
+        counts = accumulate(count for _, _, count in self.bins)
+        return {
+            "time_s": [self._between_extremes(end) for _, end, _ in self.bins],
+            "share": [count / self.count for count in counts],
         }
 
 

@@ -6,10 +6,12 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.outcomes import Outcomes
 from gradysim.results.quantity import Average, Names, averages_of, name_filter
 from gradysim.results.result import RunResult
 from gradysim.results.tracked_variables import TrackedGroup, numeric_variables, tracked_by_group
@@ -52,6 +54,8 @@ class RunSummary:
         groups: Tracked variables by group of nodes.
         numeric_variables: (group, name) of those that are a number at any node, even an infinite one.
         averages: Numbers of the run, by name.
+        fates: Outcomes of frames and messages; see `LEDGERS`.
+        file: The result file.
     """
 
     config: str
@@ -65,9 +69,11 @@ class RunSummary:
     groups: Mapping[str, TrackedGroup]
     numeric_variables: tuple[tuple[str, str], ...]
     averages: Mapping[str, Average]
+    fates: Outcomes
+    file: Path
 
     @classmethod
-    def of(cls, result: Mapping[str, Any]) -> "RunSummary":
+    def of(cls, result: Mapping[str, Any], file: Path = Path()) -> "RunSummary":
         """Return the summary of a JSON object."""
         hashes = result.get("file_hashes")
         tracked = tracked_by_group(result["nodes"])
@@ -83,7 +89,19 @@ class RunSummary:
             {group: TrackedGroup.of(nodes) for group, nodes in tracked.items()},
             tuple(numeric_variables(tracked)),
             {average.name: average for average in averages_of(RunResult, result)},
+            result["fates"],
+            file,
         )
+
+    @cached_property
+    def numbers(self) -> Mapping[str, float]:
+        """Numbers of the run by quantity; of a tracked variable the mean of a group, if it has one."""
+        variables = {
+            f"{group} {name}": mean
+            for group, name in self.numeric_variables
+            if (mean := self.groups[group].variable(name).mean) is not None
+        }
+        return variables | {name: average.value for name, average in self.averages.items()}
 
     @property
     def values(self) -> str:
@@ -104,11 +122,10 @@ def read_means(directory: str | os.PathLike[str], quantities: Names | None = Non
     """Return the means that `gradysim means` prints of a directory.
 
     Interrupted runs are left out. `quantities` selects by name, `"uavs[*] heard"` or
-    `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any single one; None for all.
-    Raises OSError.
+    `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any single one; None for all
+    but the numbers of the run itself, such as `cpu_s`. Raises OSError.
     """
-    fits = name_filter(quantities)
-    return [mean for mean in means(read_results(Path(directory))) if fits(mean.quantity)]
+    return means(read_results(Path(directory)), quantities)
 
 
 def read_results(directory: Path) -> list[RunSummary]:
@@ -116,7 +133,9 @@ def read_results(directory: Path) -> list[RunSummary]:
 
     Other files and interrupted runs are left out. Raises OSError.
     """
-    found = [RunSummary.of(result) for result in _results_in(directory) if not result["interrupted"]]
+    found = [
+        RunSummary.of(result, file) for file, result in _results_in(directory) if not result["interrupted"]
+    ]
     return sorted(found, key=lambda result: (result.config, result.mode, result.run))
 
 
@@ -126,8 +145,8 @@ def has_files_for_omnetpp_alone(directory: Path) -> bool:
     return others and not any(_results_in(directory))
 
 
-def _results_in(directory: Path) -> Iterator[dict[str, Any]]:
-    """Yield the JSON objects of the runs in a directory, including interrupted ones."""
+def _results_in(directory: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
+    """Yield the result files in a directory and their JSON objects, including those of interrupted runs."""
     for file in sorted(directory.iterdir()):
         if file.suffix == ".json" and file.is_file():
             try:
@@ -135,23 +154,30 @@ def _results_in(directory: Path) -> Iterator[dict[str, Any]]:
             except (ValueError, RecursionError):  # not JSON, or too deeply nested
                 continue
             if isinstance(result, dict) and result.keys() >= _FIELDS:
-                yield result
+                yield file, result
 
 
-def means(results: Iterable[RunSummary]) -> list[Mean]:
+def means(results: Iterable[RunSummary], quantities: Names | None = None) -> list[Mean]:
     """Return the mean of each quantity over the runs with equal values of iteration variables.
 
-    A quantity that occurs in some runs of a configuration and mode has a row for all of their values, so that
-    it is 0 in the others.
+    `quantities` selects as in `read_means`. A quantity that occurs in some runs of a configuration and mode
+    has a row for all of their values, so that it is 0 in the others.
     """
     found: list[Mean] = []
+    fits = name_filter(quantities)
     for study in _by(results, lambda result: (result.config, result.mode)):
-        variables = dict.fromkeys(each for run in study for each in run.numeric_variables)
+        variables = [
+            each
+            for each in dict.fromkeys(each for run in study for each in run.numeric_variables)
+            if fits(" ".join(each))
+        ]
         shown = dict.fromkeys(
             name
             for run in study
             for name, average in run.averages.items()
-            if average.value or average.shown_at_zero
+            if (average.value or average.shown_at_zero)
+            and fits(name)
+            and (average.listed or quantities is not None)
         )
         for alike in _by(study, lambda result: result.values):
             for group, name in variables:

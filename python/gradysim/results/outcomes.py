@@ -104,7 +104,14 @@ def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[Average]:
 
 
 def _ratios(counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:
-    decided = {outcome: count for outcome, count in counts.items() if outcome not in _UNDECIDED}
-    total = sum(decided.values())
-    for outcome, count in decided.items() if total else ():
-        yield outcome.replace("_", " "), count / total
+    known = decided(counts)
+    total = sum(known.values())
+    for outcome, count in known.items() if total else ():
+        yield outcome, count / total
+
+
+def decided(counts: Mapping[str, int]) -> dict[str, int]:
+    """Return the counts by the names of outcomes for people, without what was still under way."""
+    return {
+        outcome.replace("_", " "): count for outcome, count in counts.items() if outcome not in _UNDECIDED
+    }

@@ -54,11 +54,13 @@ class Average:
     Attributes:
         name: As in its column `quantity`.
         shown_at_zero: Whether it has a row, too, if it is 0 in all runs.
+        listed: Whether it has a row unless it is asked for by name.
     """
 
     name: str
     value: float
     shown_at_zero: bool = True
+    listed: bool = True
 
 
 @dataclass(frozen=True)
@@ -129,13 +131,16 @@ def scalars_of(result: Any, module: str) -> Iterator[Scalar]:
 
 
 def averages_of(result_type: type, plain: Mapping[str, Any]) -> Iterator[Average]:
-    """Yield what `gradysim means` averages of a JSON object, which may be of an older version."""
+    """Yield the numbers of a run in a JSON object, which may be of an older version.
+
+    Numbers without a name in `gradysim means` are called by their field, such as `cpu_s`.
+    """
     for name, quantity in quantities(result_type).items():
         value = plain.get(name)
         if quantity.averages is not None:
             yield from quantity.averages(value or {})
-        elif quantity.mean and value is not None:
-            yield Average(quantity.mean, value)
+        elif value is not None and (quantity.mean or (quantity.scalar and quantity.scalars is None)):
+            yield Average(quantity.mean or name, value, listed=bool(quantity.mean))
 
 
 def recorded(module: str, name: str, value: float, unit: str = "") -> Scalar:

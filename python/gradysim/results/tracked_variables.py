@@ -61,8 +61,13 @@ def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Track
     """Return {`uavs[*]`: the variables of each of its nodes} for the nodes of a JSON object."""
     groups: dict[str, list[Tracked]] = {}
     for node in nodes:
-        groups.setdefault(re.sub(r"\[\d+\]$", "[*]", node["name"]), []).append(node["tracked_variables"])
+        groups.setdefault(group_of(node["name"]), []).append(node["tracked_variables"])
     return groups
+
+
+def group_of(node: str) -> str:
+    """Return `uavs[*]` for `uavs[0]`; the name itself if it has no index."""
+    return re.sub(r"\[\d+\]$", "[*]", node)
 
 
 def numeric_variables(groups: Mapping[str, Iterable[Tracked]]) -> dict[tuple[str, str], None]:

@@ -69,7 +69,13 @@ def test_what_results_tell():
         "min_s": 0.5,
         "quantiles_s": dict.fromkeys(("0.5", "0.9", "0.95", "0.99"), 0.5),
         "max_s": 0.5,
+        "cumulative": {"time_s": [0.5], "share": [1]},
     }
+
+
+def test_shares_are_those_of_the_upper_ends_of_bins():
+    delays = Delays(4, 6.0, 10.0, 1.0, 2.5, ((1.0, 1.5, 1), (2.0, 3.0, 3)))
+    assert delays.to_json_object()["cumulative"] == {"time_s": [1.5, 2.5], "share": [0.25, 1]}
 
 
 def test_a_histogram_for_each_kind_of_message():

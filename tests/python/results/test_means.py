@@ -295,3 +295,19 @@ def test_a_run_of_many_nodes_takes_no_more_memory() -> None:
 def test_what_a_run_computed_differs(change: dict[str, Any]) -> None:
     assert summary_of({"x": 1}).computed == summary_of({"x": 1}).computed
     assert summary_of({"x": 1}, **change).computed != summary_of({"x": 1}).computed
+
+
+def test_numbers_of_the_run_itself_are_averaged_by_name_only() -> None:
+    results = [figures(run, cpu_s=cpu_s, events=7) for run, cpu_s in enumerate([1.0, 3.0])]
+    assert [mean.quantity for mean in means(results)] == ["uavs[*] heard"]
+    (mean,) = means(results, "cpu_s")
+    assert (mean.quantity, mean.runs, mean.mean) == ("cpu_s", 2, 2)
+
+
+def test_numbers_of_a_run_by_quantity() -> None:
+    run = figures(0, (1, 3), events=7, message_delays={"unicast": {"mean_s": 0.5}})
+    assert run.numbers == {"uavs[*] heard": 2, "events": 7, "unicast messages delay in s": 0.5}
+
+
+def test_a_variable_that_no_node_has_as_a_finite_number_is_no_number_of_the_run() -> None:
+    assert figures(0, ("inf", None)).numbers == {}

@@ -1,0 +1,58 @@
+"""The runs in the directory of a study, for `gradysim means` and `gradysim plot`."""
+
+import shlex
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from gradysim.results.run_table import Runs
+
+
+def read_study(directory: Path) -> "Runs":
+    """Return the runs in a directory, at least one.
+
+    Raises ConfigError and OSError.
+    """
+    from gradysim.results.means import has_files_for_omnetpp_alone
+    from gradysim.results.run_table import runs
+    from gradysim.scenario.errors import ConfigError
+
+    if not directory.is_dir():
+        reason = "it is not a directory" if directory.exists() else "there is no such directory"
+        raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
+    found = runs(directory)
+    if not len(found):
+        reason = "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
+        raise ConfigError(
+            f"{directory}: it has {reason} of complete runs; expected the JSON files of"
+            f" `gradysim run FILE --result-dir {shlex.quote(str(directory))}`"
+        )
+    return found
+
+
+def warn_of_mixed_runs(directory: Path, results: "Runs") -> None:
+    """Warn of runs that should not be averaged: of other settings or files, and the same run twice."""
+    from gradysim.results.means import of_different_files, of_different_settings, repeated
+
+    if (pair := of_different_settings(results)) is not None:
+        print(
+            f"{directory}: warning: {pair[0]} and {pair[1]} have different settings (`settings_hash`), and"
+            " their mean mixes both; expected a directory for each",
+            file=sys.stderr,
+        )
+    elif (changed := of_different_files(results)) is not None:
+        print(
+            f"{directory}: warning: {changed[2]} changed between {changed[0]} and {changed[1]}"
+            " (`file_hashes`), so they cannot be compared; expected one version of it: run"
+            f" `gradysim run FILE --result-dir {shlex.quote(str(directory))} --resume`",
+            file=sys.stderr,
+        )
+    if repetitions := repeated(results):
+        original, repetition = repetitions[0]
+        print(
+            f"{directory}: warning: {len(repetitions)} of {len(results)} runs repeat another one with the"
+            f" same seed and results, such as {repetition} and {original}: the intervals are too narrow;"
+            " expected a seed for each, as `seed-set = ${runnumber}`, the default, sets it",
+            file=sys.stderr,
+        )

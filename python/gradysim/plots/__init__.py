@@ -1,0 +1,158 @@
+"""Figures of a study: `gradysim plot` as functions.
+
+Each function draws into axes of matplotlib and returns them. `runs` are those of `gradysim.results.runs`; `y`
+is the name of a quantity of `gradysim means`, `x` and `by` are names of variables (`config`, `mode` and those
+of `${name=...}`). By default there is a curve for each combination of the other variables that differ.
+
+    figure = gradysim.plots.new_figure()
+    gradysim.plots.line(figure.subplots(), runs("results"), x="jitter", y="nodes[*] heard")
+
+`save_figure` draws one and writes its files. `STYLE` are settings for `matplotlib.rc_context`.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from math import inf
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gradysim.plots.cdf import cdf_numbers, draw_cdf
+from gradysim.plots.figure import STYLE, check_file, new_figure, write_files
+from gradysim.plots.line import diff_numbers, draw_diff, draw_line, line_numbers
+from gradysim.plots.map import draw_map, map_numbers
+from gradysim.plots.numbers import Numbers
+from gradysim.plots.outcomes import draw_outcomes, outcomes_numbers
+from gradysim.plots.time import draw_time, time_numbers
+from gradysim.results.run_table import Runs
+from gradysim.scenario.errors import ConfigError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["STYLE", "cdf", "diff", "line", "map", "new_figure", "outcomes", "save_figure", "time"]
+
+
+def line(axes: "Axes", runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None) -> "Axes":
+    """Draw the mean of `y` over the runs with each value of `x`, with 95 % intervals."""
+    return draw_line(axes, line_numbers(runs, x=x, y=y, by=by))
+
+
+def diff(
+    axes: "Axes",
+    runs: Runs,
+    *,
+    x: str,
+    y: str,
+    by: Iterable[str] | None = None,
+    baseline: str | None = None,
+) -> "Axes":
+    """Draw the mean difference of `y` between runs of the same seed, with 95 % intervals.
+
+    The first variable of `by` is compared: each of its values minus `baseline`, by default the first one.
+    """
+    return draw_diff(axes, diff_numbers(runs, x=x, y=y, by=by, baseline=baseline))
+
+
+def cdf(axes: "Axes", runs: Runs, *, y: str, by: Iterable[str] | None = None) -> "Axes":
+    """Draw the distribution of delays of messages, of a tracked variable of nodes, or of a number of runs."""
+    return draw_cdf(axes, cdf_numbers(runs, y=y, by=by))
+
+
+def time(axes: "Axes", runs: Runs, *, y: str, by: Iterable[str] | None = None) -> "Axes":
+    """Draw a tracked variable over simulated time, from the files of `gradysim run --vectors`."""
+    return draw_time(axes, time_numbers(runs, y=y, by=by))
+
+
+def outcomes(
+    axes: "Axes",
+    runs: Runs,
+    *,
+    y: str,
+    x: str | None = None,
+    by: Iterable[str] | None = None,
+    omit: Iterable[str] = (),
+) -> "Axes":
+    """Draw what became of frames or messages, `y` = `broadcast frames`, as stacked bars without `omit`."""
+    return draw_outcomes(axes, outcomes_numbers(runs, x=x, y=y, by=by, omit=omit))
+
+
+def map(axes: "Axes", runs: Runs) -> "Axes":
+    """Draw where the nodes of the first run were, from the files of `gradysim run --vectors`."""
+    return draw_map(axes, map_numbers(runs))
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of figure.
+
+    Attributes:
+        numbers: Computes what it shows.
+        draw: Draws that into axes.
+        needs: Arguments of `numbers` without which there is no figure.
+        takes: Its other arguments.
+    """
+
+    numbers: Callable[..., Numbers]
+    draw: Callable[["Axes", Numbers], "Axes"]
+    needs: tuple[str, ...]
+    takes: tuple[str, ...] = ()
+
+
+KINDS: Mapping[str, Kind] = {
+    "line": Kind(line_numbers, draw_line, ("x", "y"), ("by",)),
+    "diff": Kind(diff_numbers, draw_diff, ("x", "y"), ("by", "baseline")),
+    "cdf": Kind(cdf_numbers, draw_cdf, ("y",), ("by",)),
+    "time": Kind(time_numbers, draw_time, ("y",), ("by",)),
+    "outcomes": Kind(outcomes_numbers, draw_outcomes, ("y",), ("x", "by", "omit")),
+    "map": Kind(map_numbers, draw_map, ()),
+}
+
+
+def save_figure(
+    path: str | Path,
+    runs: Runs,
+    *,
+    kind: str = "line",
+    columns: int = 1,
+    log: Iterable[str] = (),
+    **arguments: Any,
+) -> tuple[Path, Path, Path]:
+    """Draw a figure and write FILE.pdf (.png, .svg), FILE.csv with its numbers, FILE.json with their origin.
+
+    Args:
+        path: The file of the picture.
+        runs: At least one.
+        kind: A name in `KINDS`.
+        columns: Width of the figure: 1 or 2 columns of a page.
+        log: Axes with a logarithmic scale: "x", "y".
+        arguments: What the function of this kind takes; None for what is not given.
+
+    Raises:
+        ConfigError: An argument is wrong.
+        ImportError: matplotlib is missing.
+        OSError: A file cannot be read or written.
+    """
+    path = Path(path)
+    chosen = KINDS[kind]
+    given = {name: value for name, value in arguments.items() if value is not None and value != ()}
+    for name in chosen.needs:
+        if name not in given:
+            expected = ", ".join(runs.variables if name == "x" else runs.quantities)
+            raise ConfigError(f"--kind {kind} needs --{name}", expected=f"one of {expected}")
+    for name in given:
+        if name not in (*chosen.needs, *chosen.takes):
+            takes = " and ".join(f"--{each}" for each in (*chosen.needs, *chosen.takes)) or "none of these"
+            raise ConfigError(f"--kind {kind} does not take --{name}", expected=takes)
+    check_file(path, list(runs))
+    figure = new_figure(columns)
+    from matplotlib import rc_context
+
+    numbers = chosen.numbers(runs, **given)
+    with rc_context(STYLE):
+        axes = chosen.draw(figure.subplots(), numbers)
+        for axis in log:
+            if getattr(axes.dataLim, f"minpos{axis}") == inf:
+                raise ConfigError(f"--log {axis}: no value on this axis is positive")
+            getattr(axes, f"set_{axis}scale")("log")
+        origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
+        return write_files(figure, path, numbers, list(runs), origin)

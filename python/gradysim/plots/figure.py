@@ -1,0 +1,153 @@
+"""The look of figures, and the three files of one: the picture, its numbers and their origin."""
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from itertools import cycle
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import gradysim
+from gradysim.plots.numbers import Numbers
+from gradysim.results.means import RunSummary
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.runs import hash_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Those of M. Okabe and K. Ito, which color-blind people tell apart, without yellow.
+
+Source: https://jfly.uni-koeln.de/color/, 2008.
+"""
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)), (0, (8, 2)))
+
+STYLE: dict[Any, Any] = {
+    "font.size": 8,
+    "legend.fontsize": 7,
+    "xtick.labelsize": 7,
+    "ytick.labelsize": 7,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 6,
+    "axes.titlecolor": "#555555",
+    "lines.linewidth": 1.1,
+    "lines.markersize": 3.5,
+    "errorbar.capsize": 2,
+    "legend.frameon": False,
+    "hatch.linewidth": 0.5,
+    "savefig.dpi": 300,
+    "pdf.fonttype": 42,  # TrueType: journals refuse Type 3
+    "svg.hashsalt": "gradysim",  # the same file for the same numbers
+}
+"""Settings of matplotlib for figures of a paper: `with matplotlib.rc_context(STYLE): ...`."""
+
+WIDTHS_IN = {1: 3.5, 2: 7.16}
+"""Width of a figure in inches, by the number of columns that it takes on a page of IEEE."""
+HEIGHT_IN = 2.4
+
+SUFFIXES = (".pdf", ".png", ".svg")
+
+
+def line_styles() -> "cycle[dict[str, Any]]":
+    """Return an endless iterator over the colors, markers and line styles of curves."""
+    return cycle(
+        [
+            {"color": color, "marker": marker, "linestyle": line}
+            for color, marker, line in zip(COLORS, MARKERS, LINES, strict=True)
+        ]
+    )
+
+
+def new_figure(columns: int = 1) -> "Figure":
+    """Return an empty figure of this style. Raises ImportError if matplotlib is missing."""
+    try:
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise ImportError(
+            "a figure needs matplotlib: pip install matplotlib (the extra `plot` of gradysim)"
+        ) from error
+    return Figure(figsize=(WIDTHS_IN[columns], HEIGHT_IN), layout="constrained")
+
+
+def set_texts(axes: "Axes", numbers: Numbers) -> None:
+    """Write labels, categories, caption and legend."""
+    axes.set_xlabel(numbers.x_label)
+    axes.set_ylabel(numbers.y_label)
+    axes.set_title(numbers.caption, loc="right")
+    if numbers.categories:
+        axes.set_xticks(range(len(numbers.categories)), list(numbers.categories))
+    handles, _ = axes.get_legend_handles_labels()
+    if len(handles) > 1:
+        axes.legend()
+
+
+def check_file(path: Path, runs: Sequence[RunSummary]) -> None:
+    """Check the name of a picture before it is drawn. Raises ConfigError."""
+    if path.suffix.lower() not in SUFFIXES:
+        problem = f"`{path.suffix}` is not a format" if path.suffix else "its name does not end in a format"
+        raise ConfigError(f"{path}: {problem}", expected=", ".join(SUFFIXES))
+    results = {run.file.resolve() for run in runs}
+    for file in (path.with_suffix(".csv"), path.with_suffix(".json")):
+        if file.resolve() in results:
+            raise ConfigError(
+                f"{path}: {file} would replace the result of a run", expected="another name for the figure"
+            )
+
+
+def write_files(
+    figure: "Figure", path: Path, numbers: Numbers, runs: Sequence[RunSummary], origin: Mapping[str, object]
+) -> tuple[Path, Path, Path]:
+    """Write FILE.pdf, FILE.csv with its numbers and FILE.json with their origin, and return the paths.
+
+    `origin` is what was asked for. The JSON file adds the version and the runs with hashes of their files.
+    Missing directories are created. Raises OSError, which names the file.
+    """
+    table, provenance = path.with_suffix(".csv"), path.with_suffix(".json")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    told = [
+        {
+            "file": str(run.file),
+            "hash": hash_of(run.file),
+            "config": run.config,
+            "mode": run.mode,
+            "run": run.run,
+            "seed": run.seed,
+            "settings_hash": run.settings_hash,
+        }
+        for run in runs
+    ]
+    content = {"figure": path.name, "numbers": table.name, "gradysim": gradysim.__version__, **origin}
+    file = path
+    try:
+        figure.savefig(path, metadata={_DATE[path.suffix]: None} if path.suffix in _DATE else None)
+        file = table
+        with table.open("w", encoding="utf-8", newline="") as output:
+            csv.writer(output, lineterminator="\n").writerows(rows_of(numbers))
+        file = provenance
+        provenance.write_text(json.dumps(content | {"runs": told}, indent=2) + "\n", encoding="utf-8")
+    except OSError as error:
+        error.filename = str(file)  # a full disk does not say it
+        raise
+    return path, table, provenance
+
+
+_DATE = {".pdf": "CreationDate", ".svg": "Date"}
+"""Metadata that would differ each time."""
+
+
+def rows_of(numbers: Numbers) -> list[list[object]]:
+    """Return a heading, and a row for each number drawn."""
+    headings = list(
+        dict.fromkeys(name for curve in numbers.curves for name in (*curve.values, *curve.columns))
+    )
+    rows: list[list[object]] = [list(headings)]
+    for curve in numbers.curves:
+        for cells in zip(*curve.columns.values(), strict=True):
+            row = {**curve.values, **dict(zip(curve.columns, cells, strict=True))}
+            rows.append(["" if row.get(name) is None else row.get(name) for name in headings])
+    return rows

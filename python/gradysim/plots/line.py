@@ -1,0 +1,143 @@
+"""Means over the runs of each value of a variable, and differences between runs of the same seed."""
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from gradysim.plots.figure import line_styles, set_texts
+from gradysim.plots.numbers import (
+    Curve,
+    Numbers,
+    caption_of,
+    check_quantity,
+    label_of,
+    mean_columns,
+    series_of,
+    x_axis,
+)
+from gradysim.results.means import RunSummary
+from gradysim.results.run_table import Runs, variables_of
+from gradysim.scenario.errors import ConfigError, nearest
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_WIDTH_OF_CATEGORY = 0.5
+"""Of 1, the distance to the next one: the curves stand side by side in it."""
+
+
+def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None) -> Numbers:
+    """Return the mean of `y` for each value of `x`. Raises ConfigError."""
+    axis = x_axis(runs, x)
+    check_quantity(runs, y)
+    curves = []
+    for values, alike in series_of(runs, by, x):
+        found = {
+            place: numbers
+            for value, place in axis.places.items()
+            if (numbers := [each.numbers[y] for each in _with(alike, x, value) if y in each.numbers])
+        }
+        if found:
+            curves.append(Curve(values, {axis.label: list(found), **mean_columns(list(found.values()))}))
+    counts = [count for curve in curves for count in curve.columns["runs"]]
+    caption = caption_of("mean", counts)
+    return Numbers(curves, axis.label, label_of(y), caption, axis.categories)
+
+
+def diff_numbers(
+    runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None, baseline: str | None = None
+) -> Numbers:
+    """Return the mean of the differences of `y` between runs of the same seed, for each value of `x`.
+
+    The first variable of `by` is compared: each of its values minus `baseline`, by default the first one.
+    Raises ConfigError.
+    """
+    axis = x_axis(runs, x)
+    check_quantity(runs, y)
+    series = series_of(runs, by, x)
+    compared = next(iter(series[0][0]), "")
+    names = list(dict.fromkeys(str(values.get(compared)) for values, _ in series))
+    if len(names) < 2:
+        raise ConfigError(
+            "there is nothing to compare", expected="--by VARIABLE, one of which the runs have two values"
+        )
+    base = names[0] if baseline is None else baseline
+    if base not in names:
+        raise ConfigError(
+            f"no run has {compared} = {base}",
+            expected=f"one of {', '.join(names)}",
+            suggestion=nearest(base, names),
+        )
+    of_base = {_rest(values, compared): alike for values, alike in series if str(values[compared]) == base}
+    curves = []
+    for values, alike in series:
+        others = of_base.get(_rest(values, compared), [])
+        if str(values[compared]) == base:
+            continue
+        found = {
+            place: differences
+            for value, place in axis.places.items()
+            if (differences := _differences(_with(alike, x, value), _with(others, x, value), y))
+        }
+        if found:
+            columns = mean_columns(list(found.values()))
+            columns["pairs"] = columns.pop("runs")
+            higher = [sum(each > 0 for each in differences) for differences in found.values()]
+            label = {**values, compared: f"{values[compared]} - {base}"}
+            curves.append(Curve(label, {axis.label: list(found), **columns, "higher": higher}))
+    if not curves:
+        raise ConfigError(
+            f"no two runs that differ in `{compared}` have the same seed",
+            expected="`seed-set = ${repetition}` in the study",
+        )
+    counts = [count for curve in curves for count in curve.columns["pairs"]]
+    caption = f"{caption_of('mean of paired differences', counts, 'pair')}; k/n: higher in k of n"
+    return Numbers(curves, axis.label, f"difference of {label_of(y)}", caption, axis.categories)
+
+
+def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
+    """Draw means with error bars; a line connects them if the x axis is a number."""
+    curves = numbers.curves
+    for index, (curve, style) in enumerate(zip(curves, line_styles(), strict=False)):
+        half_widths = [half or 0.0 for half in curve.columns["half_width"]]
+        if numbers.categories:
+            shift = _WIDTH_OF_CATEGORY * ((index + 0.5) / len(curves) - 0.5)
+            places: Sequence[float] = [numbers.categories.index(name) + shift for name in curve.x]
+            style["linestyle"] = "none"
+        else:
+            places = curve.x
+        axes.errorbar(places, curve.columns["mean"], yerr=half_widths, label=curve.label, **style)
+    set_texts(axes, numbers)
+    return axes
+
+
+def draw_diff(axes: "Axes", numbers: Numbers) -> "Axes":
+    """Draw mean differences, and in how many of the pairs the value is higher than the baseline."""
+    axes.axhline(0, color="gray", linewidth=0.6)
+    draw_line(axes, numbers)
+    axes.legend()
+    for curve, container in zip(numbers.curves, axes.containers, strict=False):
+        points = container[0]
+        for place, mean, higher, pairs in zip(
+            points.get_xdata(),
+            curve.columns["mean"],
+            curve.columns["higher"],
+            curve.columns["pairs"],
+            strict=True,
+        ):
+            axes.annotate(
+                f"{higher}/{pairs}", (place, mean), (4, 3), textcoords="offset points", fontsize="x-small"
+            )
+    return axes
+
+
+def _with(runs: Iterable[RunSummary], variable: str, value: object) -> list[RunSummary]:
+    return [run for run in runs if variables_of(run).get(variable) == value]
+
+
+def _rest(values: dict[str, Any], compared: str) -> tuple[Any, ...]:
+    return tuple(value for name, value in values.items() if name != compared)
+
+
+def _differences(runs: Sequence[RunSummary], others: Sequence[RunSummary], y: str) -> list[float]:
+    by_seed = {other.seed: other.numbers[y] for other in others if y in other.numbers}
+    return [run.numbers[y] - by_seed[run.seed] for run in runs if y in run.numbers and run.seed in by_seed]

@@ -1,0 +1,199 @@
+"""The numbers that a figure shows: what each kind of figure computes, draws and writes as CSV."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.means import RunSummary
+from gradysim.results.quantity import quantities
+from gradysim.results.result import RunResult
+from gradysim.results.run_table import OF_RUN, Runs, variables_of
+from gradysim.scenario.errors import BadValue, ConfigError, nearest
+from gradysim.scenario.expressions import parse_value
+from gradysim.scenario.units import UNITS, Quantity
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One curve of a figure, or one set of bars.
+
+    Attributes:
+        values: What distinguishes it from the others, `{"mode": "prototype"}`.
+        columns: Its numbers, {heading: column}. The first column is the x axis.
+    """
+
+    values: Mapping[str, object]
+    columns: Mapping[str, Sequence[Any]]
+
+    @property
+    def label(self) -> str:
+        """Text for the legend."""
+        return ", ".join(
+            str(value) if name in (*OF_RUN, "node") and name not in ("run", "seed") else f"{name} = {value}"
+            for name, value in self.values.items()
+        )
+
+    @property
+    def x(self) -> Sequence[Any]:
+        """The column of the x axis."""
+        return next(iter(self.columns.values()))
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """All that a figure shows.
+
+    Attributes:
+        caption: What its numbers are, and of how many runs.
+        categories: The values of an x axis that is not a number, in their order.
+    """
+
+    curves: Sequence[Curve]
+    x_label: str
+    y_label: str
+    caption: str
+    categories: Sequence[str] = field(default=())
+
+
+@dataclass(frozen=True)
+class XAxis:
+    """Values of an iteration variable on an axis.
+
+    Attributes:
+        label: Name of the variable, with its unit.
+        places: {value in the results: number, or string if not all values are numbers}, in the order of the
+            axis.
+    """
+
+    label: str
+    places: Mapping[Any, Any]
+
+    @property
+    def categories(self) -> tuple[str, ...]:
+        """The values, if they are not numbers."""
+        values = list(self.places.values())
+        return tuple(values) if any(isinstance(value, str) for value in values) else ()
+
+
+def x_axis(runs: Runs, variable: str) -> XAxis:
+    """Return the axis of a variable. Values with units of one dimension are numbers in one unit.
+
+    Raises ConfigError for an unknown variable.
+    """
+    values = runs.values(variable)
+    numbers = {value: _quantity(value) for value in values}
+    known = [number for number in numbers.values() if number is not None]
+    if len(known) < len(values) or not all(number.has_dimension_of(known[0]) for number in known):
+        return XAxis(variable, {value: str(value) for value in values})
+    unit = known[0].unit
+    if unit is None:
+        places = {value: float(number.number) for value, number in numbers.items() if number}
+    else:
+        if any(number.unit != unit for number in known):  # the SI unit
+            unit = next(
+                each
+                for each in UNITS.values()
+                if each.dimension is unit.dimension and each.factor == 1 and not each.logarithmic
+            )
+        places = {value: number.to(unit) for value, number in numbers.items() if number}
+    label = f"{variable} ({unit.name})" if unit else variable
+    return XAxis(label, dict(sorted(places.items(), key=lambda each: each[1])))
+
+
+def _quantity(value: object) -> Quantity | None:
+    try:
+        parsed = parse_value(str(value))
+    except BadValue:
+        return None
+    return parsed if isinstance(parsed, Quantity) else None
+
+
+def series_of(
+    runs: Runs, by: Iterable[str] | None, x: str | None = None
+) -> list[tuple[dict[str, Any], list[RunSummary]]]:
+    """Return (values of `by`, runs) of each curve: runs that differ by more than `x` are not mixed.
+
+    By default `by` is all other variables that differ. Raises ConfigError if a given `by` leaves one out.
+    """
+    variables = [name for name in runs.variables if name not in ("run", "seed", x)]
+    given = by is not None
+    chosen = list(by or ())
+    for name in chosen:
+        runs.values(name)  # an unknown one raises
+    for name in variables:
+        if name not in chosen and _differs(runs, name, [*chosen, *([x] if x else [])]):
+            if given:
+                raise ConfigError(
+                    f"the runs differ in `{name}`, too",
+                    expected=f"--by {' '.join([*chosen, name])}, or one value: --where {name}=VALUE",
+                )
+            chosen.append(name)
+    found: dict[tuple[Any, ...], list[RunSummary]] = {}
+    for run in runs:
+        values = variables_of(run)
+        found.setdefault(tuple(values.get(name) for name in chosen), []).append(run)
+    return [(dict(zip(chosen, values, strict=True)), alike) for values, alike in found.items()]
+
+
+def _differs(runs: Runs, name: str, within: Sequence[str]) -> bool:
+    first: dict[tuple[Any, ...], Any] = {}
+    for run in runs:
+        values = variables_of(run)
+        known = first.setdefault(tuple(values.get(each) for each in within), values.get(name))
+        if known != values.get(name):
+            return True
+    return False
+
+
+def check_quantity(runs: Runs, quantity: str, known: Iterable[str] = ()) -> None:
+    """Check a name of `runs.quantities`, or of the `known` ones. Raises ConfigError."""
+    names = list(known) or runs.quantities
+    if quantity not in names:
+        raise ConfigError(
+            f"no quantity is called `{quantity}`",
+            expected=f"one of {', '.join(names)}",
+            suggestion=nearest(quantity, names),
+        )
+
+
+def label_of(quantity: str) -> str:
+    """Return the label of an axis: `delay (s)` for `delay in s`, `processor time (s)` for `cpu_s`."""
+    declared = quantities(RunResult).get(quantity)
+    if declared is not None:
+        name = declared.summary or quantity
+        return f"{name} ({declared.unit})" if declared.unit else name
+    name, _, unit = quantity.rpartition(" in ")
+    return f"{name} ({unit})" if name else quantity
+
+
+def caption_of(shown: str, counts: Iterable[int], what: str = "run") -> str:
+    """Return `mean, 95 % interval, n = 10 runs`. Single runs have no interval."""
+    interval = "95 % interval, " if max(counts := list(counts), default=0) > 1 else ""
+    return f"{shown}, {interval}{number_of_runs(counts, what)}"
+
+
+def number_of_runs(counts: Iterable[int], what: str = "run") -> str:
+    """Return `n = 8 to 10 runs`."""
+    least, most = min(counts := list(counts), default=0), max(counts, default=0)
+    number = f"{least} to {most}" if least < most else str(most)
+    return f"n = {number} {what}{'s' if most != 1 else ''}"
+
+
+def mean_columns(groups: Sequence[Sequence[float]]) -> dict[str, list[Any]]:
+    """Return the columns of the means of groups of numbers, with 95 % confidence intervals."""
+    found = [mean_with_half_width(group) for group in groups]
+    return {
+        "runs": [len(group) for group in groups],
+        "mean": [mean for mean, _ in found],
+        "half_width": [half for _, half in found],
+    }
+
+
+def band(curve: Curve) -> tuple[list[float], list[float]]:
+    """Return lower and upper ends of the intervals; NaN where there is none, as of a single run."""
+    pairs = list(zip(curve.columns["mean"], curve.columns["half_width"], strict=True))
+    low = [math.nan if half is None else mean - half for mean, half in pairs]
+    high = [math.nan if half is None else mean + half for mean, half in pairs]
+    return low, high

@@ -1,0 +1,103 @@
+"""What became of frames and messages: shares of each outcome as stacked bars."""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from gradysim.plots.figure import COLORS, set_texts
+from gradysim.plots.numbers import (
+    Curve,
+    Numbers,
+    check_quantity,
+    mean_columns,
+    number_of_runs,
+    series_of,
+    x_axis,
+)
+from gradysim.results.means import RunSummary
+from gradysim.results.outcomes import decided
+from gradysim.results.run_table import Runs, variables_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_COLORS = {
+    "delivered": "#009E73",
+    "acknowledged": "#009E73",
+    "sent": "#009E73",
+    "below sensitivity": "#DDDDDD",
+    "out of range": "#DDDDDD",
+}
+"""Of what arrived and of what was too far away; the other outcomes have the other colors."""
+
+_HATCHES = ("", "////", "xxxx")
+"""Of the first, second and third round of colors."""
+
+_WIDTH = 0.7
+"""Of the bars of a category, whose distance to the next one is 1."""
+
+
+def outcomes_numbers(
+    runs: Runs, *, y: str, x: str | None = None, by: Iterable[str] | None = None, omit: Iterable[str] = ()
+) -> Numbers:
+    """Return the share of each outcome for each value of `x`, the mean over runs.
+
+    `y` is `broadcast frames`, `unicast messages` and so on: a kind and a ledger of `fates`. `omit` names
+    outcomes to leave out, such as `below sensitivity`: shares are of the others then. Raises ConfigError.
+    """
+    names = {f"{kind} {ledger}" for run in runs for ledger, kinds in run.fates.items() for kind in kinds}
+    check_quantity(runs, y, sorted(names))
+    kind, _, ledger = y.rpartition(" ")
+    counts = {id(run): _counts(run, ledger, kind, set(omit)) for run in runs}
+    axis = x_axis(runs, x) if x else None
+    bars: list[tuple[dict[str, Any], list[dict[str, int]]]] = []
+    for place in axis.places if axis else [None]:
+        for values, alike in series_of(runs, by, x):
+            found = [
+                counts[id(run)]
+                for run in alike
+                if sum(counts[id(run)].values()) and (x is None or variables_of(run).get(x) == place)
+            ]
+            if found:
+                bars.append(({**({x: place} if x else {}), **values}, found))
+    outcomes = dict.fromkeys(name for _, found in bars for each in found for name, n in each.items() if n)
+    curves = []
+    for outcome in outcomes:
+        shares = [[each.get(outcome, 0) / sum(each.values()) for each in found] for _, found in bars]
+        variables = {name: [values[name] for values, _ in bars] for name in bars[0][0]}
+        curves.append(Curve({"outcome": outcome}, {**variables, **mean_columns(shares)}))
+    caption = f"mean shares, {number_of_runs(len(found) for _, found in bars)}"
+    categories = [_name_of(values, x) for values, _ in bars]
+    return Numbers(curves, x or "", f"share of {y}", caption, categories)
+
+
+def draw_outcomes(axes: "Axes", numbers: Numbers) -> "Axes":
+    """Draw a bar for each value, and in it a part for each outcome."""
+    bottom = [0.0] * len(numbers.categories)
+    others = [color for color in COLORS if color not in _COLORS.values()]
+    taken = 0
+    for curve in numbers.curves:
+        outcome = str(curve.values["outcome"])
+        color, hatch = _COLORS.get(outcome, ""), ""
+        if not color:
+            color, hatch = others[taken % len(others)], _HATCHES[taken // len(others) % len(_HATCHES)]
+            taken += 1
+        heights = curve.columns["mean"]
+        axes.bar(range(len(bottom)), heights, _WIDTH, bottom, label=outcome, color=color, hatch=hatch)
+        bottom = [low + height for low, height in zip(bottom, heights, strict=True)]
+    set_texts(axes, numbers)
+    axes.set_ylim(0, 1)
+    handles, labels = axes.get_legend_handles_labels()
+    if handles:  # in the order of the stack
+        axes.legend(handles[::-1], labels[::-1], loc="center left", bbox_to_anchor=(1, 0.5))
+    return axes
+
+
+def _counts(run: RunSummary, ledger: str, kind: str, omit: set[str]) -> dict[str, int]:
+    counts = decided(run.fates.get(ledger, {}).get(kind, {}))
+    return {outcome: count for outcome, count in counts.items() if outcome not in omit}
+
+
+def _name_of(values: Mapping[str, object], x: str | None) -> str:
+    """Return the text below a bar: the value of `x`, and those that distinguish the bars beside it."""
+    others = Curve({name: value for name, value in values.items() if name != x}, {}).label
+    return "\n".join(filter(None, [str(values[x]) if x else "", others.replace(", ", "\n")]))

@@ -1,0 +1,215 @@
+"""The runs of a study as a table, for scripts, pandas, polars and figures."""
+
+import json
+import math
+import os
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any, Literal
+
+from gradysim.protocol.plain_value import as_float
+from gradysim.results.means import RunSummary, read_results
+from gradysim.results.omnetpp_reader import read_vectors
+from gradysim.results.quantity import Names, name_filter, quantities
+from gradysim.results.result import RunResult
+from gradysim.scenario.errors import ConfigError, nearest
+
+Per = Literal["run", "node", "time"]
+
+OF_RUN = ("config", "mode", "run", "seed")
+"""Columns of each table, and names of variables, besides iteration variables."""
+
+_TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs", "mean", "half_width"}
+"""Names of other columns. An iteration variable of such a name has the column `$mode` and so on."""
+
+
+def runs(directory: str | os.PathLike[str]) -> "Runs":
+    """Return the runs in the directory of `gradysim run --result-dir`, without interrupted ones.
+
+    Raises OSError.
+    """
+    return Runs(read_results(Path(directory)))
+
+
+def variables_of(run: RunSummary) -> dict[str, Any]:
+    """Return the values that tell a run apart by the names of their columns: `OF_RUN`, then variables."""
+    own = {name: getattr(run, name) for name in OF_RUN}
+    return own | {column_of(name): value for name, value in run.iterations.items()}
+
+
+def column_of(variable: str) -> str:
+    """Return the name of the column of an iteration variable."""
+    return f"${variable}" if variable in _TAKEN else variable
+
+
+class Runs:
+    """Runs of a study: a sequence of `RunSummary`, selected by `where` and shown by `columns`."""
+
+    def __init__(self, summaries: Iterable[RunSummary]) -> None:
+        """Take runs in their order."""
+        self._runs = tuple(summaries)
+
+    def __len__(self) -> int:
+        return len(self._runs)
+
+    def __iter__(self) -> Iterator[RunSummary]:
+        return iter(self._runs)
+
+    @property
+    def variables(self) -> list[str]:
+        """Names of the variables: `OF_RUN`, then the iteration variables of any run."""
+        return list(dict.fromkeys([*OF_RUN, *(name for run in self for name in variables_of(run))]))
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the numbers of any run: those of `gradysim means`, then `cpu_s`, `events` and so on."""
+        return list(dict.fromkeys(name for run in self for name in run.numbers))
+
+    def values(self, variable: str) -> list[Any]:
+        """Return the different values of a variable, in the order of the runs.
+
+        Raises ConfigError for an unknown variable.
+        """
+        if variable not in self.variables:
+            raise ConfigError(
+                f"no variable of the runs is called `{variable}`",
+                expected=f"one of {', '.join(self.variables)}",
+                suggestion=nearest(variable, self.variables),
+            )
+        return list(dict.fromkeys(variables_of(run).get(variable) for run in self))
+
+    def where(self, **wanted: object) -> "Runs":
+        """Return the runs with these values of variables, `where(mode="integrated", jitter=["1ms", "10ms"])`.
+
+        A number may also be given as a string. Raises ConfigError for a variable or value of no run.
+        """
+        kept = list(self)
+        for variable, value in wanted.items():
+            known = self.values(variable)
+            several = list(value) if isinstance(value, list | tuple | set | range) else [value]
+            for each in several:
+                if not any(_is_same(each, other) for other in known):
+                    names = [str(other) for other in known]
+                    raise ConfigError(
+                        f"no run has {variable} = {each}",
+                        expected=f"one of {', '.join(names)}",
+                        suggestion=nearest(str(each), names),
+                    )
+            kept = [
+                run
+                for run in kept
+                if any(_is_same(each, variables_of(run).get(variable)) for each in several)
+            ]
+        return Runs(kept)
+
+    def columns(self, *names: str, per: Per = "run") -> dict[str, list[Any]]:
+        """Return a table as {name of the column: its values}, for `polars.DataFrame` and `pandas.DataFrame`.
+
+        Each table begins with the columns of `variables`. `names` selects what follows, with `*` for any
+        letters and `?` for any single one; by default it is everything:
+
+        - `per="run"` has a row for each run and a column for each of `quantities`.
+        - `per="node"` has a row for each node of each run: `node`, and a column for each tracked variable.
+        - `per="time"` has a row for each number in a `.vec` file: `node`, `quantity` (a tracked variable or
+          `positionX`), `time_s` and `value`. Runs without that file are left out.
+
+        A cell is None where a run has no such value. A column has numbers only, or strings only.
+        Raises ConfigError for a name that nothing has, and OSError.
+        """
+        rows: dict[Per, Callable[[Names | None], Iterator[tuple[RunSummary, Mapping[str, Any]]]]] = {
+            "run": self._run_rows,
+            "node": self._node_rows,
+            "time": self._time_rows,
+        }
+        if per not in rows:
+            raise ConfigError(f'per = "{per}": expected one of {", ".join(rows)}')
+        table = [variables_of(run) | dict(row) for run, row in rows[per](names or None)]
+        headings = dict.fromkeys([*self.variables, *(name for row in table for name in row)])
+        return {name: _uniform([row.get(name) for row in table]) for name in headings}
+
+    def frame(self, *names: str, per: Per = "run") -> Any:
+        """Return the table of `columns` as a `pandas.DataFrame`. Raises ImportError if pandas is missing."""
+        try:
+            pandas = import_module("pandas")
+        except ImportError as error:
+            raise ImportError(
+                "a frame needs pandas: pip install pandas (the extra `pandas` of gradysim)"
+            ) from error
+        return pandas.DataFrame(self.columns(*names, per=per))
+
+    def vectors(
+        self, names: Names | None = None
+    ) -> Iterator[tuple[RunSummary, str, str, Sequence[float], Sequence[float]]]:
+        """Yield run, node, quantity, times in s and values for each vector in the `.vec` files of the runs.
+
+        `names` selects quantities. Raises OSError and ValueError as `read_vectors`.
+        """
+        patterns = [names] if isinstance(names, str) else names
+        for run in self:
+            file = run.file.with_suffix(".vec")
+            if file.is_file():
+                for row in read_vectors(file, patterns and [f"{pattern}:vector" for pattern in patterns]):
+                    node = row["module"].partition(".")[2].rpartition(".")[0]
+                    yield run, node, row["name"].removesuffix(":vector"), row["vectime"], row["vecvalue"]
+
+    def _run_rows(self, names: Names | None) -> Iterator[tuple[RunSummary, Mapping[str, Any]]]:
+        known = self.quantities
+        _check(names, known)
+        chosen = list(filter(name_filter(names), known))
+        for run in self:
+            yield run, {name: run.numbers.get(name) for name in chosen}
+
+    def _node_rows(self, names: Names | None) -> Iterator[tuple[RunSummary, Mapping[str, Any]]]:
+        found = [(run, node) for run in self for node in nodes_of(run)]
+        known = dict.fromkeys(name for _, node in found for name in node["tracked_variables"])
+        _check(names, known)
+        taken = {*_TAKEN, *self.variables}
+        chosen = {name: f"${name}" if name in taken else name for name in filter(name_filter(names), known)}
+        for run, node in found:
+            tracked = node["tracked_variables"]
+            cells = {column: tracked.get(name) for name, column in chosen.items()}
+            yield run, {"node": node["name"], **cells}
+
+    def _time_rows(self, names: Names | None) -> Iterator[tuple[RunSummary, Mapping[str, Any]]]:
+        for run, node, quantity, times_s, values in self.vectors(names):
+            for time_s, value in zip(times_s, values, strict=True):
+                yield run, {"node": node, "quantity": quantity, "time_s": time_s, "value": value}
+
+
+def nodes_of(run: RunSummary) -> list[dict[str, Any]]:
+    """Return the nodes in a run's file. Raises OSError."""
+    nodes: list[dict[str, Any]] = json.loads(run.file.read_text(encoding="utf-8"))["nodes"]
+    return nodes
+
+
+def _check(names: Names | None, known: Iterable[str]) -> None:
+    for name in names or ():
+        if not any(map(name_filter(name), known)):
+            raise ConfigError(
+                f"no quantity is called `{name}`",
+                expected="one of " + ", ".join(known),
+                suggestion=nearest(name, known),
+            )
+
+
+def _is_same(wanted: object, value: object) -> bool:
+    if wanted == value or str(wanted) == str(value):
+        return True
+    try:
+        return isinstance(value, int | float) and float(str(wanted)) == value
+    except ValueError:
+        return False
+
+
+def _uniform(cells: list[Any]) -> list[Any]:
+    """Return a column of which all cells have one type, or are None."""
+    numbers = [_INFINITIES.get(cell, cell) if isinstance(cell, str) else cell for cell in cells]
+    types = {type(number) for number in numbers if number is not None}
+    if types <= {int, float, bool}:
+        return numbers if len(types) == 1 else [as_float(number) for number in numbers]
+    return [cell if cell is None or isinstance(cell, str) else json.dumps(cell) for cell in cells]
+
+
+_INFINITIES = {"inf": math.inf, "-inf": -math.inf}
+"""As JSON objects have them."""
