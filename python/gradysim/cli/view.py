@@ -43,7 +43,7 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
         if len(files) > 1:
             raise ConfigError(f"{files[1]}: expected one .ini file, or replays (.html) only")
         return show_live(files[0], options)
-    except (ConfigError, CompiledPartMissingError, ModuleNotFoundError, OSError, ValueError) as mistake:
+    except (ConfigError, CompiledPartMissingError, OSError, ValueError) as mistake:
         return say_mistake(mistake)
 
 

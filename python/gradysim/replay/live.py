@@ -51,17 +51,9 @@ class LiveView:
     recorded: frozenset[int] | None = None
 
     def __init__(self, port: int = 0) -> None:
-        """Listen on a port, 0 for a free one.
+        """Listen on a port, 0 for a free one. Raises OSError if that cannot be done."""
+        from websockets.sync.server import serve
 
-        Raises OSError if that cannot be done, ModuleNotFoundError without the package `websockets`.
-        """
-        try:
-            from websockets.sync.server import serve
-        except ModuleNotFoundError as error:
-            raise ModuleNotFoundError(
-                'a live view needs the package websockets: pip install "websockets>=15"',
-                name=error.name,
-            ) from error
         self._token = secrets.token_urlsafe(16)
         self._run: Mapping[str, Any] | None = None
         self._end: Mapping[str, Any] | None = None

@@ -38,11 +38,11 @@ _MOST_WAITING = 2
 class ReplayWriter:
     """Writes a run to an HTML file, packed by a thread: zlib lets the simulation go on meanwhile."""
 
-    def __init__(self, path: Path, recorded: Iterable[int] | None = None) -> None:
+    def __init__(self, path: str | Path, recorded: Iterable[int] | None = None) -> None:
         """Create the file, empty until the run begins. Raises OSError if that cannot be done."""
         self.recorded = None if recorded is None else frozenset(recorded)
-        self._path = path
-        path.touch()
+        self._path = Path(path)
+        self._path.touch()
         self._file: ReplayFile | None = None
         self._packer = ThreadPoolExecutor(1, "gradysim replay")
         self._packed: deque[Future[bytes]] = deque()

@@ -1,15 +1,10 @@
-import json
-import subprocess
-import sys
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 import pytest
-from websockets.sync.client import connect
 
 from gradysim.cli.app import main
-
-VIEW = (sys.executable, "-m", "gradysim", "view", "--no-browser")
+from python.viewing import watched
 
 
 @pytest.fixture
@@ -19,31 +14,19 @@ def folder(make_scenario, tmp_path, monkeypatch):
     return tmp_path
 
 
-def watch(process):
-    """Connect to what `gradysim view` printed, and return how the run ended."""
-    address = urlsplit(process.stdout.readline().strip())
-    with connect(f"ws://{address.netloc}/chunks?{address.query}", max_size=None) as viewer:
-        for message in viewer:
-            if isinstance(message, str) and "end" in (told := json.loads(message)):
-                return told["end"]
-    return None
-
-
 @pytest.mark.parametrize("mode", ["integrated", "prototype"])
 def test_a_run_is_shown_and_ends_when_its_viewers_have_left(folder, mode):
-    with subprocess.Popen([*VIEW, "test.ini", "--mode", mode], stdout=subprocess.PIPE, text=True) as process:
-        assert watch(process) == {"time_s": pytest.approx(2.05), "complete": True}
-        assert process.wait(20) == 0
+    end, code, _ = watched(f"gradysim view test.ini --mode {mode}", folder)
+    assert end == {"time_s": pytest.approx(2.05), "complete": True}
+    assert code == 0
 
 
 def test_a_failure_of_a_protocol_is_told_in_the_end(folder, make_scenario):
     make_scenario("class Tested(Talker):\n    def handle_packet(self, message): raise RuntimeError('spoilt')")
-    with subprocess.Popen(
-        [*VIEW, "test.ini"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as process:
-        assert watch(process)["complete"] is False
-        assert process.wait(20) == 1
-        assert "spoilt" in process.stderr.read()
+    end, code, error_output = watched("gradysim view test.ini", folder)
+    assert end["complete"] is False
+    assert code == 1
+    assert "spoilt" in error_output
 
 
 def test_a_replay_and_two_beside_each_other(folder, capsys):

@@ -62,7 +62,6 @@ def test_a_protocol_that_is_loaded_twice_is_an_error(watch: Any) -> None:
 
 
 def test_it_is_shown_in_real_time(watch: Any, wall_clock: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("websockets")
     configuration = watch.VisualizationConfiguration
     monkeypatch.setattr(
         watch, "VisualizationConfiguration", lambda **settings: configuration(port=0, **settings)

@@ -10,6 +10,7 @@ import pytest
 
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.keys import COMMUNICATION_MEDIUM_KEYS
+from python.viewing import watched
 
 README = Path(__file__).parents[3] / "README.md"
 
@@ -158,5 +159,22 @@ def test_each_line_of_its_sh_snippets_is_of_a_kind_that_is_tested_here() -> None
     lines = "".join(snippets).split("\n")
     known = re.compile(
         r"make [a-z-]+ .*|docker .*|gradysim run .* # .*heard = \d+|gradysim runs? .* -c Study .*# .*|"
+        r"gradysim (new|view) .* # .*|gradysim run swarm/.* --replay all .*# .*|"
     )
     assert [line for line in lines if not known.fullmatch(line)] == []
+
+
+def test_the_first_commands_do_what_is_said(tmp_path: Path, shell: Callable[..., str]) -> None:
+    new, view, *others, run = re.findall(r"^(gradysim .*swarm.*?) +# ", README.read_text(), re.MULTILINE)
+    shell(new, tmp_path)
+    for command in (view, *others):
+        end, code, _ = watched(command, tmp_path)
+        assert end["complete"]
+        assert code == 0
+    shell(run, tmp_path)
+    assert (tmp_path / "results/General-#0.integrated.html").exists()
+
+
+def test_the_first_protocol_can_be_watched(first_protocol: Path) -> None:
+    (command,) = re.findall(r"^(gradysim view hello.ini) +# ", README.read_text(), re.MULTILINE)
+    assert watched(command, first_protocol.parent)[0]["complete"]

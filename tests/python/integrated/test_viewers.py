@@ -55,7 +55,6 @@ class Audience(Watching):
 @pytest.fixture
 def watched(make_scenario):
     """The messages that a viewer of a run gets."""
-    pytest.importorskip("websockets")
 
     def watch(python):
         shown = visualization()
@@ -90,14 +89,12 @@ def test_a_viewer_gets_the_controllers_commands(watched):
 
 
 def test_the_controller_knows_the_nodes(make_scenario):
-    pytest.importorskip("websockets")
     wrong = PAINTING.replace("self.provider.get_id(), (", "5, (")
     with pytest.raises(ValueError, match="no node 5, only"):
         run(make_scenario(wrong), handlers=[visualization()])
 
 
 def test_a_shown_run_that_fails_leaves_no_thread(make_scenario):
-    pytest.importorskip("websockets")
     before = threading.active_count()
     with pytest.raises(LookupError):
         run(make_scenario(FAILING), handlers=[visualization()])
@@ -105,6 +102,5 @@ def test_a_shown_run_that_fails_leaves_no_thread(make_scenario):
 
 
 def test_a_shown_run_is_the_same(make_scenario):
-    pytest.importorskip("websockets")
     shown, alone = run(make_scenario(), handlers=[visualization()]), run(make_scenario())
     assert shown.fingerprint == alone.fingerprint

@@ -1,4 +1,4 @@
-"""The connection to a viewer; apart, as the package `websockets` is an extra that only a server needs."""
+"""The connection to a viewer; apart, as only a server imports the package `websockets`."""
 
 import os
 from collections.abc import Awaitable

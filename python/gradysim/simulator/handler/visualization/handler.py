@@ -68,11 +68,7 @@ class VisualizationHandler(INodeHandler):
         self.nodes[node.id] = node
 
     def initialize(self) -> None:
-        """Start to serve viewers; if the address cannot be used the log says so, and nobody watches.
-
-        Raises:
-            ModuleNotFoundError: The package `websockets`, an optional dependency, is not installed.
-        """
+        """Start to serve viewers; if the address cannot be used the log says so, and nobody watches."""
         self.held_up_s = 0.0
         self._start_wall_s = time.monotonic()
         welcome = greeting(self._configuration, list(self.nodes.values()))

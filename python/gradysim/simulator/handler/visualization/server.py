@@ -106,15 +106,7 @@ class VisualizationServer:
         Raises:
             AddressInUse: Something listens there already.
             VisualizationException: The address cannot be used.
-            ModuleNotFoundError: The package `websockets` is not installed.
         """
-        try:
-            import websockets.asyncio.server  # noqa: F401 (an extra: asked for here, in the caller's thread)
-        except ModuleNotFoundError as error:
-            raise ModuleNotFoundError(
-                'VisualizationHandler needs the package websockets: pip install "websockets>=15"',
-                name=error.name,
-            ) from error
         self._thread = threading.Thread(target=self._run, name="gradysim visualization", daemon=True)
         self._thread.start()
         try:

@@ -1,5 +1,4 @@
 import gc
-import sys
 import threading
 import webbrowser
 from contextlib import contextmanager
@@ -275,12 +274,6 @@ def test_a_simulation_whose_address_is_in_use_goes_on_without_viewers(shown, cap
 def test_a_host_of_another_machine_is_refused(shown):
     with pytest.raises(VisualizationException, match=r"192\.0\.2\.1"):
         shown(host="192.0.2.1").start()
-
-
-def test_without_websockets_the_error_says_what_to_install(shown, monkeypatch):
-    monkeypatch.setitem(sys.modules, "websockets.asyncio.server", None)
-    with pytest.raises(ModuleNotFoundError, match=r'pip install "websockets>=15"$'):
-        shown().start()
 
 
 @pytest.mark.parametrize("wanted", [True, False])

@@ -1,0 +1,48 @@
+"""Draws the pictures of the README and the guides from runs: `make pictures`."""
+
+import json
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from PIL import Image
+
+from gradysim.cli.app import main
+from gradysim.integrated.run import IntegratedRun
+from gradysim.replay.sink import ReplayWriter
+from gradysim.scenario import load_scenarios
+
+HERE = Path(__file__).parent
+CONFIGS = HERE.parents[1] / "configs"
+
+
+def pictures(
+    folder: Path, file: Path, config: str, limit: str, address: str, times_s: Sequence[float]
+) -> list[Image.Image]:
+    """Run a configuration, and return what its replay shows at those times."""
+    (scenario,) = load_scenarios(file, config, overrides=[f"sim-time-limit={limit}"])
+    replay = folder / "replay.html"
+    IntegratedRun(scenario, replay=ReplayWriter(replay)).execute()
+    asked = {"file": str(replay), "address": address, "width": 1000, "height": 640}
+    asked |= {"times": list(times_s), "directory": str(folder)}
+    subprocess.run(["node", HERE / "film.mjs"], input=json.dumps(asked), text=True, check=True)
+    return [Image.open(folder / f"{number:04}.png").convert("RGB") for number in range(len(times_s))]
+
+
+def draw_film(folder: Path) -> None:
+    """Draw the film of the README: reports that collide, and then with a random wait."""
+    main(["new", str(folder / "swarm")])
+    frames: list[Image.Image] = []
+    for config in ("General", "Jittered"):
+        times_s = [13.8 + 0.05 * number for number in range(30)]
+        frames += pictures(folder, folder / "swarm/swarm.ini", config, "30s", "#", times_s)
+    palette = [frame.quantize(48, dither=Image.Dither.NONE) for frame in frames]
+    palette[0].save(
+        HERE / "replay.gif", save_all=True, append_images=palette[1:], duration=100, loop=0, optimize=True
+    )
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as name:
+        draw_film(Path(name))
