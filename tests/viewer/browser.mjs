@@ -34,6 +34,7 @@ await browser.close();
 process.stdout.write(JSON.stringify(said));
 
 async function look() {
+  await page.waitForFunction(() => window.gradysim); // of a run that goes on, it comes with the run
   await page.evaluate(() => gradysim.ready);
   said.open_s = (performance.now() - opened) / 1000;
   await page.waitForFunction((time) => document.querySelector("input.time").value >= time, asked.after ?? 0);

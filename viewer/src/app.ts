@@ -3,6 +3,7 @@
 import { runDialog, subtitleOf, titleOf, warningOf } from "./about";
 import { Address, findNumber, readAddress } from "./address";
 import { Neighbors } from "./beside";
+import { SLANT } from "./camera";
 import { Clock } from "./clock";
 import { Actions, Controls } from "./controls";
 import { make } from "./dom";
@@ -22,8 +23,6 @@ import { Timeline } from "./timeline";
 
 /** How often texts change: less often than the picture. */
 const TEXTS_MS = 160;
-
-const SLANT = Math.PI * 0.27;
 
 export class App implements Actions {
   readonly replay: Replay;
@@ -255,7 +254,7 @@ export class App implements Actions {
   }
 
   private tick(nowMs: number): void {
-    const wallS = Math.min(0.1, (nowMs - this.lastTickMs) / 1000);
+    const wallS = Math.min(0.25, (nowMs - this.lastTickMs) / 1000);
     this.lastTickMs = nowMs;
     const isReady = this.replay.isReady(this.clock.timeNs);
     this.replay.source.tell(this.clock.timeNs, this.clock.speed);
@@ -279,14 +278,13 @@ export class App implements Actions {
     this.neighbors.tell({ timeNs, speed, isPlaying });
     const positions = this.replay.positions(timeNs);
     const state = this.store.now;
-    const { filter } = this;
-    const { interferers } = this.chosen;
-    this.scene.draw({ timeNs, speed, positions, state, filter, interferers });
+    const { filter, chosen } = this;
+    this.scene.draw({ timeNs, speed, positions, state, filter, interferers: chosen.interferers });
     this.overlay.draw(positions, state);
     this.timeline.draw(timeNs);
     this.controls.update();
-    const earlier = this.replay.chunkIndexAt(timeNs - TRAIL_S * 1e9);
-    if (earlier < this.replay.chunks.length && !this.replay.chunk(earlier))
+    const earlier = this.replay.chunkIndexAt(timeNs) - 1;
+    if (this.replay.chunkIndexAt(timeNs - TRAIL_S * 1e9) === earlier && !this.replay.chunk(earlier))
       void this.replay.loadChunk(earlier).then(() => this.redraw());
   }
 

@@ -3,6 +3,11 @@
 import * as THREE from "three";
 import { MapControls } from "three/addons/controls/MapControls.js";
 
+/** Angle to the vertical at first. */
+export const SLANT = Math.PI * 0.27;
+
+const TOP_ROOM = 1.35;
+
 export class Camera {
   readonly camera = new THREE.PerspectiveCamera(35, 1, 1, 1e6);
   private readonly controls: MapControls;
@@ -60,7 +65,9 @@ export class Camera {
 
   /** Look down, or slanting again. */
   toggleTop(): void {
-    this.place(this.distance, this.isTop ? Math.PI * 0.27 : 0, 0);
+    // From above the ground is not foreshortened: it takes more room.
+    if (this.isTop) this.place(this.distance / TOP_ROOM, SLANT, 0);
+    else this.place(this.distance * TOP_ROOM, 0, 0);
   }
 
   /** Keep a node where it is on the screen, at first in the middle and near; null: follow none. */

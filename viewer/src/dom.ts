@@ -20,7 +20,7 @@ export function button(label: string, title: string, onClick: () => void): HTMLB
   return element;
 }
 
-/** "12.345 678 s": as exact as it takes to tell frames apart. */
+/** "12.345678": seconds, by default so exact that frames can be told apart. */
 export function timeText(timeNs: number, digits = 6): string {
   return (timeNs / 1e9).toFixed(digits);
 }
