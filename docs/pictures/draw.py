@@ -24,7 +24,7 @@ def pictures(
     (scenario,) = load_scenarios(file, config, overrides=[f"sim-time-limit={limit}"])
     replay = folder / "replay.html"
     IntegratedRun(scenario, replay=ReplayWriter(replay)).execute()
-    asked = {"file": str(replay), "address": address, "width": 1000, "height": 640}
+    asked = {"file": str(replay), "address": address, "width": 900, "height": 560}
     asked |= {"times": list(times_s), "directory": str(folder)}
     subprocess.run(["node", HERE / "film.mjs"], input=json.dumps(asked), text=True, check=True)
     return [Image.open(folder / f"{number:04}.png").convert("RGB") for number in range(len(times_s))]
@@ -35,12 +35,11 @@ def draw_film(folder: Path) -> None:
     main(["new", str(folder / "swarm")])
     frames: list[Image.Image] = []
     for config in ("General", "Jittered"):
-        times_s = [13.8 + 0.05 * number for number in range(30)]
+        times_s = [13.9 + 0.08 * number for number in range(16)]
         frames += pictures(folder, folder / "swarm/swarm.ini", config, "30s", "#", times_s)
-    palette = [frame.quantize(48, dither=Image.Dither.NONE) for frame in frames]
-    palette[0].save(
-        HERE / "replay.gif", save_all=True, append_images=palette[1:], duration=100, loop=0, optimize=True
-    )
+    colors = frames[0].quantize(48, dither=Image.Dither.NONE)
+    film = [frame.quantize(palette=colors, dither=Image.Dither.NONE) for frame in frames]
+    film[0].save(HERE / "replay.gif", save_all=True, append_images=film[1:], duration=120, loop=0)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ def make_project(name: Annotated[str, Parameter(help="Of the folder, and of its 
         return say_mistake(error)
     scenarios = folder / f"{folder.name}.ini"
     print(f"gradysim view {scenarios}                # watch: all reports collide")
-    print(f"gradysim view {scenarios} -c Jittered    # a random wait mends that")
+    print(f"gradysim view {scenarios} -c Jittered    # with a random wait they arrive")
     print(f"gradysim run {scenarios} -c Study --jobs 2 --result-dir {folder / 'results'}")
     print(f"python -m pytest {folder}")
     return OK

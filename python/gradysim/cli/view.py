@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gradysim.scenario.scenario import Scenario
 
 _RELOAD_S = 3.0
-"""Wall time after which a viewer that left has not only loaded the page again, in seconds."""
+"""A viewer that comes back within this time has only reloaded the page; seconds of wall time."""
 
 DEFAULTS = ViewOptions()
 

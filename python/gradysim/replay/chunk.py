@@ -6,7 +6,7 @@
 
 A column is an array of little-endian numbers: differences if it is declared so, then first the first byte of
 each number, then the second one, and so on, compressed with zlib. Bytes of one place are alike, so that this
-compresses much better than whole numbers.
+compresses much better than the numbers one after the other.
 """
 
 import json

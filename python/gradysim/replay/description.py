@@ -1,4 +1,4 @@
-"""What a replay says of a run before it begins."""
+"""The description of a run at the beginning of its replay."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -69,7 +69,7 @@ def page() -> str:
 
 
 def read_parts(path: Path) -> tuple[dict[str, Any], Iterator[bytes], dict[str, Any] | None]:
-    """Return what a file says of the run, its packed chunks, and how the run ended; None if it was killed.
+    """Return the description of the run, its packed chunks, and how the run ended; None if it was killed.
 
     Raises ValueError if the file is not a replay, OSError if it cannot be read.
     """

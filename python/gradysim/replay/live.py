@@ -40,7 +40,7 @@ _HANDSHAKE_S = 2.0
 
 
 class LiveView:
-    """A `ReplaySink` for viewers. The run waits for the fastest of them, and for nobody if there is none.
+    """A `ReplaySink` for viewers. The run waits for the fastest viewer, if there is one.
 
     Attributes:
         recorded: None: all is recorded at all nodes.
@@ -92,7 +92,7 @@ class LiveView:
         return len(self._viewers)
 
     def wait_for_viewer(self) -> None:
-        """Return when somebody watches."""
+        """Return when there is a viewer."""
         with self._news:
             while not self._viewers:
                 self._news.wait(0.2)  # with a timeout Ctrl-C gets through on every system
@@ -111,7 +111,7 @@ class LiveView:
         """Show a chunk, and wait as long as viewers are far behind it."""
         data = pack(chunk)
         with self._news:
-            if self._is_stopped:  # nobody watches any more
+            if self._is_stopped:  # there are no viewers any more
                 return
             place = self._places[-1][0] + self._places[-1][1] if self._places else 0
             os.pwrite(self._history.fileno(), data, place)
