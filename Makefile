@@ -18,7 +18,7 @@ export DEBIAN_FRONTEND := noninteractive
 cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
 python_packages := $(shell find python -name __init__.py)
 cpp_checked := $(shell find cpp tests/cpp tests/fuzz bench -name '*.[ch]pp')
-python_checked := python tests examples bench
+python_checked := python tests examples bench docs
 node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
