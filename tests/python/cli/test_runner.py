@@ -98,9 +98,16 @@ def test_what_a_task_leaves_in_open_files_is_written(executor, tmp_path):
     early.close()
 
 
-def test_the_end_of_the_executor_ends_its_workers():
+def test_the_end_of_the_executor_ends_its_workers(tmp_path):
+    def write_pid_and_wait(file):
+        file.write_text(str(os.getpid()))
+        time.sleep(60)
+
+    file = tmp_path / "pid"
     with ForkExecutor(2, StopOnInterrupt()) as executor:
-        executor.submit(time.sleep, 60)
+        executor.submit(write_pid_and_wait, file)
         executor.submit(int).result()
-    with pytest.raises(ChildProcessError):
-        os.waitpid(-1, os.WNOHANG)
+        while not (file.exists() and file.read_text()):
+            time.sleep(0.01)
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(file.read_text()), 0)
