@@ -52,7 +52,7 @@ struct Frame {
     // How long the exchange continues after this frame. Sets the NAV of other stations.
     SimTime duration_field{};  // NOLINT(readability-redundant-member-init): g++ asks for it
     int psdu_bytes = 0;
-    Payload payload;   // of data frames only
+    Payload payload;    // of data frames only
     CauseId cause = 0;  // of data frames only
     SimTime accepted;   // of data frames only: when the interface accepted the message
 };

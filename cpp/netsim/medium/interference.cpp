@@ -125,7 +125,8 @@ const std::vector<NodeId>& InterferenceSum::interferers() {
         }
     }
     std::ranges::sort(strongest_, [](const Other* a, const Other* b) {
-        return a->power_w != b->power_w ? a->power_w > b->power_w : a->transmission->id() < b->transmission->id();
+        return a->power_w != b->power_w ? a->power_w > b->power_w
+                                        : a->transmission->id() < b->transmission->id();
     });
     const double all_w = sum_w_at(worst);
     double named_w = 0;

@@ -15,8 +15,8 @@ double Propagation::other_gain(const Transmission& sent, InterfaceId receiver, c
     const double of_path = path_gain(sent.origin, place, distance_m, sent.band.carrier_hz);
     // Every factor of the gain is here. The constructor multiplies their largest values; that of
     // obstacles is 1.
-    const double gain =
-        of_path * fading_.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id(), least / of_path);
+    const double gain = of_path * fading_.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id(),
+                                               least / of_path);
     return obstacles_.empty() ? gain : gain * obstacles_.gain(sent.origin, place, sent.band.carrier_hz);
 }
 

@@ -126,7 +126,7 @@ struct Station final : NetworkInterfaceListener {
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, const std::string& text) {
-        dcf.send(destination, std::make_shared<const std::string>(text));
+        dcf.send(destination, std::make_shared<const std::string>(text), 0);
     }
     void send(NodeId destination, int bytes) {
         send(destination, std::string(static_cast<std::size_t>(bytes), 'x'));

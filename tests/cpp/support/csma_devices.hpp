@@ -52,7 +52,7 @@ struct Device final : NetworkInterfaceListener {
 
     NodeId id() const { return radio.node(); }
     void send(NodeId destination, std::size_t bytes) {
-        csma.send(destination, std::make_shared<const std::string>(bytes, 'x'));
+        csma.send(destination, std::make_shared<const std::string>(bytes, 'x'), 0);
     }
     void message_received(const Frame&) override { received.push_back(air.simulator.now()); }
 
