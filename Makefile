@@ -23,7 +23,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -93,7 +93,11 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/replay/page.html, from viewer/.
 	cd viewer && npm run --silent check && npm run --silent build
 
-pictures: build $(STAMPS)/test $(node_packages) system-chromium  ## Draw the pictures of the README and the guides again.
+figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of docs/guides/plots.md.
+	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/guides/plots.md | sh -e
+	cp results/line.png results/diff.png results/outcomes.png results/cdf.png results/time.png results/map.png docs/pictures/plots
+
+pictures: figures $(node_packages) system-chromium  ## Draw the pictures of the README and the guides again.
 	$(BIN)/python docs/pictures/draw.py
 
 schema: build  ## Rewrite what is derived from the declarations of the engine's fields.

@@ -1,4 +1,4 @@
-"""A run of ZigZag, and what a handler saw of it once a minute: steps.py and figures.py begin here.
+"""A run of ZigZag, and what a handler saw of it once a minute: steps.py begins here.
 
 docs/guides/handlers.md explains handlers, docs/guides/paper.md what is looked for.
 """
@@ -8,7 +8,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean
-from time import process_time
 from typing import Any
 
 import gradysim.integrated.run
@@ -34,13 +33,11 @@ class Sample:
         time_s: Simulated seconds.
         readings: Readings that had arrived at the ground station.
         nearest_m: Metres from a UAV to the one nearest to it, the mean over all UAVs.
-        processor_s: Processor time that building and running had taken, in seconds.
     """
 
     time_s: float
     readings: int
     nearest_m: float
-    processor_s: float
 
 
 class Observer(INodeHandler):
@@ -51,7 +48,6 @@ class Observer(INodeHandler):
     def __init__(self, scenario: Scenario) -> None:
         self.samples: list[Sample] = []
         self._groups = [node.group for node in scenario.nodes]
-        self._started_s = process_time()
 
     @staticmethod
     def get_label() -> str:
@@ -77,8 +73,7 @@ class Observer(INodeHandler):
     def _sample(self) -> None:
         now_s = self._event_loop.current_time
         tracked = self._station.protocol_encapsulator.provider.tracked_variables
-        cost_s = process_time() - self._started_s
-        self.samples.append(Sample(now_s, tracked["data"], self._nearest_m(), cost_s))
+        self.samples.append(Sample(now_s, tracked["data"], self._nearest_m()))
         self._event_loop.schedule_event(now_s + self.INTERVAL_S, self._sample, "observer")
 
     def _nearest_m(self) -> float:
@@ -97,9 +92,8 @@ class ObservedRun:
     samples: tuple[Sample, ...]
 
 
-def observed_run(task: tuple[Scenario, str]) -> ObservedRun:
-    """Run a scenario in a mode; a single argument, so that `Pool.imap` can hand it to another process."""
-    scenario, mode = task
+def observed_run(scenario: Scenario, mode: str) -> ObservedRun:
+    """Run a scenario in a mode."""
     observer = Observer(scenario)
     result = MODES[mode](scenario, handlers=[observer])
     return ObservedRun(result, tuple(observer.samples))

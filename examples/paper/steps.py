@@ -56,7 +56,7 @@ def nearest_m(run: ObservedRun) -> float:
 def row(size: str, step: Step, mode: str, *overrides: str) -> list[str]:
     """Run a step in a mode and return what the table says of it."""
     (scenario, *_) = load_scenarios(SCENARIOS, size + step.config, overrides=[*overrides, *step.overrides])
-    run = observed_run((scenario, mode))
+    run = observed_run(scenario, mode)
     counts = f"{run.samples[-1].readings:,}", f"{exchanges(run):,}"
     return [step.text, mode, *counts, f"{nearest_m(run):.0f} m"]
 

@@ -88,7 +88,7 @@ class Kind:
     Attributes:
         numbers: Computes what it shows.
         draw: Draws that into axes.
-        needs: Arguments of `numbers` without which there is no figure.
+        needs: Arguments that `numbers` must have.
         takes: Its other arguments.
     """
 

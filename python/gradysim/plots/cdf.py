@@ -5,7 +5,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gradysim.plots.figure import line_styles, set_texts
+from gradysim.plots.figure import set_texts, styles_of
 from gradysim.plots.numbers import (
     Curve,
     Numbers,
@@ -55,7 +55,7 @@ def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbe
 
 def draw_cdf(axes: "Axes", numbers: Numbers) -> "Axes":
     """Draw steps with bands of the 95 % intervals."""
-    for curve, style in zip(numbers.curves, line_styles(), strict=False):
+    for curve, style in zip(numbers.curves, styles_of(numbers.curves), strict=True):
         low, high = band(curve)
         steps = [curve.x[0], *curve.x], [0, *curve.columns["mean"]]
         axes.step(*steps, where="post", label=curve.label, **{**style, "marker": "none"})

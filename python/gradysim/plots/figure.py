@@ -3,12 +3,11 @@
 import csv
 import json
 from collections.abc import Mapping, Sequence
-from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import gradysim
-from gradysim.plots.numbers import Numbers
+from gradysim.plots.numbers import Curve, Numbers
 from gradysim.results.means import RunSummary
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.runs import hash_of
@@ -50,17 +49,32 @@ WIDTHS_IN = {1: 3.5, 2: 7.16}
 """Width of a figure in inches, by the number of columns that it takes on a page of IEEE."""
 HEIGHT_IN = 2.4
 
+_MOST_INSIDE = 4
+"""Entries of a legend inside the axes. A longer one stands beside them."""
+
 SUFFIXES = (".pdf", ".png", ".svg")
 
 
-def line_styles() -> "cycle[dict[str, Any]]":
-    """Return an endless iterator over the colors, markers and line styles of curves."""
-    return cycle(
-        [
-            {"color": color, "marker": marker, "linestyle": line}
-            for color, marker, line in zip(COLORS, MARKERS, LINES, strict=True)
-        ]
-    )
+def styles_of(curves: Sequence[Curve]) -> list[dict[str, Any]]:
+    """Return color, marker and line style of each curve.
+
+    If curves differ in several variables, colors are for the first one, markers and lines for the others.
+    """
+    keys = [tuple(curve.values.values()) for curve in curves]
+    firsts = list(dict.fromkeys(key[:1] for key in keys))
+    others = list(dict.fromkeys(key[1:] for key in keys))
+    styles = []
+    for index, key in enumerate(keys):
+        color, line = (firsts.index(key[:1]), others.index(key[1:])) if len(others) > 1 else (index, index)
+        line += color // len(COLORS)  # another combination in each round
+        styles.append(
+            {
+                "color": COLORS[color % len(COLORS)],
+                "marker": MARKERS[line % len(MARKERS)],
+                "linestyle": LINES[line % len(LINES)],
+            }
+        )
+    return styles
 
 
 def new_figure(columns: int = 1) -> "Figure":
@@ -82,7 +96,9 @@ def set_texts(axes: "Axes", numbers: Numbers) -> None:
     if numbers.categories:
         axes.set_xticks(range(len(numbers.categories)), list(numbers.categories))
     handles, _ = axes.get_legend_handles_labels()
-    if len(handles) > 1:
+    if len(handles) > _MOST_INSIDE:
+        axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    elif len(handles) > 1:
         axes.legend()
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gradysim.plots.figure import line_styles, set_texts
+from gradysim.plots.figure import set_texts, styles_of
 from gradysim.plots.numbers import (
     Curve,
     Numbers,
@@ -97,7 +97,7 @@ def diff_numbers(
 def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
     """Draw means with error bars; a line connects them if the x axis is a number."""
     curves = numbers.curves
-    for index, (curve, style) in enumerate(zip(curves, line_styles(), strict=False)):
+    for index, (curve, style) in enumerate(zip(curves, styles_of(curves), strict=True)):
         half_widths = [half or 0.0 for half in curve.columns["half_width"]]
         if numbers.categories:
             shift = _WIDTH_OF_CATEGORY * ((index + 0.5) / len(curves) - 0.5)

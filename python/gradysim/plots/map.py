@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from operator import mul
 from typing import TYPE_CHECKING
 
-from gradysim.plots.figure import COLORS, MARKERS, line_styles, set_texts
+from gradysim.plots.figure import COLORS, MARKERS, set_texts, styles_of
 from gradysim.plots.numbers import Curve, Numbers
 from gradysim.results.run_table import Runs, nodes_of
 from gradysim.results.tracked_variables import group_of
@@ -58,7 +58,7 @@ def draw_map(axes: "Axes", numbers: Numbers) -> "Axes":
     moving = [
         curve for curve in numbers.curves if len(set(zip(curve.x, curve.columns["y_m"], strict=True))) > 1
     ]
-    for curve, style in zip(moving, line_styles(), strict=False):
+    for curve, style in zip(moving, styles_of(moving), strict=True):
         label = curve.label if len(moving) <= _MOST_NAMES else None
         x_m, y_m = curve.x, curve.columns["y_m"]
         axes.plot(x_m, y_m, label=label, color=style["color"], linestyle=style["linestyle"])

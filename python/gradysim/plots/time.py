@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 from statistics import fmean
 from typing import TYPE_CHECKING
 
-from gradysim.plots.figure import line_styles, set_texts
+from gradysim.plots.figure import set_texts, styles_of
 from gradysim.plots.numbers import Curve, Numbers, band, caption_of, mean_columns, series_of
 from gradysim.results.run_table import Runs
 from gradysim.results.tracked_variables import group_of
@@ -66,7 +66,7 @@ def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numb
 
 def draw_time(axes: "Axes", numbers: Numbers) -> "Axes":
     """Draw lines with bands of the 95 % intervals."""
-    for curve, style in zip(numbers.curves, line_styles(), strict=False):
+    for curve, style in zip(numbers.curves, styles_of(numbers.curves), strict=True):
         low, high = band(curve)
         axes.plot(curve.x, curve.columns["mean"], label=curve.label, **{**style, "marker": "none"})
         axes.fill_between(curve.x, low, high, color=style["color"], alpha=0.2, linewidth=0)

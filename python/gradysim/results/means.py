@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -136,7 +137,12 @@ def read_results(directory: Path) -> list[RunSummary]:
     found = [
         RunSummary.of(result, file) for file, result in _results_in(directory) if not result["interrupted"]
     ]
-    return sorted(found, key=lambda result: (result.config, result.mode, result.run))
+    return sorted(found, key=lambda result: (*_natural(result.config), result.mode, result.run))
+
+
+def _natural(name: str) -> tuple[list[str], list[int]]:
+    """Return a key that sorts `Field5` before `Field15`."""
+    return re.split(r"\d+", name), [int(digits) for digits in re.findall(r"\d+", name)]
 
 
 def has_files_for_omnetpp_alone(directory: Path) -> bool:

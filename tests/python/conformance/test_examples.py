@@ -50,6 +50,7 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in metres, mo
     "reference/sir": ("General", 1000, ()),
     "reference/synchronised": ("General", 100, ()),
     "reference/unicast_failures": ("Bursts", 300, ()),
+    "scouts": ("General", 1000, ()),
     "sensor_field": ("Spread", 20, ("sim-time-limit = 20s",)),
     "sensor_field, again": ("Gateway", 150, ("sim-time-limit = 20s",)),
 }

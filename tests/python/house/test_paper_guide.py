@@ -58,9 +58,20 @@ def test_every_command_of_gradysim_runs(
     assert "groundStation data" in shell(means.replace("results/", f"{tmp_path}/"), root)
 
 
-def test_all_other_commands_are_its_two_scripts(commands: list[str]) -> None:
-    others = [command for command in commands if not command.startswith("gradysim ")]
-    assert others == ["python examples/paper/steps.py", "python examples/paper/figures.py"]
+def test_the_figures_are_drawn_from_a_study(
+    code_blocks: Callable[[str, str], list[str]], shell: Shell, root: Path, tmp_path: Path
+) -> None:
+    pytest.importorskip("matplotlib")
+    blocks = [block for block in code_blocks(GUIDE, "sh") if "gradysim plot " in block]
+    short = [("repeat=10", "repeat=2"), ("15, 30, 60, 120}min", "1, 2, 120}s"), ("results/", f"{tmp_path}/")]
+    for block in blocks:
+        for old, new in short:
+            block = block.replace(old, new)
+        shell(block, root)
+    collected = (tmp_path / "collected.csv").read_text().splitlines()
+    assert collected[0] == "config,mode,time (s),runs,mean,half_width"
+    assert len(collected) == 1 + 6 * 241
+    assert len((tmp_path / "cost.csv").read_text().splitlines()) == 1 + 6 * 3
 
 
 def test_at_the_ground_station_all_heartbeats_meet_its_own(
@@ -79,7 +90,7 @@ def test_at_the_ground_station_all_heartbeats_meet_its_own(
 def test_the_mean_of_ten_runs_is_that_of_the_table(root: Path, text: str) -> None:
     mean, half_width = mean_with_half_width(readings(root, "ZigZag5", "repeat = 10"))
     told = f"{mean:,.0f} ± {half_width:.0f}"
-    assert re.search(rf"^  ZigZag5    integrated .* {told} .* s$", text, re.MULTILINE)
+    assert re.search(rf"^\| ZigZag5 \| integrated \| .* \| {told} \| .* s \|$", text, re.MULTILINE)
     assert f"| -96.616 dBm, that of the scenario | {told} |" in text
 
 

@@ -1,0 +1,66 @@
+"""Scouts that fly at random and report to a base."""
+
+from gradysim.protocol.interface import IProtocol
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.plugin.random_mobility import RandomMobilityConfig, RandomMobilityPlugin
+
+
+class Base(IProtocol):
+    """Counts the reports that it receives.
+
+    Tracked variables:
+        reports: Their number up to now.
+    """
+
+    def initialize(self) -> None:
+        """Start at zero."""
+        self.provider.tracked_variables["reports"] = 0
+
+    def handle_packet(self, message: str) -> None:
+        """Count a report."""
+        self.provider.tracked_variables["reports"] += 1
+
+    def handle_timer(self, timer: str) -> None:
+        """A base has no timers."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """Where it is does not matter."""
+
+    def finish(self) -> None:
+        """The count is complete."""
+
+
+class Scout(IProtocol):
+    """Flies from one random place to the next, and broadcasts a report each second."""
+
+    jitter: float = 0.005
+    """Longest delay of a report in seconds."""
+    report_bytes: int = 1000
+    """Size of a report."""
+
+    def initialize(self) -> None:
+        """Take off."""
+        box = RandomMobilityConfig(x_range=(-400, 400), y_range=(-400, 400), z_range=(40, 60), tolerance=1)
+        self._trip = RandomMobilityPlugin(self, box)
+        self._trip.initiate_random_trip()
+        self._reports = 0
+        self._schedule()
+
+    def _schedule(self) -> None:
+        self._reports += 1
+        self.provider.schedule_timer("report", self._reports + self.provider.random.uniform(0, self.jitter))
+
+    def handle_timer(self, timer: str) -> None:
+        """Report."""
+        self.provider.send_communication_command(BroadcastMessageCommand("x" * self.report_bytes))
+        self._schedule()
+
+    def handle_packet(self, message: str) -> None:
+        """Reports of others do not matter."""
+
+    def handle_telemetry(self, telemetry: Telemetry) -> None:
+        """The trip reads it."""
+
+    def finish(self) -> None:
+        """Nothing is left to do."""
