@@ -56,9 +56,9 @@ class PlotOptions:
     that end in .csv and .json."""
 
     kind: Literal["line", "diff", "cdf", "time", "outcomes", "map"] = "line"
-    """Means over x; differences between runs of the same seed; a distribution; a tracked variable over time;
-    what became of frames or messages; where nodes were. The last but two and the last read the files of
-    `run --vectors`."""
+    """line: means over x. diff: differences between runs of the same seed. cdf: a distribution. time: a
+    tracked variable over time. outcomes: what became of frames or messages. map: where nodes were. time and
+    map read the files of `run --vectors`."""
 
     x: str | None = None
     """Variable of the x axis: one of `${name=...}` in the .ini file, config or mode."""
