@@ -152,6 +152,7 @@ void bind_network(py::module_& module) {
         .def("finish", &Network::finish)
         .def("release_protocols", &Network::release_protocols)
         .def_property_readonly("now", [](const Network& network) { return network.now().seconds(); })
+        .def_property_readonly("active_node", &Network::active_node)
         .def_property_readonly("event_count", &Network::event_count)
         .def_property_readonly("pending_count", &Network::pending_count)
         .def_property_readonly("fingerprint", &fingerprint)

@@ -292,6 +292,9 @@ class Network:
     def now(self) -> float:
         """Simulated time in seconds."""
     @property
+    def active_node(self) -> int:
+        """Id of the node whose protocol is called now; -1 outside of calls."""
+    @property
     def event_count(self) -> int: ...
     @property
     def pending_count(self) -> int:

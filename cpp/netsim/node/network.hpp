@@ -90,6 +90,8 @@ public:
     void release_protocols();
 
     SimTime now() const { return simulator_.now(); }
+    // The node whose protocol is called now; NetworkContext::no_node outside of calls.
+    NodeId active_node() const { return context_.active_node; }
     std::uint64_t event_count() const { return simulator_.event_count(); }
     std::size_t pending_count() const { return simulator_.pending_count(); }
     std::uint64_t fingerprint() const { return fingerprint_.value(); }

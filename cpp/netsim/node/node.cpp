@@ -46,7 +46,9 @@ void Node::call_protocol(const char* callback, const Call& call) {
         if (context_.recorder != nullptr) {
             context_.recorder->callback_begins(callback);
         }
+        context_.active_node = id_;
         call_of_protocol(callback, id_, now(), [&] { call(*protocol_); });
+        context_.active_node = NetworkContext::no_node;
     }
 }
 

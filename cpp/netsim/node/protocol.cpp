@@ -21,7 +21,9 @@ void Protocol::message_received(const Frame& frame) {
     if (context_->recorder != nullptr) {
         context_->recorder->callback_begins("handle_packet");
     }
+    context_->active_node = node_;
     call_of_protocol("handle_packet", node_, now, [&] { handle_packet(frame.payload); });
+    context_->active_node = NetworkContext::no_node;
 }
 
 }  // namespace netsim

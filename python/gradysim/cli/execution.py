@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Protocol, TextIO
 
 from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure
 from gradysim.cli.options import RunOptions
-from gradysim.cli.output import captures, ids_of_fates, nodes_of_vectors, replay_writer
+from gradysim.cli.output import captures, ids_of_fates, log_level, nodes_of_vectors, replay_sink
 from gradysim.cli.progress import RunProgress, waiting
 from gradysim.cli.runner import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
@@ -163,7 +163,8 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
             return PrototypeRun(
                 scenario,
                 vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
-                replay=replay_writer(scenario, options),
+                replay=replay_sink(scenario, options),
+                log_level=log_level(options),
             )
 
         return check_all, build_prototype
@@ -181,7 +182,8 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
             captures(scenario, options),
             fates_at=ids_of_fates(scenario, options),
             vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
-            replay=replay_writer(scenario, options),
+            replay=replay_sink(scenario, options),
+            log_level=log_level(options),
         )
 
     return check, build
@@ -204,5 +206,6 @@ def check_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
         ("--fates-at", options.fates_at),
         ("--vectors", options.vectors),
         ("--replay", options.replay),
+        ("--trace", options.trace),
     ):
         check_node_names(scenarios, names, option)

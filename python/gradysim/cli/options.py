@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 Mode = Literal["integrated", "prototype"]
 """The same as in `gradysim.results.result`, which `gradysim --help` does not load."""
 
+LogLevel = Literal["debug", "info", "warning", "error"]
+
 DEFAULT_DIR = Path("results")
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
@@ -135,6 +137,14 @@ class RunOptions:
     replay: Names = ()
     """NODE...: write what happens at these nodes to DIR/CONFIG-#RUN.MODE.html, DIR as above,
     a page that any browser shows. A node (uavs[0]), a group (uavs), or all."""
+
+    trace: Names = ()
+    """NODE...: print a line for each event at these nodes: frames, receptions and their outcomes, timers,
+    commands, tracked variables. A node (uavs[0]), a group (uavs), or all."""
+
+    log_level: LogLevel | None = None
+    """Print what protocols log from this level on, by default info, with --quiet warning. With debug, also
+    what gradysim logs."""
 
     fates_at: Names = ()
     """NODE...: report what became of the frames that reached these nodes, who interfered, and what became of

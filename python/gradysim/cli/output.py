@@ -40,17 +40,37 @@ def replay_file(scenario: "Scenario", options: RunOptions) -> Path:
     return run_file(options.directory, scenario.config, scenario.run_number, options.mode, ".html")
 
 
-def replay_writer(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
-    """Return what writes the replay of a run; None without --replay. Raises OSError if it cannot."""
-    if not options.replay:
-        return None
-    from gradysim.replay.sink import ReplayWriter
+def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
+    """Return what writes the replay of a run, and its trace; None if neither is asked for.
+
+    Raises OSError if the replay cannot be written.
+    """
     from gradysim.scenario.scenario import nodes_named
 
-    recorded = {node.id for node in nodes_named(scenario, options.replay)}
-    return ReplayWriter(
-        replay_file(scenario, options), None if len(recorded) == len(scenario.nodes) else recorded
-    )
+    sinks: list[ReplaySink] = []
+    if options.replay:
+        from gradysim.replay.sink import ReplayWriter
+
+        recorded = {node.id for node in nodes_named(scenario, options.replay)}
+        is_all = len(recorded) == len(scenario.nodes)
+        sinks.append(ReplayWriter(replay_file(scenario, options), None if is_all else recorded))
+    if options.trace:
+        from gradysim.replay.trace import Trace
+
+        sinks.append(Trace(node.id for node in nodes_named(scenario, options.trace)))
+    if len(sinks) < 2:
+        return sinks[0] if sinks else None
+    from gradysim.replay.sink import Sinks
+
+    return Sinks(sinks)
+
+
+def log_level(options: RunOptions) -> int:
+    """Return the level from which on log lines are printed, as a number of `logging`."""
+    import logging
+
+    name = options.log_level or ("warning" if options.quiet else "info")
+    return logging.getLevelNamesMapping()[name.upper()]
 
 
 def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:

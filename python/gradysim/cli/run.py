@@ -113,7 +113,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             return say_mistake(mistake), None
 
     report_crashes()
-    terminal = error_terminal() if bar and options.jobs == 1 else None
+    terminal = error_terminal() if bar and options.jobs == 1 and not options.trace else None
     import_what_runs_use(options)
     with StopOnInterrupt() as interrupt:
         if executor is not None:

@@ -1,5 +1,6 @@
 """`gradysim view`: shows replays, or a run while it goes on, in a browser."""
 
+import logging
 import sys
 import tempfile
 import time
@@ -96,10 +97,10 @@ def _built(scenario: "Scenario", mode: Mode, live: "LiveView") -> "Run":
     if mode == "prototype":
         from gradysim.prototype.run import PrototypeRun
 
-        return PrototypeRun(scenario, replay=live)
+        return PrototypeRun(scenario, replay=live, log_level=logging.INFO)
     from gradysim.integrated.run import IntegratedRun
 
-    return IntegratedRun(scenario, replay=live)
+    return IntegratedRun(scenario, replay=live, log_level=logging.INFO)
 
 
 def _open(address: str, options: ViewOptions) -> None:

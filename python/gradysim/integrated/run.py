@@ -4,6 +4,7 @@
 failing run.
 """
 
+import logging
 import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -65,6 +66,7 @@ class IntegratedRun(ScenarioRun):
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
         replay: ReplaySink | None = None,
+        log_level: int = logging.WARNING,
     ) -> None:
         """Build the network and the protocols.
 
@@ -82,6 +84,8 @@ class IntegratedRun(ScenarioRun):
             real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed. For
                 viewers: events are up to 10 ms of wall time late.
             replay: Takes what happens, such as `ReplayWriter`, which makes a page of it.
+            log_level: Log lines from this level on go to standard error, with time and node, unless logging
+                has been configured.
 
         Raises:
             CompiledPartMissingError: The engine has not been built.
@@ -91,7 +95,7 @@ class IntegratedRun(ScenarioRun):
                 two interfaces would write one file, a handler cannot work in this mode, or `real_time` is not
                 a factor. Exceptions of a protocol's constructor are raised, too.
         """
-        super().__init__(scenario, vectors_of, replay)
+        super().__init__(scenario, vectors_of, replay, log_level)
         self._real_time_factor = real_time_factor(real_time)
         self._fates_at = frozenset(checked_ids("fates_at", fates_at, len(scenario.nodes)))
         files = checked_captures(captures or {}, scenario)
@@ -105,6 +109,8 @@ class IntegratedRun(ScenarioRun):
             if replay is None
             else EngineRecorder(self._network, scenario, recorded_nodes(scenario, replay))
         )
+        if self._recorder is not None:
+            self._log.record_event = self._recorder.event
         self._handlers = EngineHandlers(handlers, self._network)
         self._autopilots = AutopilotNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
@@ -189,6 +195,10 @@ class IntegratedRun(ScenarioRun):
     def _now(self) -> float:
         return self._network.now
 
+    def _active_node(self) -> int | None:
+        node = self._network.active_node
+        return None if node < 0 else node
+
     def _finish(self) -> None:
         with capture_errors():
             self._network.finish()
@@ -259,6 +269,7 @@ def run(
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
     replay: ReplaySink | None = None,
+    log_level: int = logging.WARNING,
 ) -> RunResult:
     """Run `scenario` on the compiled engine and return its result; see `IntegratedRun` for the arguments."""
     integrated_run = IntegratedRun(
@@ -269,6 +280,7 @@ def run(
         handlers=handlers,
         real_time=real_time,
         replay=replay,
+        log_level=log_level,
     )
     integrated_run.execute(progress, should_stop)
     return integrated_run.result()

@@ -4,6 +4,7 @@
 run.
 """
 
+import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
@@ -32,6 +33,7 @@ class PrototypeRun(ScenarioRun):
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
         replay: ReplaySink | None = None,
+        log_level: int = logging.WARNING,
     ) -> None:
         """Build the simulation and the protocols.
 
@@ -41,6 +43,8 @@ class PrototypeRun(ScenarioRun):
             handlers: Added to those of communication, timers and mobility: assertions, a viewer, your own.
             real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed.
             replay: Takes what happens, such as `ReplayWriter`, which makes a page of it.
+            log_level: Log lines from this level on go to standard error, with time and node, unless logging
+                has been configured.
 
         Raises:
             ConfigError: The simulator does not accept a value of the scenario.
@@ -49,10 +53,12 @@ class PrototypeRun(ScenarioRun):
                 exist, a handler cannot be added, or `real_time` is not a factor. Exceptions of a protocol's
                 constructor are raised, too.
         """
-        super().__init__(scenario, vectors_of, replay)
+        super().__init__(scenario, vectors_of, replay, log_level)
         self._recorder = (
             None if replay is None else PrototypeRecorder(self._now, recorded_nodes(scenario, replay))
         )
+        if self._recorder is not None:
+            self._log.record_event = self._recorder.event
         with self._building():
             self._simulator, self._ledger = build_simulation(
                 scenario, handlers, real_time, self._recorders, self._recorder
@@ -75,6 +81,9 @@ class PrototypeRun(ScenarioRun):
 
     def _now(self) -> float:
         return self._simulator.current_time if hasattr(self, "_simulator") else 0.0
+
+    def _active_node(self) -> int | None:
+        return self._simulator.active_node if hasattr(self, "_simulator") else None
 
     def _finish(self) -> None:
         self._simulator.finalize(complete=self._complete)
@@ -108,10 +117,16 @@ def run(
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
     replay: ReplaySink | None = None,
+    log_level: int = logging.WARNING,
 ) -> RunResult:
     """Run `scenario` on the plain simulator and return its result; see `PrototypeRun` for the arguments."""
     prototype_run = PrototypeRun(
-        scenario, vectors_of=vectors_of, handlers=handlers, real_time=real_time, replay=replay
+        scenario,
+        vectors_of=vectors_of,
+        handlers=handlers,
+        real_time=real_time,
+        replay=replay,
+        log_level=log_level,
     )
     prototype_run.execute(progress, should_stop)
     return prototype_run.result()

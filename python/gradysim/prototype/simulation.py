@@ -78,6 +78,7 @@ def build_simulation(
         record_node(node, recorded.get(node.id), replay)
 
     simulator = builder.prepare_nodes(prepare).build()
+    simulator.writes_log = False
     if isinstance(mobility, AutopilotMobilityHandler):
         mobility.take_off()
     return simulator, ledger

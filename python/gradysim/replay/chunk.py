@@ -134,6 +134,15 @@ def unpack(data: bytes) -> Chunk:
     return chunk
 
 
+def unpacked(chunk: RawChunk) -> Chunk:
+    """Return a chunk as if it had been packed and unpacked."""
+    tables = {
+        table: {column.name: _numbers(column, chunk.columns[table][column.name]) for column in columns}
+        for table, columns in TABLES.items()
+    }
+    return Chunk(chunk.start_ns, chunk.end_ns, list(chunk.strings), tables)
+
+
 def raw(column: Column, values: Sequence[int] | Sequence[float]) -> bytes:
     """Return the numbers of a column as `RawChunk` has them."""
     if column.delta:
@@ -148,7 +157,11 @@ def _values(column: Column, packed: bytes) -> Values:
     data = bytearray(len(shuffled))
     for byte in range(width):
         data[byte::width] = shuffled[byte * rows : (byte + 1) * rows]
-    values = array(ARRAY_TYPES[column.type], bytes(data))
+    return _numbers(column, bytes(data))
+
+
+def _numbers(column: Column, data: bytes) -> Values:
+    values = array(ARRAY_TYPES[column.type], data)
     _little_endian(values)
     return array(values.typecode, accumulate(values)) if column.delta else values
 

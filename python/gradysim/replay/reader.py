@@ -79,7 +79,7 @@ class Replay:
         """Give each reception that a receiver noticed, in the order of frames, then of receivers."""
         first = 0
         for chunk in self.chunks:
-            for frame, receiver, outcome in _receptions(chunk):
+            for frame, receiver, outcome in receptions_of(chunk):
                 yield Reception(first + frame, receiver, OUTCOMES[outcome])
             first += len(chunk.tables["frames"]["node"])
 
@@ -116,7 +116,7 @@ class Replay:
         frames, receivers, outcomes = array("I"), array("I"), array("B")
         first = 0
         for chunk in self.chunks:
-            for frame, receiver, outcome in _receptions(chunk):
+            for frame, receiver, outcome in receptions_of(chunk):
                 frames.append(first + frame)
                 receivers.append(receiver)
                 outcomes.append(outcome)
@@ -133,8 +133,8 @@ def read_replay(path: str | Path) -> Replay:
     return Replay(run, end, tuple(unpack(chunk) for chunk in chunks))
 
 
-def _receptions(chunk: Chunk) -> Iterator[tuple[int, int, int]]:
-    """Give (frame, receiver, outcome) of a chunk: what the file has are the changes."""
+def receptions_of(chunk: Chunk) -> Iterator[tuple[int, int, int]]:
+    """Give (frame, receiver, outcome) of a chunk: its table has the changes only."""
     frames, changes = chunk.tables["frames"], chunk.tables["receptions"]
     rows = zip(changes["frame"], changes["receiver"], changes["outcome"], strict=True)
     change = next(rows, None)

@@ -1,7 +1,7 @@
 """Where the chunks of a run go while it runs."""
 
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, Protocol
@@ -30,6 +30,36 @@ class ReplaySink(Protocol):
 
     def close(self, end: Mapping[str, Any]) -> None:
         """Take how the run ended, also after a failure: `time_s`, and whether it is `complete`."""
+
+
+class Sinks:
+    """Passes a run on to several sinks; each gets the nodes that any of them wants recorded."""
+
+    def __init__(self, sinks: Sequence[ReplaySink]) -> None:
+        self._sinks = sinks
+        wanted = [sink.recorded for sink in sinks]
+        self.recorded = (
+            None if None in wanted else frozenset().union(*(nodes for nodes in wanted if nodes is not None))
+        )
+
+    def begin(self, run: Mapping[str, Any]) -> None:
+        """Pass it on."""
+        for sink in self._sinks:
+            sink.begin(run)
+
+    def wants_chunk(self) -> bool:
+        """Return whether any of them wants one."""
+        return any(sink.wants_chunk() for sink in self._sinks)
+
+    def add(self, chunk: RawChunk) -> None:
+        """Pass it on."""
+        for sink in self._sinks:
+            sink.add(chunk)
+
+    def close(self, end: Mapping[str, Any]) -> None:
+        """Pass it on."""
+        for sink in self._sinks:
+            sink.close(end)
 
 
 _MOST_WAITING = 2

@@ -3,6 +3,7 @@
 The simulator executes some events, then control comes back here. So a run can report progress and be stopped.
 """
 
+import logging
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -14,6 +15,7 @@ from gradysim.replay.chunk import RawChunk
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
+from gradysim.results.run_log import RunLog
 from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario, require_scenario
@@ -41,7 +43,11 @@ class ScenarioRun(ABC):
     mode: ClassVar[Mode]
 
     def __init__(
-        self, scenario: Scenario, vectors_of: Iterable[int], replay: ReplaySink | None = None
+        self,
+        scenario: Scenario,
+        vectors_of: Iterable[int],
+        replay: ReplaySink | None = None,
+        log_level: int = logging.WARNING,
     ) -> None:
         """Start measuring the cost. Raises TypeError and ValueError for wrong arguments."""
         require_scenario(scenario)
@@ -53,6 +59,8 @@ class ScenarioRun(ABC):
         self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes))
         self._replay = replay
+        names = [node.name for node in scenario.nodes]
+        self._log = RunLog(log_level, names, self._now, self._active_node)
 
     def execute(
         self,
@@ -163,7 +171,7 @@ class ScenarioRun(ABC):
     @contextmanager
     def _protocol_environment(self) -> Iterator[None]:
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
-        with siblings, global_random_seeded(self._scenario.seed):
+        with self._log, siblings, global_random_seeded(self._scenario.seed):
             yield
 
     @abstractmethod
@@ -184,6 +192,10 @@ class ScenarioRun(ABC):
     @abstractmethod
     def _now(self) -> float:
         """Return the simulated time in seconds."""
+
+    @abstractmethod
+    def _active_node(self) -> int | None:
+        """Return the id of the node whose protocol is called now; None if there is none."""
 
     @abstractmethod
     def _finish(self) -> None:

@@ -139,6 +139,23 @@ def setup_simulation_formatter(
     return formatter
 
 
+class EventContext(str):
+    """What an event is about, for log lines: "Hello 3 handle_timer".
+
+    Attributes:
+        node_id: Id of the node.
+    """
+
+    node_id: int
+
+
+def context_of(node: Node[Any], callback: str) -> EventContext:
+    """Return the context of the events that call a node."""
+    context = EventContext(f"{label_node(node)} {callback}")
+    context.node_id = node.id
+    return context
+
+
 def label_node(node: Node[Any]) -> str:
     """Return a node's name for people: "ProtocolClass id"; "Node id" if it has no protocol."""
     protocol = getattr(getattr(node, "protocol_encapsulator", None), "protocol", None)

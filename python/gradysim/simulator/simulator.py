@@ -23,7 +23,7 @@ from gradysim.simulator.handler.registry import (
     step_hooks,
     stop_judging,
 )
-from gradysim.simulator.log import SimulationFormatter, label_node, setup_simulation_formatter
+from gradysim.simulator.log import SimulationFormatter, context_of, setup_simulation_formatter
 from gradysim.simulator.node import Node
 from gradysim.simulator.pacing import AsyncioRunner, Pacing, WakingEventLoop
 from gradysim.simulator.profiling import EventProfile, TimingReport
@@ -44,10 +44,12 @@ class Simulator:
 
     Attributes:
         seed: Seed of all random numbers of the run.
+        writes_log: Whether it writes log lines itself, as its configuration says.
         prepare_node: Called with each node, if it is set, after its provider and before its protocol is made.
     """
 
     seed: int
+    writes_log = True
     prepare_node: Callable[[Node[Any]], None] | None = None
 
     def __init__(self, handlers: Mapping[str, INodeHandler], configuration: SimulationConfiguration) -> None:
@@ -101,6 +103,12 @@ class Simulator:
     def nodes(self) -> tuple[Node[Any], ...]:
         """All nodes, in the order of creation."""
         return tuple(self._nodes.values())
+
+    @property
+    def active_node(self) -> int | None:
+        """Id of the node that the event under way calls; None if there is none."""
+        formatter = self._formatter
+        return None if formatter.iteration is None else getattr(formatter.context, "node_id", None)
 
     def create_node(self, position: Position, protocol: type[IProtocol], identifier: int) -> Node[Any]:
         """Make a node at (x, y, z) in metres with a protocol of this class. Register it with every handler.
@@ -213,7 +221,7 @@ class Simulator:
 
     def _finish(self) -> None:
         for node in self._live_nodes:
-            self._formatter.scope_event(self._iteration, f"{label_node(node)} Finalization")
+            self._formatter.scope_event(self._iteration, context_of(node, "Finalization"))
             node.protocol_encapsulator.finish()
         self._formatter.clear_iteration()
         while self._live_handlers:
@@ -232,13 +240,14 @@ class Simulator:
         self._initialized = True
         loop = self._event_loop
         configuration = self._configuration
-        self._formatter = setup_simulation_formatter(
-            configuration.debug,
-            configuration.log_file,
-            quiet=not configuration.execution_logging,
-            clock=lambda: loop.current_time,
-        )
-        self._guards.append(weakref.finalize(self, self._formatter.remove))
+        if self.writes_log:
+            self._formatter = setup_simulation_formatter(
+                configuration.debug,
+                configuration.log_file,
+                quiet=not configuration.execution_logging,
+                clock=lambda: loop.current_time,
+            )
+            self._guards.append(weakref.finalize(self, self._formatter.remove))
         self._formatter.thread = threading.get_ident()
         random.seed(self.seed)
         self._start_wall_s = time.monotonic()
@@ -246,7 +255,7 @@ class Simulator:
             self._live_handlers.append(handler)
             handler.initialize()
         for node in self._nodes.values():
-            self._formatter.scope_event(0, f"{label_node(node)} Initialization")
+            self._formatter.scope_event(0, context_of(node, "Initialization"))
             node.protocol_encapsulator.initialize()
             self._live_nodes.append(node)
         self._formatter.clear_iteration()

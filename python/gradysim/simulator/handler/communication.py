@@ -18,7 +18,7 @@ from gradysim.protocol.plain_value import readable_number
 from gradysim.protocol.position import Position, squared_distance
 from gradysim.simulator.event import MOST_AT_ONE_INSTANT, Callback, EventLoop, InstantCount, ScheduledEvent
 from gradysim.simulator.handler.interface import INodeHandler
-from gradysim.simulator.log import label_node
+from gradysim.simulator.log import context_of
 from gradysim.simulator.node import Node
 from gradysim.simulator.validation import checked_configuration
 
@@ -168,7 +168,7 @@ class CommunicationDestination:
 
     def __init__(self, node: Node[Any]) -> None:
         self.node = node
-        self.context = f"{label_node(node)} handle_packet"
+        self.context = context_of(node, "handle_packet")
         # Each receiver draws its own losses, so that they do not depend on other receivers.
         self.stream = RandomStream(getattr(node, "seed", 0), node.id, Purpose.COMMUNICATION)
 

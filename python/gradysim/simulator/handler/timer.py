@@ -14,7 +14,7 @@ from gradysim.simulator.event import (
     ScheduledEvent,
 )
 from gradysim.simulator.handler.interface import INodeHandler
-from gradysim.simulator.log import label_node
+from gradysim.simulator.log import context_of
 from gradysim.simulator.node import Node
 
 # Pending timers of one node: name -> serial number -> (time, event).
@@ -47,7 +47,7 @@ class TimerHandler(INodeHandler):
     def register_node(self, node: Node[Any]) -> None:
         """Let the node have timers."""
         self._pending[node.id] = {}
-        self._contexts[node.id] = f"{label_node(node)} handle_timer"
+        self._contexts[node.id] = context_of(node, "handle_timer")
 
     def get_current_time(self) -> float:
         """Return the simulated time in seconds; 0 before the first simulation."""

@@ -13,7 +13,7 @@ from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.mobility.updates import UpdateTimes
-from gradysim.simulator.log import label_node
+from gradysim.simulator.log import context_of, label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl import SitlError
 from gradysim.sitl.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
@@ -224,7 +224,7 @@ class Flight:
             node.protocol_encapsulator.handle_telemetry(Telemetry(node.position))
 
         self._event_loop.schedule_event(
-            self._event_loop.current_time, deliver, f"{label_node(node)} handle_telemetry"
+            self._event_loop.current_time, deliver, context_of(node, "handle_telemetry")
         )
 
     def _note_clock(self) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.simulator.event import ScheduledEvent
-from gradysim.simulator.log import label_node
+from gradysim.simulator.log import context_of
 from gradysim.simulator.node import Node
 
 
@@ -60,7 +60,7 @@ class TelemetryGroup:
 
     def add(self, node: Node[Any]) -> None:
         """Add a node."""
-        self.deliveries.append((_delivery(node), f"{label_node(node)} handle_telemetry"))
+        self.deliveries.append((_delivery(node), context_of(node, "handle_telemetry")))
 
     def is_due(self, update: int) -> bool:
         """Return whether telemetry comes with this update; the first one is 1. Call it for each in order.

@@ -18,7 +18,7 @@ from gradysim.simulator.handler.mobility.dynamic_velocity.core import (
 )
 from gradysim.simulator.handler.mobility.dynamic_velocity.telemetry import DynamicVelocityTelemetry, Velocity
 from gradysim.simulator.handler.mobility.updates import UpdateTimes
-from gradysim.simulator.log import label_node
+from gradysim.simulator.log import context_of
 from gradysim.simulator.node import Node
 
 _AT_REST: Velocity = (0.0, 0.0, 0.0)
@@ -67,7 +67,7 @@ class DynamicVelocityMobilityHandler(INodeHandler):
         """Let the node move."""
         self.nodes[node.id] = node
         self.velocities[node.id] = self.desired_velocities[node.id] = _AT_REST
-        self._deliveries.append((self._delivery(node), f"{label_node(node)} handle_telemetry"))
+        self._deliveries.append((self._delivery(node), context_of(node, "handle_telemetry")))
 
     def initialize(self) -> None:
         """Begin to move, if there are nodes; the first update comes one `update_rate` from now."""

@@ -1,0 +1,211 @@
+"""Prints what happens at nodes, one line for each event, in the order of their times.
+
+      1.042371  nodes[0]  timer    greet
+      1.042871  nodes[0]  tx       #7 broadcast to all: 12 B, 1 Mbps, delivered at 2 of 3, by timer greet
+      1.043371  nodes[1]  rx       #7 broadcast from nodes[0]: delivered
+      1.043371  nodes[1]  set      heard = 1
+
+Columns: simulated time in seconds, node, event, details. #7 is the number of the frame: row 7 of the table
+`frames` in a replay of the same run.
+"""
+
+import math
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from gradysim.protocol.plain_value import readable_number
+from gradysim.replay.chunk import Chunk, RawChunk, unpacked
+from gradysim.replay.reader import receptions_of
+from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, NO_POWER, OUTCOMES
+
+_CHUNK_S = 0.1
+"""Wall time between two chunks, in seconds."""
+
+_HELD_BACK_NS = 200_000_000
+"""A frame is recorded when it has ended, at most this long after its start: 25 kB at 1 Mbps."""
+
+_WIDEST_NAME = 20
+_TRACED_EVENTS = ("timer", "command")
+
+# The order of lines of one instant. A reception comes right after its frame if the frame takes no time.
+_TIMER, _FRAME, _RECEPTION, _COMMAND, _VARIABLE, _ANSWER = range(6)
+
+
+def text_line(time_s: float, node: str, event: str, details: str, width: int) -> str:
+    """Return a line of the trace, or of the log. `width` is that of the column of nodes."""
+    return f"{time_s:11.6f}  {node:{width}}  {event:7}  {details}".rstrip()
+
+
+def name_width(names: Iterable[str]) -> int:
+    """Return the width of the column of nodes."""
+    return min(max(map(len, names), default=0), _WIDEST_NAME)
+
+
+class _Line(NamedTuple):
+    """A line of the trace. Lines are sorted by the first three fields."""
+
+    time_ns: int
+    rank: int
+    number: int
+    node: int
+    event: str
+    details: str
+
+
+class Trace:
+    """A `ReplaySink` that prints to standard output.
+
+    Attributes:
+        recorded: Ids of the nodes.
+    """
+
+    def __init__(self, nodes: Iterable[int]) -> None:
+        self._nodes = frozenset(nodes)
+        self.recorded: frozenset[int] | None = self._nodes
+        self._lines: list[_Line] = []
+        self._frames = 0
+        self._values: dict[tuple[int, str], str] = {}
+        self._printed_at = time.monotonic()
+
+    def begin(self, run: Mapping[str, Any]) -> None:
+        """Take the names of the nodes."""
+        self._names: Sequence[str] = [node["name"] for node in run["nodes"]]
+        self._width = name_width(self._names)
+        self._unnoticed = "out_of_range" if run["mode"] == "prototype" else "below_sensitivity"
+
+    def wants_chunk(self) -> bool:
+        """Return whether it is time for more lines."""
+        return time.monotonic() - self._printed_at >= _CHUNK_S
+
+    def add(self, chunk: RawChunk) -> None:
+        """Print the lines up to a little before the end of the chunk."""
+        content = unpacked(chunk)
+        self._lines.extend(self._lines_of_frames(content))
+        self._lines.extend(self._lines_of_events(content))
+        self._print(chunk.end_ns - _HELD_BACK_NS)
+        self._printed_at = time.monotonic()
+
+    def close(self, end: Mapping[str, Any]) -> None:
+        """Print the other lines. Receptions that would end after the run are left out."""
+        self._print(math.ceil(end["time_s"] * 1e9))
+
+    def _print(self, until_ns: int) -> None:
+        self._lines.sort(key=lambda line: line[:3])
+        due = [line for line in self._lines if line.time_ns <= until_ns]
+        del self._lines[: len(due)]
+        texts = [
+            text_line(line.time_ns / 1e9, self._names[line.node], line.event, line.details, self._width)
+            for line in due
+        ]
+        try:
+            print("".join(f"{text}\n" for text in texts), end="", flush=True)
+        except BrokenPipeError:  # the run goes on; the command reports it
+            self._nodes = frozenset()
+
+    def _lines_of_frames(self, chunk: Chunk) -> Iterator[_Line]:
+        frames = chunk.tables["frames"]
+        outcomes: list[dict[int, int]] = [{} for _ in frames["node"]]
+        for frame, receiver, outcome in receptions_of(chunk):
+            outcomes[frame][receiver] = outcome
+        losses = _losses(chunk)
+        for frame, sender in enumerate(frames["node"]):
+            start_ns, duration_ns = frames["time_ns"][frame], frames["duration_ns"][frame]
+            is_answer = chunk.strings[frames["cause"][frame]] == "packet"
+            rank = _ANSWER if is_answer else _FRAME
+            number = self._frames + frame
+            name = f"#{number} {FRAME_KINDS[frames['kind'][frame]]}"
+            if frames["retry"][frame]:
+                name += " retry"
+            if sender in self._nodes:
+                details = f"{name} to {self._sent(chunk, frame, outcomes[frame])}"
+                yield _Line(start_ns, rank, number, sender, "tx", details)
+            destination = frames["destination"][frame]
+            source = self._names[sender]
+            if frames["interface"][frame]:
+                source += f".wlan[{frames['interface'][frame]}]"
+            for receiver, outcome in outcomes[frame].items():
+                if receiver not in self._nodes:
+                    continue
+                overheard = (
+                    f" to {self._names[destination]}" if destination not in (BROADCAST, receiver) else ""
+                )
+                details = f"{name} from {source}{overheard}: {OUTCOMES[outcome]}"
+                details += self._loss(losses.get((frame, receiver)))
+                yield _Line(
+                    start_ns + duration_ns,
+                    _RECEPTION if duration_ns else rank,
+                    number,
+                    receiver,
+                    "rx",
+                    details,
+                )
+        self._frames += len(frames["node"])
+
+    def _sent(self, chunk: Chunk, frame: int, outcomes: Mapping[int, int]) -> str:
+        """Return what the line of a sent frame says after `to`."""
+        frames = chunk.tables["frames"]
+        destination = frames["destination"][frame]
+        bitrate_bps, cause = frames["bitrate_bps"][frame], chunk.strings[frames["cause"][frame]]
+        if destination == BROADCAST:
+            delivered = list(outcomes.values()).count(OUTCOMES.index("delivered"))
+            outcome = (
+                f"delivered at {delivered} of {frames['receptions'][frame] + frames['unnoticed'][frame]}"
+            )
+        else:
+            outcome = OUTCOMES[outcomes[destination]] if destination in outcomes else self._unnoticed
+        parts = [f"{frames['bytes'][frame]} B"]
+        parts += [f"{bitrate_bps / 1e6:g} Mbps"] if bitrate_bps else []
+        parts += [outcome]
+        parts += [f"by {cause}"] if cause else []
+        to = "all" if destination == BROADCAST else self._names[destination]
+        return f"{to}: {', '.join(parts)}"
+
+    def _loss(self, loss: "_Loss | None") -> str:
+        """Return how a frame was lost that a receiver was locked on to."""
+        if loss is None:
+            return ""
+        text = f", {loss.power_dbm:.1f} dBm"
+        if loss.interference_dbm is not None:
+            text += f", interference {loss.interference_dbm:.1f} dBm"
+        if loss.interferers:
+            text += f" of {' '.join(self._names[node] for node in loss.interferers)}"
+        return text
+
+    def _lines_of_events(self, chunk: Chunk) -> Iterator[_Line]:
+        events, variables = chunk.tables["events"], chunk.tables["variables"]
+        rows = zip(*(events[column] for column in ("time_ns", "node", "kind", "text")), strict=True)
+        for row, (time_ns, node, kind, text) in enumerate(rows):
+            event = EVENT_KINDS[kind]
+            if node in self._nodes and event in _TRACED_EVENTS:  # log lines are on standard error
+                rank = _TIMER if event == "timer" else _COMMAND
+                yield _Line(time_ns, rank, row, node, event, chunk.strings[text])
+        rows = zip(
+            *(variables[column] for column in ("time_ns", "node", "name", "value", "text")), strict=True
+        )
+        for row, (time_ns, node, name, number, text) in enumerate(rows):
+            variable = chunk.strings[name]
+            value = chunk.strings[text] if math.isnan(number) and text else f"{readable_number(number):.12g}"
+            if node in self._nodes and self._values.get((node, variable)) != value:
+                self._values[node, variable] = value
+                yield _Line(time_ns, _VARIABLE, row, node, "set", f"{variable} = {value}")
+
+
+class _Loss(NamedTuple):
+    power_dbm: float
+    interference_dbm: float | None
+    interferers: list[int]
+
+
+def _losses(chunk: Chunk) -> dict[tuple[int, int], _Loss]:
+    """Return {(frame, receiver): how it was lost}."""
+    columns = ("frame", "receiver", "power_cdbm", "interference_cdbm")
+    table = chunk.tables["losses"]
+    losses = {
+        (frame, receiver): _Loss(power / 100, None if interference == NO_POWER else interference / 100, [])
+        for frame, receiver, power, interference in zip(*(table[name] for name in columns), strict=True)
+    }
+    table = chunk.tables["interferers"]
+    for frame, receiver, node in zip(table["frame"], table["receiver"], table["node"], strict=True):
+        losses[frame, receiver].interferers.append(node)
+    return losses

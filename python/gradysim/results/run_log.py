@@ -1,0 +1,113 @@
+"""Log lines of a run, with simulated time and node; the same in both modes."""
+
+import logging
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from typing import Self
+
+from gradysim.replay.tables import EVENT_KINDS
+from gradysim.replay.trace import name_width, text_line
+
+_OWN = "gradysim."
+"""Loggers of this package. Their lines appear from WARNING on, and all from DEBUG on."""
+
+RecordEvent = Callable[[int, int, str], None]
+"""Records an event of a replay: id of the node, kind of `EVENT_KINDS` by number, text."""
+
+
+class RunLog(logging.Handler):
+    """Writes what is logged inside the `with` block to standard error.
+
+    If logging has been configured, its handlers write the lines and its levels hold. In either case a replay
+    gets the lines of nodes.
+    """
+
+    def __init__(
+        self,
+        level: int,
+        names: Sequence[str],
+        now: Callable[[], float],
+        active_node: Callable[[], int | None],
+    ) -> None:
+        """Log from `level` on.
+
+        Args:
+            level: One of the levels of `logging`.
+            names: Names of the nodes, by id.
+            now: Returns the simulated time in seconds.
+            active_node: Returns the id of the node whose protocol runs, None outside of callbacks.
+        """
+        super().__init__(level)
+        self._names = names
+        self._now = now
+        self._active_node = active_node
+        self._width = 0
+        self._thread: int | None = None
+        self.record_event: RecordEvent | None = None
+
+    def __enter__(self) -> Self:
+        root = logging.getLogger()
+        self._thread = threading.get_ident()
+        self._levels = (root.level, root.level)
+        if not any(not isinstance(handler, RunLog) for handler in root.handlers):
+            self._levels = (root.level, min(root.level, self.level))
+            root.setLevel(self._levels[1])
+        root.addHandler(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        root = logging.getLogger()
+        root.removeHandler(self)
+        before, own = self._levels
+        if root.level == own:
+            root.setLevel(before)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a line, or several if its text has several."""
+        if not self._is_mine(record):
+            return
+        try:
+            node = self._active_node() if record.thread == self._thread else None
+            text = self.format(record)
+            kind = _kind_of(record.levelno)
+            if node is not None and self.record_event is not None:
+                self.record_event(node, EVENT_KINDS.index(kind), text)
+            if self._is_shown(record):
+                self._write(node, kind, text)
+        except Exception:
+            self.handleError(record)
+
+    def _is_mine(self, record: logging.LogRecord) -> bool:
+        """Whether no other run, of another thread or inside this one, logged it."""
+        runs = [handler for handler in logging.getLogger().handlers if isinstance(handler, RunLog)]
+        return ([run for run in runs if run._thread == record.thread] or runs)[-1] is self
+
+    def _is_shown(self, record: logging.LogRecord) -> bool:
+        is_own = record.name.startswith(_OWN) and self.level > logging.DEBUG
+        return not (is_own and record.levelno < logging.WARNING) and not _has_other_handler(record)
+
+    def _write(self, node: int | None, kind: str, text: str) -> None:
+        self._width = self._width or name_width(self._names)
+        name = "-" if node is None else self._names[node]
+        lines = [text_line(self._now(), name, kind, line, self._width) for line in text.splitlines() or [""]]
+        print("\n".join(lines), file=sys.stderr)
+
+
+def _kind_of(level: int) -> str:
+    for kind in ("error", "warning", "info"):
+        if level >= getattr(logging, kind.upper()):
+            return kind
+    return "debug"
+
+
+def _has_other_handler(record: logging.LogRecord) -> bool:
+    """Whether a handler of the user shows it. A file does not show it."""
+    logger: logging.Logger | None = logging.getLogger(record.name)
+    while logger is not None:
+        for handler in logger.handlers:
+            hides = isinstance(handler, RunLog | logging.NullHandler | logging.FileHandler)
+            if not hides and record.levelno >= handler.level:
+                return True
+        logger = logger.parent if logger.propagate else None
+    return False
