@@ -102,15 +102,26 @@ def execute(
 
 
 def report(
-    outcome: Outcome, write: "Callable[[RunResult], Iterable[str]]", *, as_json: bool, quiet: bool
+    outcome: Outcome,
+    write: "Callable[[RunResult], Iterable[str]]",
+    options: RunOptions,
+    which: str | None = None,
 ) -> tuple[int, OSError | None]:
-    """Write and show what came out of a run, only JSON if it is to be `quiet`.
+    """Write and show what came out of a run, only JSON if it is to be quiet.
 
-    `write` makes the files of a result, and gives a line about each. Files come first: standard output may
-    take no more. Why a run failed comes last, where it is seen even if tables fill the screen.
+    Files come first: standard output may take no more. Why a run failed comes last, where it is seen even if
+    tables fill the screen.
 
-    Returns the exit code, and the error if standard output takes no more.
+    Args:
+        outcome: What came out.
+        write: Makes the files of a result, and gives a line about each.
+        options: Those of the command.
+        which: Which of several runs it is: it is shown in one line, without its files.
+
+    Returns:
+        The exit code, and the error if standard output takes no more.
     """
+    quiet, as_json = options.quiet, options.as_json
     output_error = None
     if outcome.result is not None:
         lines: list[str] = []
@@ -119,8 +130,8 @@ def report(
         finally:  # also if the disk is full
             try:
                 if as_json or not quiet:
-                    show(outcome.result, sys.stdout, as_json=as_json)
-                for line in lines if not quiet else ():
+                    show(outcome.result, sys.stdout, options, which)
+                for line in lines if not quiet and (as_json or which is None) else ():
                     print(line, file=sys.stderr if as_json else sys.stdout)
                 sys.stdout.flush()
             except OSError as error:
@@ -132,15 +143,18 @@ def report(
     return OK if outcome.failure is None else FAILED, output_error
 
 
-def show(result: "RunResult", output: TextIO, *, as_json: bool) -> None:
-    """Print a result: a line of JSON, or the summary for people."""
-    if as_json:
+def show(result: "RunResult", output: TextIO, options: RunOptions, which: str | None) -> None:
+    """Print a result: a line of JSON, a line for people if it is one of several runs, or the summary."""
+    if options.as_json:
         print(json.dumps(result.to_json_object()), file=output)
         return
     from gradysim.cli.console import console
-    from gradysim.cli.summary import print_summary
+    from gradysim.cli.summary import print_summary, run_line
 
-    print_summary(result, console(output))
+    if which is not None:
+        print(run_line(result, which, console(output).width), file=output)
+        return
+    print_summary(result, console(output), details=options.details)
     print(file=output)
 
 

@@ -153,6 +153,9 @@ class RunOptions:
     as_json: Annotated[Flag, Parameter(name="--json")] = False
     """Print one JSON object per run, one per line, no more."""
 
+    details: Flag = False
+    """Print all numbers of each run, with tables of nodes, outcomes and delays."""
+
     quiet: Flag = False
     """No progress bar and no summaries: warnings and failures only."""
 

@@ -106,12 +106,15 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             if scenario is scenarios[0]:
                 tell(outcome.findings)
             write = partial(write_files, scenario, options=options)
-            return report(outcome, write, as_json=options.as_json, quiet=options.quiet)
+            return report(outcome, write, options, names.get(scenario.run_number))
         except KeyboardInterrupt:  # while it was built
             return INTERRUPTED, None
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake), None
 
+    names = {} if options.details else names_of_runs(checked.scenarios)
+    if names and not (options.as_json or options.quiet):
+        print(f"{options.config}, {options.mode} mode, {len(scenarios)} runs")
     report_crashes()
     terminal = error_terminal() if bar and options.jobs == 1 and not options.trace else None
     import_what_runs_use(options)
@@ -120,6 +123,21 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             return run_all(scenarios, carry_out, executor)
         with ForkExecutor(options.jobs, interrupt) as workers:
             return run_all(scenarios, carry_out, workers)
+
+
+def names_of_runs(scenarios: "Sequence[Scenario]") -> dict[int, str]:
+    """Return {run number: the begin of its line}, of equal length; nothing for one run."""
+    from gradysim.scenario.sweep import text_of_iterations
+
+    if len(scenarios) < 2:
+        return {}
+    number_width = len(str(scenarios[-1].run_number))
+    values = {
+        each.run_number: f"{text_of_iterations(each.iterations)} #{each.repetition}".lstrip()
+        for each in scenarios
+    }
+    width = max(map(len, values.values()))
+    return {number: f"run {number:{number_width}}  {text:{width}}" for number, text in values.items()}
 
 
 def error_terminal() -> "Console | None":

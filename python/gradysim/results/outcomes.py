@@ -26,20 +26,24 @@ class Ledger:
     """What a table of outcomes counts.
 
     Attributes:
-        title: Of its table in the summary.
+        title: Of its table in the details.
+        label: Of the kinds of frames or messages in the summary.
         module: Of its scalars, in the network; "" for the network itself.
         suffix: Follows the kind in the names of scalars.
     """
 
     title: str
+    label: str
     module: str = ""
     suffix: str = ""
 
 
 LEDGERS = {
-    "frames": Ledger("Outcomes of frames, a reception for each radio", "radioMedium"),
-    "copies": Ledger("Outcomes of messages, a reception for each receiver", "communicationMedium"),
-    "messages": Ledger("Messages", suffix="Message"),
+    "frames": Ledger("Outcomes of frames, a reception for each radio", "receptions", "radioMedium"),
+    "copies": Ledger(
+        "Outcomes of messages, a reception for each receiver", "receptions", "communicationMedium"
+    ),
+    "messages": Ledger("Messages", "messages", suffix="Message"),
 }
 """Integrated mode has "frames" and "messages", prototype mode "copies" and "messages"."""
 

@@ -196,7 +196,6 @@ class RunResult:
         str | None,
         Quantity(
             "Hash of all frames, messages and timers, but not of positions; `null` in prototype mode.",
-            summary="fingerprint",
         ),
     ]
     fates: Annotated[
