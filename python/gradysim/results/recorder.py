@@ -2,7 +2,7 @@
 
 import operator
 from array import array
-from collections.abc import Iterable, Sized
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -14,11 +14,12 @@ Times: TypeAlias = "array[int]"
 Values: TypeAlias = "array[float]"
 
 _NAN = float("nan")
+_PS_PER_S = 1e12
 
 
 @dataclass(frozen=True)
 class Vector:
-    """One number over time: a tracked variable or a coordinate, with a row for each assignment.
+    """One number over time: a tracked variable or a coordinate, with a row for each change.
 
     The arrays have the same length, and go to numpy without copying (`numpy.asarray(vector.values)`). While a
     run goes on, they have what was recorded when its result was taken.
@@ -39,13 +40,68 @@ class Vector:
     unit: str = ""
 
 
+class _Samples:
+    """Rows of numbers that differ from those before, at most one in each interval.
+
+    What is recorded later than that is held until the interval is over.
+    """
+
+    def __init__(self, count: int, interval_ps: int, *, is_continuous: bool) -> None:
+        """Record rows of `count` numbers; with `is_continuous`, also the end of a time without changes."""
+        self._interval_ps = interval_ps
+        self._is_continuous = is_continuous
+        self._times: Times = array("q")
+        self._columns: tuple[Values, ...] = tuple(array("d") for _ in range(count))
+        self._last: tuple[float, ...] | None = None
+        self._held: tuple[int, tuple[float, ...]] | None = None
+
+    def add(self, time_ps: int, values: tuple[float, ...]) -> None:
+        """Record a row."""
+        if self._last is None:
+            self._append(time_ps, values)
+            return
+        if values == self._last:
+            self._held = (time_ps, values) if self._is_continuous else None
+            return
+        due_ps = self._times[-1] + self._interval_ps
+        if time_ps < due_ps:
+            self._held = (time_ps, values)
+            return
+        if self._held is not None:
+            held_ps, held = self._held
+            held_ps = max(held_ps, due_ps)
+            if held_ps < time_ps:
+                self._append(held_ps, held)
+                self.add(time_ps, values)
+                return
+        self._append(time_ps, values)
+
+    def rows(self) -> tuple[Times, tuple[Values, ...]]:
+        """Return copies of the times and of the columns up to now, with the row that is held."""
+        count = min(len(self._times), *map(len, self._columns))  # without one that Ctrl-C interrupted
+        times, columns = self._times[:count], tuple(column[:count] for column in self._columns)
+        if self._held is not None:
+            times.append(self._held[0])
+            for column, value in zip(columns, self._held[1], strict=True):
+                column.append(value)
+        return times, columns
+
+    def _append(self, time_ps: int, values: tuple[float, ...]) -> None:
+        self._held = None
+        self._times.append(time_ps)
+        for column, value in zip(self._columns, values, strict=True):
+            column.append(value)
+        self._last = values
+
+
 class NodeRecorder:
     """The vectors of one node, while they grow."""
 
-    def __init__(self) -> None:
-        self._tracked: dict[str, tuple[Times, Values]] = {}
-        self._position_times: Times = array("q")
-        self._positions: tuple[Values, Values, Values] = (array("d"), array("d"), array("d"))
+    def __init__(self, interval_s: float = 0.0) -> None:
+        """Record changes, of each vector at most one in `interval_s`."""
+        self._interval_ps = round(interval_s * _PS_PER_S)
+        self._tracked: dict[str, _Samples] = {}
+        self._positions = _Samples(3, self._interval_ps, is_continuous=True)
 
     def variable_set(self, time_ps: int, name: str, value: object) -> None:
         """Record the new value of a tracked variable, None if it was removed.
@@ -53,19 +109,17 @@ class NodeRecorder:
         A variable that has never been a number is not recorded.
         """
         number = as_float(value)
-        vector = self._tracked.get(name)
-        if vector is None:
+        samples = self._tracked.get(name)
+        if samples is None:
             if number is None:
                 return
-            vector = self._tracked[name] = (array("q"), array("d"))
-        vector[0].append(time_ps)
-        vector[1].append(_NAN if number is None else number)
+            samples = self._tracked[name] = _Samples(1, self._interval_ps, is_continuous=False)
+        # Always the same NaN, which is equal to itself in a tuple.
+        samples.add(time_ps, (_NAN if number is None or number != number else number,))
 
     def position_told(self, time_ps: int, x: float, y: float, z: float) -> None:
         """Record where the node is, in meters."""
-        self._position_times.append(time_ps)
-        for coordinates, value in zip(self._positions, (x, y, z), strict=True):
-            coordinates.append(value)
+        self._positions.add(time_ps, (x, y, z))
 
     def vectors(self) -> tuple[Vector, ...]:
         """Return what was recorded up to now, the tracked variables in the order of their first numbers.
@@ -73,29 +127,24 @@ class NodeRecorder:
         The arrays are copies: an array with a view (`numpy.asarray`) cannot grow.
         """
         tracked = []
-        for name, (times_ps, values) in self._tracked.items():
-            count = _complete_rows(times_ps, values)
-            tracked.append(Vector("protocol", key_text(name), times_ps[:count], values[:count]))
-        count = _complete_rows(self._position_times, *self._positions)
-        times_ps = self._position_times[:count]
+        for name, samples in self._tracked.items():
+            times_ps, (values,) = samples.rows()
+            tracked.append(Vector("protocol", key_text(name), times_ps, values))
+        times_ps, coordinates = self._positions.rows()
         positions = [
-            Vector("mobility", f"position{axis}", times_ps, coordinates[:count], "m")
-            for axis, coordinates in zip("XYZ", self._positions, strict=True)
+            Vector("mobility", f"position{axis}", times_ps, values, "m")
+            for axis, values in zip("XYZ", coordinates, strict=True)
         ]
         return (*tracked, *positions)
 
 
-def _complete_rows(*columns: Sized) -> int:
-    """Count the rows, without one that Ctrl-C interrupted."""
-    return min(map(len, columns))
-
-
-def recorders_of(vectors_of: Iterable[int], count: int) -> dict[int, NodeRecorder]:
-    """Return a recorder for each of the nodes with these ids, of `count` nodes.
+def recorders_of(vectors_of: Iterable[int], count: int, interval_s: float = 0.0) -> dict[int, NodeRecorder]:
+    """Return a recorder for each of the nodes with these ids, of `count` nodes; see `NodeRecorder`.
 
     Raises TypeError and ValueError as `checked_ids`.
     """
-    return {node_id: NodeRecorder() for node_id in sorted(set(checked_ids("vectors_of", vectors_of, count)))}
+    ids = sorted(set(checked_ids("vectors_of", vectors_of, count)))
+    return {node_id: NodeRecorder(interval_s) for node_id in ids}
 
 
 def checked_ids(argument: str, ids: Iterable[int], count: int, expected: str = "") -> list[int]:

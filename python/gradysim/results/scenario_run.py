@@ -57,7 +57,7 @@ class ScenarioRun(ABC):
         self._setup_s = 0.0
         self._complete = False
         self._lint = RunLint(scenario)
-        self._recorders = recorders_of(vectors_of, len(scenario.nodes))
+        self._recorders = recorders_of(vectors_of, len(scenario.nodes), scenario.vector_record_interval_s)
         self._replay = replay
         names = [node.name for node in scenario.nodes]
         self._log = RunLog(log_level, names, self._now, self._active_node)

@@ -172,6 +172,7 @@ class CheckedScenarios:
                 options = {name: substitute(entry, values) for name, entry in as_written.items()}
                 with errors.collecting():
                     limit_s = _sim_time_limit_s(options, config, source)
+                    interval_s = _vector_record_interval_s(options)
                 description = _description(options)
                 network, is_its_own = networks.checked(values, seed_of_run)
             if len(errors.errors) > error_count:
@@ -188,6 +189,7 @@ class CheckedScenarios:
                     seed=seed_of_run,
                     description=description,
                     sim_time_limit_s=limit_s,
+                    vector_record_interval_s=interval_s,
                     **network.fields,
                     sections=sections,
                     repetition=repetition,
@@ -219,6 +221,11 @@ def _sim_time_limit_s(options: Mapping[str, Entry], config: str, source: Source)
     if limit is None:
         raise ConfigError(f"`{config}` has no time limit", source, expected="`sim-time-limit = 1h`")
     return float(read_scalar(limit, OPTIONS["sim-time-limit"]))
+
+
+def _vector_record_interval_s(options: Mapping[str, Entry]) -> float:
+    interval = options.get("vector-record-interval")
+    return float(read_scalar(interval, OPTIONS["vector-record-interval"])) if interval else 0.0
 
 
 def _description(options: Mapping[str, Entry]) -> str:

@@ -57,6 +57,7 @@ class Scenario:
             protocols with the files that they import from their directory, obstacles, error rates.
         run_count: Number of runs of the configuration, including those that were not requested.
         network: The first name of paths of parameters and results.
+        vector_record_interval_s: Least time between two rows of a vector.
         lines: The entries of the overrides and of the sections in their order, with variables.
         unread_variables: Iteration variables that no run reads; empty if not all runs were requested.
     """
@@ -79,6 +80,7 @@ class Scenario:
     file_hashes: Mapping[str, str] = field(default_factory=dict)
     run_count: int = 1
     network: str = "Network"
+    vector_record_interval_s: float = 0.0
     lines: tuple[Entry, ...] = field(default=(), repr=False)
     unread_variables: tuple[UnreadVariables, ...] = field(default=(), repr=False)
 

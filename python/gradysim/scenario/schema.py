@@ -195,6 +195,12 @@ OPTION_KEYS: tuple[Key, ...] = (
         "${iterationvars}",
     ),
     _option("replication-label", text(), "What they call one of these runs", "#${repetition}"),
+    _option(
+        "vector-record-interval",
+        quantity("s", at_least=0, at_most=LONGEST_RUN_S),
+        "Least time between two rows that `--vectors` writes of a variable or position",
+        "0s",
+    ),
     _option("description", text(), "What the configuration is about", '""'),
 )
 
@@ -223,7 +229,7 @@ IGNORED_OPTION_BEGINNINGS = (
 )  # fmt: skip
 """Of the names of such options."""
 
-IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-", "rng-", "vector-record", "vector-buffer")
+IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-", "rng-", "vector-recording", "vector-buffer")
 """Of the last names of keys: options that are given per module, such as `**.cmdenv-log-level`."""
 
 IGNORED_ENDS = (

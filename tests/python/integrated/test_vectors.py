@@ -24,7 +24,19 @@ class Tested(Quiet):
 
 def test_telemetry_is_recorded_whatever_a_plugin_binds_to_its_callback(make_scenario):
     vectors = vectors_of(run(make_scenario(REBOUND), vectors_of=[0]))
-    assert len(vectors["positionX"].values) == 4
+    assert list(vectors["positionX"].times_ps) == [500_000_000_000, 2_000_000_000_000]
+
+
+def test_the_interval_of_the_scenario_holds(make_scenario):
+    flying = """
+class Tested(Quiet):
+    def initialize(self):
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))
+"""
+    settings = ("vector-record-interval = 1s", "*.uavs[*].mobility.telemetryInterval = 10ms")
+    vectors = vectors_of(run(make_scenario(flying, *settings), vectors_of=[0]))
+    times_s = [time_ps / 1e12 for time_ps in vectors["positionZ"].times_ps]
+    assert times_s == [0.01, 1.01, 2.01, 2.05]
 
 
 def test_what_a_native_protocol_tracks(make_scenario):
@@ -33,7 +45,7 @@ def test_what_a_native_protocol_tracks(make_scenario):
     for node in result.nodes:
         vectors = {vector.name: vector for vector in node.vectors}
         assert vectors["sent"].values[-1] == node.tracked_variables["sent"] > 0
-        assert len(vectors["positionX"].values) == 4
+        assert len(vectors["positionX"].values) == 2
 
 
 def test_times_are_exact_when_floats_no_longer_are(make_scenario):

@@ -5,9 +5,9 @@ import pytest
 from gradysim.results.recorder import NodeRecorder, checked_ids, recorders_of
 
 
-def tracked(*changes):
+def tracked(*changes, interval_s=0.0):
     """What remains of (time, value) pairs of one variable, with NaN as "nan"."""
-    recorder = NodeRecorder()
+    recorder = NodeRecorder(interval_s)
     for time_ps, value in changes:
         recorder.variable_set(time_ps, "v", value)
     vectors = [vector for vector in recorder.vectors() if vector.part == "protocol"]
@@ -20,8 +20,40 @@ def tracked(*changes):
     ]
 
 
-def test_each_assignment_is_a_row_also_of_the_same_value():
-    assert tracked((1, 5), (2, 5), (2, True), (3, 0.5)) == [[(1, 5), (2, 5), (2, 1), (3, 0.5)]]
+def moved(*places, interval_s=0.0):
+    """The rows that remain of (time, x) pairs."""
+    recorder = NodeRecorder(interval_s)
+    for time_ps, x in places:
+        recorder.position_told(time_ps, x, 0.0, 0.0)
+    x = recorder.vectors()[0]
+    return list(zip(x.times_ps, x.values, strict=True))
+
+
+def test_each_change_is_a_row():
+    assert tracked((1, 5), (2, 5), (2, True), (3, 0.5)) == [[(1, 5), (2, 1), (3, 0.5)]]
+
+
+def test_an_interval_has_one_row_and_the_last_value_of_it():
+    changes = [(0, 0), (2, 1), (4, 2), (50, 3), (51, 4)]
+    assert tracked(*changes, interval_s=10e-12) == [[(0, 0), (10, 2), (50, 3), (51, 4)]]
+
+
+def test_a_value_that_comes_back_within_the_interval_is_no_change():
+    assert tracked((0, 0), (2, 1), (4, 0), (50, 0), interval_s=10e-12) == [[(0, 0)]]
+
+
+def test_a_node_that_stands_has_two_rows():
+    assert moved(*((time, 7.0) for time in range(1000))) == [(0, 7.0), (999, 7.0)]
+
+
+def test_a_node_stands_until_it_moves_again():
+    places = [(1, 0.0), (2, 1.0), (3, 1.0), (4, 1.0), (5, 2.0), (6, 2.0)]
+    assert moved(*places) == [(1, 0.0), (2, 1.0), (4, 1.0), (5, 2.0), (6, 2.0)]
+
+
+def test_a_moving_node_has_a_row_in_each_interval_and_one_at_the_end():
+    rows = moved(*((time, float(time)) for time in range(25)), interval_s=10e-12)
+    assert [time for time, _ in rows] == [0, 10, 20, 24]
 
 
 def test_what_is_never_a_number_has_no_vector():
@@ -30,7 +62,7 @@ def test_what_is_never_a_number_has_no_vector():
 
 def test_a_vector_begins_with_the_first_number_and_has_gaps():
     changes = [(1, "off"), (2, 7), (3, "off"), (4, 8), (5, None), (6, 10**400), (7, math.nan)]
-    assert tracked(*changes) == [[(2, 7), (3, "nan"), (4, 8), (5, "nan"), (6, "nan"), (7, "nan")]]
+    assert tracked(*changes) == [[(2, 7), (3, "nan"), (4, 8), (5, "nan")]]
 
 
 def test_an_infinity_is_a_number():
