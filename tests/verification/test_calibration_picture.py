@@ -15,7 +15,10 @@ def test_a_picture_is_drawn(tmp_path: Path, ending: str) -> None:
     arguments = ["calibrate", str(_ZIGZAG), "-c", "ZigZag5", "--range", "50m", "--picture", str(file)]
     assert main(arguments) == 0
     assert file.stat().st_size > 1000
-    assert ending != "svg" or "share of frames received" in file.read_text(encoding="utf-8")
+    if ending == "svg":
+        text = file.read_text(encoding="utf-8")
+        assert "share of frames received" in text
+        assert "uavs[0] to another one like it, " in text
 
 
 def test_an_ending_that_names_no_format_is_a_mistake(

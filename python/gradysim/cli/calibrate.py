@@ -105,10 +105,10 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
     above = (
         f"{db_from_ratio(c.snr_at_range):.2f} dB above the" if math.isfinite(c.snr_at_range) else "without"
     )
-    to = "another one like it" if c.receiver == c.sender else c.receiver
     wlan = "wlan[*]" if c.sender_interfaces == 1 else f"wlan[{c.sender_interface}]"
     lines = [
-        f"{_sender(c)} to {to}: {c.ratio:.12g} of the broadcast frames are received at {c.range_m:.12g} m",
+        f"{_sender(c)} to {_receiver(c)}: {c.ratio:.12g} of the broadcast frames are received at"
+        f" {c.range_m:.12g} m",
         f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
         f" {c.bitrate_bps / 1e6:g} Mbps;",
         f"{above} noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
@@ -130,6 +130,10 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
 def _sender(c: "Calibration") -> str:
     """Its name, with that of its interface unless it is the first one, as receivers have it."""
     return f"{c.sender}.wlan[{c.sender_interface}]" if c.sender_interface else c.sender
+
+
+def _receiver(c: "Calibration") -> str:
+    return "another one like it" if c.receiver == c.sender else c.receiver
 
 
 def _in_mw(power_w: float) -> str:
@@ -200,11 +204,11 @@ def draw(calibration: "Calibration", path: Path) -> None:
     c = calibration
     figure = _figure()
     axes = figure.subplots()
-    axes.plot([0.0, *(d for d, _ in c.curve)], [c.curve[0][1], *(r for _, r in c.curve)])
+    axes.plot([0.0, *(d for d, _ in c.fine_curve)], [c.curve[0][1], *(r for _, r in c.fine_curve)])
     axes.axvline(c.range_m, linestyle=":", color="gray")
     axes.axhline(c.ratio, linestyle=":", color="gray")
     axes.set(xlabel="distance (m)", ylabel="share of frames received", ylim=(-0.02, 1.02), xlim=(0, None))
-    axes.set_title(f"{_sender(c)} to {c.receiver}, {_in_mw(c.tx_power_w)} mW, {c.bitrate_bps / 1e6:g} Mbps")
+    axes.set_title(f"{_sender(c)} to {_receiver(c)}, {_in_mw(c.tx_power_w)} mW, {c.bitrate_bps / 1e6:g} Mbps")
     try:
         figure.savefig(path)
     except OSError as error:

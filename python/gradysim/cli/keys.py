@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 _PATTERN = "Part of a key, of its values or of its meaning; or a key with *."
 
 
+_INDENT = 4
+
 HEADINGS = ("key", "unit or value", "default", "meaning")
 
 INTRODUCTION = """# Keys of .ini files
@@ -70,27 +72,25 @@ def list_keys(
     elif sys.stdout.isatty():
         from gradysim.cli.console import console
 
-        console().print(rich_tables(sections))
+        console().print(rich_list(sections))
     else:
         print(plain_text(sections), end="")
     return OK
 
 
-def rich_tables(sections: "Iterable[KeySection]") -> "RenderableType":
-    """Return a table per section."""
-    from rich import box
+def rich_list(sections: "Iterable[KeySection]") -> "RenderableType":
+    """Return a paragraph per key, which breaks no name."""
     from rich.console import Group
-    from rich.table import Table
+    from rich.padding import Padding
     from rich.text import Text
 
     parts: list[RenderableType] = []
     for section in sections:
-        table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-        for heading, ratio in zip(HEADINGS, (6, 3, 3, 5), strict=True):
-            table.add_column(heading, overflow="fold", ratio=ratio)
+        parts += [Text(section.title, style="bold underline"), Text()]
         for row in section.rows:
-            table.add_row(*map(Text, (row.key, row.unit, row.default, row.meaning)))
-        parts += [Text(section.title, style="bold"), table, Text()]
+            default = f"; default: {row.default}" if row.default else ""
+            parts.append(Text(row.key, style="bold", no_wrap=True, overflow="ignore"))
+            parts.append(Padding(Text(f"{row.unit}{default}\n{row.meaning}"), (0, 0, 1, _INDENT)))
     return Group(*parts)
 
 

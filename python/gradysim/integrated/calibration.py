@@ -3,7 +3,7 @@
 import math
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from numbers import Integral, Real
 from typing import TYPE_CHECKING
@@ -24,6 +24,12 @@ if TYPE_CHECKING:
 CURVE_POINTS = 40
 CURVE_END = 2.0
 """The curve goes on to so many times the range."""
+
+_LARGE_CHANGE = 0.02
+"""Of the share between two points of the fine curve, if it does not change at once."""
+
+_AT_ONCE = 1e-9
+"""Relative difference of the distances of two points."""
 
 _NOTICED = 1.01
 """So many times the power that would do without a limit is what makes the limit decide: 0.04 dB, which is far
@@ -53,6 +59,8 @@ class Calibration:
         obstacles_left_out: How many obstacles take power from frames in a run; here none does.
         deciding_preamble_w: The least power of the receiver's preamble detection if it asks for more than the
             noise and than the sensitivity, or None.
+        fine_curve: The curve with more points where it is steep, and two where it has a step, as where the
+            power falls below the sensitivity.
     """
 
     sender: str
@@ -70,6 +78,7 @@ class Calibration:
     sender_interface: int = 0
     obstacles_left_out: int = 0
     deciding_preamble_w: float | None = None
+    fine_curve: tuple[tuple[float, float], ...] = ()
 
 
 def calibrate(
@@ -142,6 +151,7 @@ def calibrate(
         scenario, from_node, to_node, message_bytes, range_m, ratio, power_w
     )
     distances = [range_m * CURVE_END * step / CURVE_POINTS for step in range(1, CURVE_POINTS + 1)]
+    curve = tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances)
     return Calibration(
         sender=from_node.name,
         sender_interfaces=len(whole_sender.wlan),
@@ -154,11 +164,29 @@ def calibrate(
         frame_bytes=budget.psdu_bytes,
         snr_at_range=power_w * budget.mean_gain(range_m) / budget.noise_w if budget.noise_w else math.inf,
         deciding_sensitivity_w=sensitivity_w,
-        curve=tuple((distance, budget.reception_ratio(distance, power_w)) for distance in distances),
+        curve=curve,
         sender_interface=from_index,
         obstacles_left_out=len(scenario.obstacles) if medium_config(scenario).obstacle_loss else 0,
         deciding_preamble_w=preamble_w,
+        fine_curve=tuple(_refined(curve, lambda distance_m: budget.reception_ratio(distance_m, power_w))),
     )
+
+
+def _refined(
+    curve: Iterable[tuple[float, float]], ratio_at: Callable[[float], float]
+) -> Iterator[tuple[float, float]]:
+    """Yield the points of a curve, with more in between where the share changes much."""
+    open_ends = list(curve)[::-1]
+    near = open_ends.pop()
+    yield near
+    while open_ends:
+        far = open_ends[-1]
+        middle_m = (near[0] + far[0]) / 2
+        if abs(near[1] - far[1]) > _LARGE_CHANGE and far[0] - near[0] > _AT_ONCE * far[0]:
+            open_ends.append((middle_m, ratio_at(middle_m)))
+        else:
+            near = open_ends.pop()
+            yield near
 
 
 def _deciding_levels_w(

@@ -2,8 +2,8 @@ from io import StringIO
 
 from rich.console import Console
 
-from gradysim.cli.keys import markdown_page, plain_text, rich_tables
-from gradysim.scenario.key_list import KeyRow, KeySection
+from gradysim.cli.keys import markdown_page, plain_text, rich_list
+from gradysim.scenario.key_list import KeyRow, KeySection, key_sections
 
 SECTIONS = [KeySection("Of nodes", (KeyRow("*.nodes[*].a", "m", "1m", "Length"),))]
 
@@ -19,8 +19,24 @@ def test_markdown_is_a_table_per_section() -> None:
     )
 
 
+def shown(sections: list[KeySection], width: int) -> list[str]:
+    console = Console(file=StringIO(), width=width)
+    with console.capture() as captured:
+        console.print(rich_list(sections))
+    return captured.get().splitlines()
+
+
 def test_brackets_are_no_markup_on_a_terminal() -> None:
-    console = Console(file=StringIO(), width=120)
-    with console.capture() as shown:
-        console.print(rich_tables(SECTIONS))
-    assert "*.nodes[*].a" in shown.get()
+    lines = shown(SECTIONS, 120)
+    assert [line.rstrip() for line in lines if line.strip()] == [
+        "Of nodes",
+        "*.nodes[*].a",
+        "    m; default: 1m",
+        "    Length",
+    ]
+
+
+def test_no_key_is_broken_in_a_terminal_of_80_columns() -> None:
+    sections = key_sections()
+    lines = {line.rstrip() for line in shown(sections, 80)}
+    assert {row.key for section in sections for row in section.rows} <= lines

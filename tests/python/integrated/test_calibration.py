@@ -5,6 +5,8 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
+import itertools
+
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.run import run
 from gradysim.scenario.errors import ConfigError
@@ -31,6 +33,22 @@ def test_a_sensitivity_that_asks_for_more_power_than_the_noise_is_named() -> Non
     slow = "**.wlan[*].bitrate = 6Mbps"
     assert calibrate(link(deaf, slow), 150).tx_power_w == pytest.approx(by_sensitivity.tx_power_w)
     assert calibrate(link(slow), 150).tx_power_w < by_noise.tx_power_w / 5
+
+
+def test_the_fine_curve_has_a_step_where_the_sensitivity_decides() -> None:
+    found = calibrate(link("**.radio.receiver.sensitivity = -75dBm"), 150)
+    points = found.fine_curve
+    assert set(found.curve) <= set(points)
+    pairs = list(itertools.pairwise(points))
+    (step,) = [(near, far) for near, far in pairs if near[1] - far[1] > 0.02]
+    assert step[1][0] - step[0][0] < 1e-6
+    assert step[0][0] == pytest.approx(150)
+
+
+def test_the_fine_curve_is_fine_where_it_is_steep() -> None:
+    points = calibrate(link(), 150).fine_curve
+    shares = [share for _, share in points]
+    assert max(near - far for near, far in itertools.pairwise(shares)) < 0.02
 
 
 @pytest.mark.parametrize(
