@@ -5,7 +5,7 @@ from rich.console import Console
 
 from gradysim.cli.summary import (
     MAX_INTERFERERS,
-    CountTables,
+    count_table,
     frames_at_nodes,
     interferer_table,
     kinds_overheard,
@@ -128,7 +128,7 @@ COLUMNS = {
 
 def printed(columns, width):
     text = StringIO()
-    Console(file=text, width=width).print(CountTables("fate", columns))
+    Console(file=text, width=width).print(count_table("fate", columns))
     return text.getvalue()
 
 

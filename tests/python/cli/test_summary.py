@@ -5,12 +5,12 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from gradysim.cli.summary import MAX_VALUE_LENGTH, print_summary, short
+from gradysim.cli.summary import MAX_CELL_LENGTH, MAX_ROWS, MAX_VALUE_LENGTH, print_summary, run_line, short
 from gradysim.results.delays import constant_delays
 from gradysim.results.result import NodeResult, RunResult
 
 
-def printed(width=100, **changes):
+def result(**changes):
     node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.25, -3.0), {"data": 5, "colour": "[red]"})
     fields = {
         "config": "ZigZag5",
@@ -33,9 +33,20 @@ def printed(width=100, **changes):
         },
         "nodes": (node,),
     }
+    return RunResult(**{**fields, **changes})
+
+
+def printed(width=100, details=True, **changes):
     text = StringIO()
-    print_summary(RunResult(**{**fields, **changes}), Console(file=text, width=width))
+    print_summary(result(**changes), Console(file=text, width=width), details=details)
     return text.getvalue()
+
+
+def short_rows(width=80, **changes):
+    """The rows of the summary, as lists of words; \xa0 is no end of a word here."""
+    text = printed(width, details=False, **changes)
+    assert all(len(line) <= width for line in text.splitlines())
+    return [[word for word in line.split(" ") if word] for line in text.splitlines()]
 
 
 @pytest.mark.parametrize(
@@ -59,6 +70,117 @@ def printed(width=100, **changes):
 )
 def test_what_is_in_it(what):
     assert what in printed()
+
+
+def test_the_summary_has_a_row_for_each_node_and_a_column_for_each_variable():
+    rows = short_rows()
+    assert ["node", "in\xa0m", "data", "colour"] in rows
+    assert ["uavs[0]", "1.0,", "2.2,", "-3.0", "5", "[red]"] in rows
+    assert [
+        "7,200",
+        "s",
+        "simulated",
+        "in",
+        "2.000",
+        "s",
+        "(3,600",
+        "x",
+        "real",
+        "time),",
+        "123,456",
+        "events",
+    ] in rows
+
+
+def named(values, group="uavs"):
+    return tuple(
+        NodeResult(index, f"{group}[{index}]", "Mobile", (0.0, 0.0, 0.0), variables)
+        for index, variables in enumerate(values)
+    )
+
+
+def test_many_nodes_are_a_row_for_each_group():
+    uavs = named([{"data": index, "sent": 30, "state": "ab"[index % 2]} for index in range(MAX_ROWS)])
+    station = NodeResult(MAX_ROWS, "groundStation", "Station", (0.0, 0.0, 0.0), {"data": 7})
+    rows = short_rows(nodes=(*uavs, station))
+    assert ["group", "nodes", "data", "sent", "state"] in rows
+    assert ["uavs", "12", "5.5", "(0..11)", "30", "2", "values"] in rows
+    assert ["groundStation", "1", "7"] in rows
+    assert not any("uavs[0]" in row for row in rows)
+
+
+def test_positions_give_way_to_variables():
+    variables = {f"variable_{index}": index for index in range(5)}
+    wide, narrow = short_rows(120, nodes=named([variables])), short_rows(80, nodes=named([variables]))
+    assert any("0.0," in row for row in wide)
+    assert not any("0.0," in row for row in narrow)
+    assert ["uavs[0]", "0", "1", "2", "3", "4"] in narrow
+
+
+def test_variables_that_do_not_fit_follow_below():
+    variables = {f"a_long_name_of_a_variable_{index}": index for index in range(5)}
+    rows = short_rows(nodes=named([variables]))
+    assert [row for row in rows if row[:1] == ["uavs[0]"]] == [
+        ["uavs[0]", "0", "1"],
+        ["uavs[0]", "2", "3"],
+        ["uavs[0]", "4"],
+    ]
+
+
+def test_a_long_value_is_cut_shorter():
+    rows = short_rows(nodes=named([{"list": "x" * 1000}]))
+    assert any("x" * (MAX_CELL_LENGTH - 1) + "…" in row for row in rows)
+
+
+def test_kinds_are_rows_with_the_outcomes_that_there_were():
+    delays = {"unicast": constant_delays({0.001: 93, 0.002: 4, 0.003: 3})}
+    fates = {
+        "frames": {
+            "broadcast": {"delivered": 0},
+            "unicast": {"delivered": 5, "noise": 0, "interference": 2},
+            "unicast overheard": {"delivered": 9},
+        },
+        "messages": {"unicast": {"acknowledged": 1234, "queued": 0}},
+    }
+    rows = short_rows(fates=fates, message_delays=delays)
+    assert ["receptions", "delivered", "interference"] in rows
+    assert ["unicast", "5", "2"] in rows
+    assert ["unicast", "1,234", "1.1", "ms", "2", "ms"] in rows
+    assert not any("overheard" in row or "broadcast" in row for row in rows)
+
+
+def test_a_summary_fits_a_screen_of_40_lines():
+    kinds = ["broadcast", "unicast", "ack", "rts", "cts"]
+    frames = {kind: dict.fromkeys(["delivered", "noise", "interference"], 1) for kind in kinds}
+    messages = {kind: {"sent": 1} for kind in kinds[:2]}
+    variables = {"data": 5, "sent": 6}
+    text = printed(
+        80, False, nodes=named([variables] * MAX_ROWS), fates={"frames": frames, "messages": messages}
+    )
+    assert len(text.splitlines()) <= 40
+
+
+def test_a_run_of_several_is_a_line():
+    shown = run_line(result(), "run 2  $x=1 #0", 80)
+    assert shown == "run 2  $x=1 #0  data 5  broadcast delivered 99.87 %  2.000 s"
+    assert (
+        run_line(result(), "run 2  $x=1 #0", 30) == "run 2  $x=1 #0  data 5  2.000 s"[:30].rsplit("  ", 1)[0]
+    )
+
+
+def test_the_line_has_the_means_of_groups():
+    nodes = (
+        *named([{"data": 1}, {"data": 2, "flag": True}, {"data": math.nan}]),
+        *named([{"data": 7}], "sensors"),
+    )
+    assert (
+        run_line(result(nodes=nodes, fates={}), "run 2", 80)
+        == "run 2  uavs data 1.5  sensors data 7  2.000 s"
+    )
+
+
+def test_the_line_of_an_interrupted_run_says_so():
+    assert "interrupted at 12.5 s" in run_line(result(interrupted=True, sim_time_s=12.5), "run 2", 80)
 
 
 def test_nodes_are_a_table_with_a_row_for_each():
@@ -92,8 +214,8 @@ def test_no_table_of_delays_without_messages():
 
 
 def test_values_of_iteration_variables_are_in_the_heading():
-    shown = printed(iterations={"jitter": "10ms", "0": "5"})
-    assert shown.splitlines()[0] == "ZigZag5 run 2  $jitter=10ms, $0=5, seed 7, integrated mode"
+    shown = printed(iterations={"jitter": "10ms", "0": "5"}, mode="prototype", fingerprint=None)
+    assert shown.splitlines()[0] == "ZigZag5 run 2  $jitter=10ms, $0=5, seed 7, prototype mode"
 
 
 def test_fates_are_a_table_with_a_column_per_kind():
