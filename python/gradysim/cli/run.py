@@ -113,16 +113,19 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             return say_mistake(mistake), None
 
     names = {} if options.details else names_of_runs(checked.scenarios)
-    if names and not (options.as_json or options.quiet):
+    has_lines = bool(names) and not (options.as_json or options.quiet)
+    if has_lines:
         print(f"{options.config}, {options.mode} mode, {len(scenarios)} runs")
     report_crashes()
     terminal = error_terminal() if bar and options.jobs == 1 and not options.trace else None
     import_what_runs_use(options)
     with StopOnInterrupt() as interrupt:
-        if executor is not None:
-            return run_all(scenarios, carry_out, executor)
-        with ForkExecutor(options.jobs, interrupt) as workers:
-            return run_all(scenarios, carry_out, workers)
+        workers = ForkExecutor(options.jobs, interrupt) if executor is None else nullcontext(executor)
+        with workers as chosen:
+            code = run_all(scenarios, carry_out, chosen)
+    if code == OK and has_lines and (options.writes_files or options.pcap):
+        print(f"files in {options.directory}")
+    return code
 
 
 def names_of_runs(scenarios: "Sequence[Scenario]") -> dict[int, str]:
