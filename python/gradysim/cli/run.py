@@ -114,8 +114,6 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
 
     names = {} if options.details else names_of_runs(checked.scenarios)
     has_lines = bool(names) and not (options.as_json or options.quiet)
-    if has_lines:
-        print(f"{options.config}, {options.mode} mode, {len(scenarios)} runs")
     report_crashes()
     terminal = error_terminal() if bar and options.jobs == 1 and not options.trace else None
     import_what_runs_use(options)
@@ -140,7 +138,10 @@ def names_of_runs(scenarios: "Sequence[Scenario]") -> dict[int, str]:
         for each in scenarios
     }
     width = max(map(len, values.values()))
-    return {number: f"run {number:{number_width}}  {text:{width}}" for number, text in values.items()}
+    config = scenarios[0].config
+    return {
+        number: f"{config} run {number:{number_width}}  {text:{width}}" for number, text in values.items()
+    }
 
 
 def error_terminal() -> "Console | None":

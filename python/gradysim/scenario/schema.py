@@ -229,7 +229,9 @@ IGNORED_OPTION_BEGINNINGS = (
 )  # fmt: skip
 """Of the names of such options."""
 
-IGNORED_BEGINNINGS = ("cmdenv-", "qtenv-", "rng-", "vector-recording", "vector-buffer")
+IGNORED_BEGINNINGS = (
+    "cmdenv-", "qtenv-", "rng-", "vector-recording", "vector-record-e", "vector-buffer",
+)  # fmt: skip
 """Of the last names of keys: options that are given per module, such as `**.cmdenv-log-level`."""
 
 IGNORED_ENDS = (

@@ -52,9 +52,7 @@ def test_a_file_for_each_node_and_run(gradysim_run: Gradysim, tmp_path: Path) ->
     done = gradysim_run("-r", "0,2", "--result-dir", "out", "--pcap", "uavs[1]", "--pcap", "uavs[0]")
     names = [f"General-#{run}-uavs[{index}].pcap" for run in (0, 2) for index in (0, 1)]
     assert names_in(tmp_path / "out") == names
-    assert [line for line in done.stdout.splitlines() if line.startswith("captured in")] == [
-        f"captured in out/{name}" for name in names
-    ]
+    assert done.stdout.splitlines()[-1] == "files in out"
 
 
 @compiled

@@ -55,5 +55,5 @@ def test_ctrl_c_stops_at_once_what_is_still_being_read(folder, gradysim):
 
 @both_modes
 def test_the_summary_of_an_interrupted_run_says_so(gradysim, mode):
-    done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", mode)
+    done = gradysim("run", "test.ini", "-c", "Stuck", "--mode", mode, "-r", "0")
     assert "interrupted at 1 s of simulated time" in done.stdout

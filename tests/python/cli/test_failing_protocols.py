@@ -37,7 +37,7 @@ def assert_told_with_results(done, folder, mode, error):
     assert done.returncode == 1
     assert done.stderr.splitlines()[-2] == error
     assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
-    assert "said = 1" in done.stdout
+    assert "   said\n" in done.stdout
     assert (folder / f"out/General-#0.{mode}.json").is_file()
 
 
@@ -77,7 +77,7 @@ def test_why_it_failed_comes_last_on_a_screen(folder, mode):
 def test_what_it_computed_until_then_is_shown(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode)
     assert "interrupted at 1" in done.stdout
-    assert "said = 1" in done.stdout
+    assert "  said " in done.stdout
 
 
 @both_modes

@@ -174,7 +174,7 @@ def test_a_process_that_ends_itself_is_no_run_that_is_done(gradysim, folder, sta
 
 
 def test_an_exception_outside_of_protocols_is_told_with_its_traceback(gradysim, monkeypatch):
-    def print_summary(*_):
+    def print_summary(*_, **__):
         raise RuntimeError("no summary")
 
     monkeypatch.setattr(summary, "print_summary", print_summary)

@@ -24,8 +24,7 @@ def test_files_of_each_run(gradysim, folder, mode):
     assert (done.returncode, done.stderr) == (0, "")
     names = [f"General-#{run}.{mode}{suffix}" for run in (0, 2) for suffix in (".sca", ".vec")]
     assert names_in(folder / "results") == names
-    told = [line for line in done.stdout.splitlines() if line.startswith(("scalars", "vectors"))]
-    assert told == [f"{'scalars' if name.endswith('a') else 'vectors'} in results/{name}" for name in names]
+    assert done.stdout.splitlines()[-1] == "files in results"
 
 
 @both_modes
@@ -130,7 +129,7 @@ def test_several_jobs(gradysim, folder):
     assert done.returncode == 0
     files = sorted((folder / "results").glob("*.vec"))
     assert {row["runnumber"] for row in read_vectors(files)} == {"0", "1", "2"}
-    assert done.stdout.count("vectors in results/General-#") == 3
+    assert done.stdout.splitlines()[-1] == "files in results"
 
 
 def test_json_stays_json(gradysim):
@@ -354,10 +353,23 @@ def disk_of(size):
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
 
 
+FLYING = """
+from protocol import Talker
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+
+class Flying(Talker):
+    def initialize(self):
+        super().initialize()
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(1000, 0, 0))
+"""
+
+
 @pytest.mark.parametrize(("size", "written"), [(100, []), (20_000, ["json"]), (100_000, ["json", "sca"])])
 def test_a_run_without_room_for_its_files_leaves_no_others_of_the_run_before(gradysim, folder, size, written):
     arguments = (*PROTOTYPE, "-r", "0", "--result-dir", "out", "--quiet", *BOTH)
-    many_rows = ("--set", "*.uavs[*].mobility.telemetryInterval=10ms")
+    (folder / "flying.py").write_text(FLYING, encoding="utf-8")
+    flying = ('*.uavs[*].protocol.class="flying.py:Flying"', "*.uavs[*].mobility.telemetryInterval=10ms")
+    many_rows = [word for setting in flying for word in ("--set", setting)]
     gradysim(*arguments, *many_rows)
     before = (folder / "out/General-#0.prototype.json").read_text()
     with disk_of(size):

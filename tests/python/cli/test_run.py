@@ -17,9 +17,25 @@ from python.cli.command import PROTOCOL, both_modes, compiled, environment, obje
 def test_the_summary(gradysim, mode):
     done = gradysim("run", "test.ini", "--mode", mode, "-r", "1")
     assert done.returncode == 0, done.stderr
-    for text in ("General run 1", "seed 1", f"{mode} mode", "uavs[1]", "said = 10", "delivered", "10.5 s"):
+    for text in ("General run 1", "seed 1", f"{mode} mode", "uavs[1]", "said", "10", "delivered", "10.5 s"):
         assert text in done.stdout
     assert done.stderr == ""
+
+
+@both_modes
+def test_several_runs_are_a_line_each(gradysim, mode):
+    done = gradysim("run", "test.ini", "--mode", mode)
+    lines = [line for line in done.stdout.splitlines() if line != "printed by a protocol"]
+    assert [line.split("  ")[:3] for line in lines] == [
+        [f"General run {number}", f"#{number}", "said 10"] for number in range(3)
+    ]
+
+
+@both_modes
+def test_details_are_tables_of_each_run(gradysim, mode):
+    done = gradysim("run", "test.ini", "--mode", mode, "--details", "--result-dir", "out")
+    assert done.stdout.count("\nprocessor time") == 3
+    assert done.stdout.count(f"written to out/General-#2.{mode}.json") == 1
 
 
 @compiled
@@ -188,7 +204,8 @@ def test_an_output_that_takes_ascii_only_loses_no_result(folder):
     (folder / "protocol.py").write_text(accents, encoding="utf-8")
     done = in_ascii(folder, "run", "test.ini", "--mode", "prototype", "-r", "0", "--result-dir", "out")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "ol\\xe1 = ma\\xe7\\xe3" in done.stdout
+    assert "ol\\xe1" in done.stdout
+    assert "ma\\xe7\\xe3" in done.stdout
     assert [path.name for path in (folder / "out").iterdir()] == ["General-#0.prototype.json"]
 
 
