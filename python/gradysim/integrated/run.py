@@ -37,6 +37,7 @@ from gradysim.results.files import run_name
 from gradysim.results.outcomes import Counts
 from gradysim.results.recorder import checked_ids
 from gradysim.results.result import RunResult
+from gradysim.results.run_log import RecordEvent
 from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import Scenario
@@ -109,8 +110,6 @@ class IntegratedRun(ScenarioRun):
             if replay is None
             else EngineRecorder(self._network, scenario, recorded_nodes(scenario, replay))
         )
-        if self._recorder is not None:
-            self._log.record_event = self._recorder.event
         self._handlers = EngineHandlers(handlers, self._network)
         self._autopilots = AutopilotNodes(scenario, self._network, self._nodes)
         self._encapsulators: list[NetsimEncapsulator[IProtocol] | NativeView] = []
@@ -198,6 +197,9 @@ class IntegratedRun(ScenarioRun):
     def _active_node(self) -> int | None:
         node = self._network.active_node
         return None if node < 0 else node
+
+    def _log_recorder(self) -> RecordEvent | None:
+        return None if self._recorder is None else self._recorder.event
 
     def _finish(self) -> None:
         with capture_errors():

@@ -15,6 +15,7 @@ from gradysim.replay.description import describe, recorded_nodes
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.delays import constant_delays
 from gradysim.results.result import RunResult
+from gradysim.results.run_log import RecordEvent
 from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
@@ -57,8 +58,6 @@ class PrototypeRun(ScenarioRun):
         self._recorder = (
             None if replay is None else PrototypeRecorder(self._now, recorded_nodes(scenario, replay))
         )
-        if self._recorder is not None:
-            self._log.record_event = self._recorder.event
         with self._building():
             self._simulator, self._ledger = build_simulation(
                 scenario, handlers, real_time, self._recorders, self._recorder
@@ -84,6 +83,9 @@ class PrototypeRun(ScenarioRun):
 
     def _active_node(self) -> int | None:
         return self._simulator.active_node if hasattr(self, "_simulator") else None
+
+    def _log_recorder(self) -> RecordEvent | None:
+        return None if self._recorder is None else self._recorder.event
 
     def _finish(self) -> None:
         self._simulator.finalize(complete=self._complete)

@@ -8,6 +8,7 @@ from typing import Self
 
 from gradysim.replay.tables import EVENT_KINDS
 from gradysim.replay.trace import name_width, text_line
+from gradysim.scenario.node_spec import NodeSpec
 
 _OWN = "gradysim."
 """Loggers of this package. Their lines appear from WARNING on, and all from DEBUG on."""
@@ -26,25 +27,27 @@ class RunLog(logging.Handler):
     def __init__(
         self,
         level: int,
-        names: Sequence[str],
+        nodes: Sequence[NodeSpec],
         now: Callable[[], float],
         active_node: Callable[[], int | None],
+        record_event: RecordEvent | None = None,
     ) -> None:
         """Log from `level` on.
 
         Args:
             level: One of the levels of `logging`.
-            names: Names of the nodes, by id.
+            nodes: In the order of their ids.
             now: Returns the simulated time in seconds.
             active_node: Returns the id of the node whose protocol runs, None outside of callbacks.
+            record_event: Records the lines of nodes.
         """
         super().__init__(level)
-        self._names = names
+        self._nodes = nodes
         self._now = now
         self._active_node = active_node
         self._width = 0
         self._thread: int | None = None
-        self.record_event: RecordEvent | None = None
+        self._record_event = record_event
 
     def __enter__(self) -> Self:
         root = logging.getLogger()
@@ -71,8 +74,8 @@ class RunLog(logging.Handler):
             node = self._active_node() if record.thread == self._thread else None
             text = self.format(record)
             kind = _kind_of(record.levelno)
-            if node is not None and self.record_event is not None:
-                self.record_event(node, EVENT_KINDS.index(kind), text)
+            if node is not None and self._record_event is not None:
+                self._record_event(node, EVENT_KINDS.index(kind), text)
             if self._is_shown(record):
                 self._write(node, kind, text)
         except Exception:
@@ -88,8 +91,8 @@ class RunLog(logging.Handler):
         return not (is_own and record.levelno < logging.WARNING) and not _has_other_handler(record)
 
     def _write(self, node: int | None, kind: str, text: str) -> None:
-        self._width = self._width or name_width(self._names)
-        name = "-" if node is None else self._names[node]
+        self._width = self._width or name_width(node.name for node in self._nodes)
+        name = "-" if node is None else self._nodes[node].name
         lines = [text_line(self._now(), name, kind, line, self._width) for line in text.splitlines() or [""]]
         print("\n".join(lines), file=sys.stderr)
 

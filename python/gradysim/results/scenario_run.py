@@ -15,7 +15,7 @@ from gradysim.replay.chunk import RawChunk
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
-from gradysim.results.run_log import RunLog
+from gradysim.results.run_log import RecordEvent, RunLog
 from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario, require_scenario
@@ -59,8 +59,7 @@ class ScenarioRun(ABC):
         self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes), scenario.vector_record_interval_s)
         self._replay = replay
-        names = [node.name for node in scenario.nodes]
-        self._log = RunLog(log_level, names, self._now, self._active_node)
+        self._log_level = log_level
 
     def execute(
         self,
@@ -171,7 +170,11 @@ class ScenarioRun(ABC):
     @contextmanager
     def _protocol_environment(self) -> Iterator[None]:
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
-        with self._log, siblings, global_random_seeded(self._scenario.seed):
+        # Not kept: both would refer to each other.
+        log = RunLog(
+            self._log_level, self._scenario.nodes, self._now, self._active_node, self._log_recorder()
+        )
+        with log, siblings, global_random_seeded(self._scenario.seed):
             yield
 
     @abstractmethod
@@ -196,6 +199,10 @@ class ScenarioRun(ABC):
     @abstractmethod
     def _active_node(self) -> int | None:
         """Return the id of the node whose protocol is called now; None if there is none."""
+
+    @abstractmethod
+    def _log_recorder(self) -> RecordEvent | None:
+        """Return what records log lines for a replay; None if there is none."""
 
     @abstractmethod
     def _finish(self) -> None:
