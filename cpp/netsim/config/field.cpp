@@ -109,10 +109,9 @@ void check_fields(const Schema& schema, const void* config) {
             if (!field.type.contains(**integer)) {
                 check_value(schema.full_name(field), **integer, field.type);
             }
-        } else if (const auto* name = std::get_if<std::string*>(&value)) {
-            if (field.type.kind == ValueType::Kind::name) {
-                check_value(schema.full_name(field), **name, field.type);
-            }
+        } else if (const auto* name = std::get_if<std::string*>(&value);
+                   name != nullptr && field.type.kind == ValueType::Kind::name) {
+            check_value(schema.full_name(field), **name, field.type);
         }
     }
 }

@@ -143,7 +143,7 @@ TEST_P(RandomScenarios, MatchThePlainModelWithInterfacesOnOverlappingChannels) {
 class LightStepScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(LightStepScenarios, MatchThePlainModel) {
-    expect_same_courses(GetParam(), 10, test::make_light_step_scenario);
+    expect_same_courses(GetParam(), 5, test::make_light_step_scenario);
 }
 
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from perfect_channel import Case
 from scripted import TICKS_PER_S, Action, Script, play
@@ -20,7 +20,6 @@ KINDS = ["broadcast", "unicast", "schedule", "schedule", "cancel", "draw", "trac
 seeds = st.integers(0, 2**31 - 1)
 coordinates = st.integers(-40, 40).map(float)
 networks = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1, max_size=5)
-many = settings(max_examples=200)
 
 
 def scripts(delays: st.SearchStrategy[int]) -> st.SearchStrategy[Script]:
@@ -29,7 +28,6 @@ def scripts(delays: st.SearchStrategy[int]) -> st.SearchStrategy[Script]:
     return st.lists(st.lists(actions, max_size=4), min_size=1, max_size=6)
 
 
-@many
 @given(networks, st.integers(1, 100).map(float), seeds, scripts(st.integers(0, 30)))
 def test_the_same_callbacks_in_the_same_order(
     positions: Sequence[Position], range_m: float, seed: int, script: Script
@@ -42,7 +40,6 @@ def test_the_same_callbacks_in_the_same_order(
 def test_telemetry_has_the_same_place_among_them(interval: int) -> None:
     delays = st.just(0) | st.integers(interval + 1, interval + 30)
 
-    @many
     @given(networks, seeds, scripts(delays))
     def check(positions: Sequence[Position], seed: int, script: Script) -> None:
         case = Case(positions, seed=seed, telemetry_interval_s=interval / TICKS_PER_S)
@@ -54,7 +51,6 @@ def test_telemetry_has_the_same_place_among_them(interval: int) -> None:
 wide = st.floats(-1e3, 1e3)
 
 
-@many
 @example((0.0, 0.0, 0.0), (30.0, 40.0, 0.0))
 @given(st.tuples(wide, wide, wide), st.tuples(wide, wide, wide))
 def test_a_receiver_on_the_rim_is_in_range_in_both_modes_or_in_none(here: Position, there: Position) -> None:
