@@ -28,7 +28,7 @@ TEST(PresentArrivals, HaveTheOrderOfTheirTransmissions) {
     std::array<Transmission, 5> sent;
     PresentArrivals present;
     for (const std::size_t i : {3, 1, 4, 0, 2}) {
-        sent[i].id = i;
+        sent[i].label.number = i;
         present.add({&sent[i], static_cast<double>(i)});
     }
     present.remove(&sent[1]);
@@ -51,7 +51,7 @@ TEST(PresentArrivals, KeepWhatTheRadioIsLockedOnToWhileOthersComeAndGo) {
     std::array<Transmission, 3> sent;
     PresentArrivals present;
     for (std::size_t i = 0; i < sent.size(); ++i) {
-        sent[i].id = i;
+        sent[i].label.number = i;
     }
     present.add({&sent[1], 1});
     present.lock_on(&sent[1]);
@@ -70,7 +70,7 @@ TEST(PresentArrivals, KeepWhatTheRadioIsLockedOnToWhileOthersComeAndGo) {
 TEST(PresentArrivals, LetTheRadioLockOnToALaterOne) {
     std::array<Transmission, 2> sent;
     PresentArrivals present;
-    sent[1].id = 1;
+    sent[1].label.number = 1;
     present.add({&sent[0], 1});
     present.lock_on(&sent[0]);
     present.add({&sent[1], 1});
