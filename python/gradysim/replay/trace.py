@@ -1,7 +1,7 @@
 """Prints what happens at nodes, one line for each event, in the order of their times.
 
       1.042371  nodes[0]  timer    greet
-      1.042871  nodes[0]  tx       #7 broadcast to all: 12 B, 1 Mbps, delivered at 2 of 3, by timer greet
+      1.042871  nodes[0]  tx       #7 broadcast to all: delivered at 2 of 3, 12 B, 1 Mbps, by timer greet
       1.043371  nodes[1]  rx       #7 broadcast from nodes[0]: delivered
       1.043371  nodes[1]  set      heard = 1
 
@@ -154,9 +154,8 @@ class Trace:
             )
         else:
             outcome = OUTCOMES[outcomes[destination]] if destination in outcomes else self._unnoticed
-        parts = [f"{frames['bytes'][frame]} B"]
+        parts = [outcome, f"{frames['bytes'][frame]} B"]
         parts += [f"{bitrate_bps / 1e6:g} Mbps"] if bitrate_bps else []
-        parts += [outcome]
         parts += [f"by {cause}"] if cause else []
         to = "all" if destination == BROADCAST else self._names[destination]
         return f"{to}: {', '.join(parts)}"
