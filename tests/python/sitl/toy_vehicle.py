@@ -1,5 +1,6 @@
 """The vehicle of `toy_copter.py`: a point without mass that flies straight, on a clock of its own."""
 
+import contextlib
 import math
 import select
 import socket
@@ -79,7 +80,10 @@ class Copter:
     def listen(self, wait_s):
         """Obey what comes by MAVLink; whether there is still somebody."""
         readable, _, _ = select.select([self.socket], [], [], wait_s)
-        data = self.socket.recv(65536) if readable else None
+        try:
+            data = self.socket.recv(65536) if readable else None
+        except ConnectionResetError:  # the other side left while telemetry was on its way
+            data = b""
         for message in self.codec.parse_buffer(data) or () if data else ():
             self.obey(message)
         return data != b""
@@ -162,7 +166,8 @@ class Copter:
 
     def send(self, message):
         if not self.wrongs.get("silent") and not self.is_time_to("hangs_at"):
-            self.socket.sendall(message.pack(self.codec))
+            with contextlib.suppress(ConnectionResetError, BrokenPipeError):  # `listen` notices it
+                self.socket.sendall(message.pack(self.codec))
 
     def say(self, text):
         self.send(mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, text.encode()))
