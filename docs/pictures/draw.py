@@ -4,6 +4,7 @@ import json
 import subprocess
 import tempfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from PIL import Image
@@ -21,13 +22,40 @@ def pictures(
     folder: Path, file: Path, config: str, limit: str, address: str, times_s: Sequence[float]
 ) -> list[Image.Image]:
     """Run a configuration, and return what its replay shows at those times."""
-    (scenario,) = load_scenarios(file, config, overrides=[f"sim-time-limit={limit}"])
+    scenario, *_ = load_scenarios(file, config, overrides=[f"sim-time-limit={limit}"])
     replay = folder / "replay.html"
     IntegratedRun(scenario, replay=ReplayWriter(replay)).execute()
     asked = {"file": str(replay), "address": address, "width": 900, "height": 560}
     asked |= {"times": list(times_s), "directory": str(folder)}
     subprocess.run(["node", HERE / "film.mjs"], input=json.dumps(asked), text=True, check=True)
     return [Image.open(folder / f"{number:04}.png").convert("RGB") for number in range(len(times_s))]
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture of a replay: the name of its file, the run, and what of it is shown."""
+
+    name: str
+    file: str
+    config: str
+    time_s: float
+    address: str
+
+
+SHOTS = (
+    Shot("trips", "scouts.ini", "General", 60, "#"),
+    Shot("obstacles", "town/town.ini", "Concrete", 0.7, "#"),
+)
+
+
+def draw_shot(folder: Path, shot: Shot) -> None:
+    """Draw a picture of a guide."""
+    (picture,) = pictures(
+        folder, CONFIGS / shot.file, shot.config, f"{shot.time_s + 2}s", shot.address, [shot.time_s]
+    )
+    picture.quantize(128, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(
+        HERE / f"{shot.name}.png", optimize=True
+    )
 
 
 def draw_film(folder: Path) -> None:
@@ -45,3 +73,9 @@ def draw_film(folder: Path) -> None:
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         draw_film(Path(name))
+        for shot in SHOTS:
+            draw_shot(Path(name), shot)
+    curve = HERE / "curve.png"
+    main(
+        ["calibrate", str(CONFIGS / "zigzag.ini"), "-c", "ZigZag5", "--range", "50m", "--picture", str(curve)]
+    )
