@@ -1,6 +1,5 @@
 """Distributions: of the delays of messages, of a tracked variable over nodes, of any number over runs."""
 
-import json
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -16,6 +15,7 @@ from gradysim.plots.numbers import (
     mean_columns,
     series_of,
 )
+from gradysim.results.files import read_run_file
 from gradysim.results.means import RunSummary
 from gradysim.results.run_table import Runs, nodes_of
 from gradysim.results.tracked_variables import numbers_and_others, tracked_by_group
@@ -68,7 +68,7 @@ def draw_cdf(axes: "Axes", numbers: Numbers) -> "Axes":
 def _distribution(run: RunSummary, y: str) -> Distribution | None:
     if y.endswith(_DELAY):
         kind = y.removesuffix(_DELAY)
-        delays: dict[str, Any] = json.loads(run.file.read_text(encoding="utf-8"))["message_delays"][kind]
+        delays: dict[str, Any] = read_run_file(run.file)["message_delays"][kind]
         if "cumulative" not in delays:
             raise ConfigError(
                 f"{run.file}: it has no distribution of delays",

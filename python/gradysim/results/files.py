@@ -1,20 +1,32 @@
 """Result files of runs, DIR/CONFIG-#RUN.MODE.json: their names, writing them, and `--resume`."""
 
-import contextlib
+import hashlib
 import json
-import os
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
+from gradysim.results.durable import replacing
 from gradysim.results.result import Mode, RunResult, plain_iterations
-from gradysim.scenario.runs import hash_of
+from gradysim.scenario.runs import HASH_DIGITS, hash_of
 from gradysim.scenario.scenario import Scenario
+
+CHECKSUM = "checksum"
+"""The last field of a result file: hash of the file with an empty string in its place."""
+
+_RUN_FILE = re.compile(rf".+-#\d+\.({'|'.join(get_args(Mode))})\.json")
+_NO_CHECKSUM = f'"{CHECKSUM}": ""\n}}\n'
 
 
 def run_file(directory: Path, config: str, run: int, mode: Mode, suffix: str = ".json") -> Path:
     """Return the file of one run; the suffix `.sca` is for its scalars, `.vec` for its vectors."""
     return directory / f"{_stem(config, run, mode)}{suffix}"
+
+
+def is_run_file(name: str) -> bool:
+    """Return whether a file has the name of a result file."""
+    return _RUN_FILE.fullmatch(name) is not None
 
 
 def run_name(scenario: Scenario, mode: Mode) -> str:
@@ -58,12 +70,11 @@ def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable
 
 
 def _read(file: Path) -> dict[str, Any]:
-    """Return the JSON object in a file; an empty dict if there is none, or if it cannot be read."""
+    """Return the JSON object in a result file; an empty dict if it is missing or damaged."""
     try:
-        found = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):  # missing, not JSON, or too deeply nested
+        return read_run_file(file)
+    except (OSError, ValueError):
         return {}
-    return found if isinstance(found, dict) else {}
 
 
 def _changed(before: object, now: Mapping[str, str]) -> tuple[str, ...]:
@@ -88,18 +99,41 @@ def write_run_file(result: RunResult, directory: Path, written: Iterable[Path] =
     other processes may read it, or write it too. Raises OSError, with the name of the file, when it cannot be
     written.
     """
-    directory.mkdir(parents=True, exist_ok=True)
     path = run_file(directory, result.config, result.run, result.mode)
     hashes = {file.name: found for file in written if (found := hash_of(file))}
-    content = {**result.to_json_object(), "output_hashes": hashes}
-    unfinished = path.with_name(f"{path.name}.{os.getpid()}")
-    try:
-        unfinished.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-        unfinished.replace(path)
-    except BaseException as error:
-        with contextlib.suppress(OSError):  # a read-only directory
-            unfinished.unlink(missing_ok=True)
-        if isinstance(error, OSError):  # of a full disk, without the name of the file
-            raise OSError(error.errno, error.strerror, str(path)) from error
-        raise
+    content = {**result.to_json_object(), "output_hashes": hashes, CHECKSUM: ""}
+    text = json.dumps(content, indent=2) + "\n"
+    with replacing(path) as unfinished:
+        unfinished.write_text(with_checksum(text), encoding="utf-8")
     return path
+
+
+def with_checksum(text: str) -> str:
+    """Return the text of a result file, which ends with an empty checksum, with the checksum of itself."""
+    return text.removesuffix(_NO_CHECKSUM) + _NO_CHECKSUM.replace('""', f'"{_hash_of_text(text)}"')
+
+
+def read_run_file(file: Path) -> dict[str, Any]:
+    """Return the JSON object in a result file. A file without a checksum is taken as it is.
+
+    Raises:
+        OSError: It cannot be read.
+        ValueError: It does not hold a JSON object, or not the one that was written.
+    """
+    text = file.read_text(encoding="utf-8")
+    try:
+        found = json.loads(text)
+    except RecursionError as error:
+        raise ValueError("it is too deeply nested") from error
+    if not isinstance(found, dict):
+        raise ValueError("it is not a JSON object")
+    checksum = found.get(CHECKSUM)
+    if checksum is not None:
+        begin, _, end = text.rpartition(f'"{checksum}"')
+        if _hash_of_text(f'{begin}""{end}') != checksum:
+            raise ValueError(f"its content does not fit its {CHECKSUM}")
+    return found
+
+
+def _hash_of_text(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:HASH_DIGITS]

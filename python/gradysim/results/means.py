@@ -4,6 +4,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,10 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.files import is_run_file, read_run_file
 from gradysim.results.outcomes import Outcomes
 from gradysim.results.quantity import Average, Names, averages_of, name_filter
 from gradysim.results.result import RunResult
 from gradysim.results.tracked_variables import TrackedGroup, numeric_variables, tracked_by_group
+from gradysim.scenario.errors import ConfigError, Source
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
 """Fields that distinguish the result of a run from other JSON files."""
@@ -124,7 +127,7 @@ def read_means(directory: str | os.PathLike[str], quantities: Names | None = Non
 
     Interrupted runs are left out. `quantities` selects by name, `"uavs[*] heard"` or
     `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any single one; None for all
-    but the numbers of the run itself, such as `cpu_s`. Raises OSError.
+    but the numbers of the run itself, such as `cpu_s`. Raises ConfigError for a damaged file, and OSError.
     """
     return means(read_results(Path(directory)), quantities)
 
@@ -132,7 +135,7 @@ def read_means(directory: str | os.PathLike[str], quantities: Names | None = Non
 def read_results(directory: Path) -> list[RunSummary]:
     """Return summaries of the runs in a directory, sorted by configuration, mode and run.
 
-    Other files and interrupted runs are left out. Raises OSError.
+    Other files and interrupted runs are left out. Raises ConfigError for a damaged file, and OSError.
     """
     found = [
         RunSummary.of(result, file) for file, result in _results_in(directory) if not result["interrupted"]
@@ -146,20 +149,30 @@ def _natural(name: str) -> tuple[list[str], list[int]]:
 
 
 def has_files_for_omnetpp_alone(directory: Path) -> bool:
-    """Return whether a directory has `.sca` or `.vec` files, but no JSON file of a run. Raises OSError."""
+    """Return whether a directory has `.sca` or `.vec` files, but no JSON file of a run."""
     others = any(file.suffix in (".sca", ".vec") for file in directory.iterdir())
     return others and not any(_results_in(directory))
 
 
 def _results_in(directory: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
-    """Yield the result files in a directory and their JSON objects, including those of interrupted runs."""
+    """Yield the result files in a directory and their JSON objects, including those of interrupted runs.
+
+    Raises ConfigError for a damaged one, and OSError.
+    """
     for file in sorted(directory.iterdir()):
         if file.suffix == ".json" and file.is_file():
             try:
-                result = json.loads(file.read_text(encoding="utf-8"))
-            except (ValueError, RecursionError):  # not JSON, or too deeply nested
+                result = read_run_file(file)
+            except ValueError as error:
+                if is_run_file(file.name):
+                    raise ConfigError(
+                        f"it is damaged: {error}",
+                        Source(file, 0),
+                        expected="the file as its run left it; to do the run again, use"
+                        f" `gradysim run FILE --result-dir {shlex.quote(str(directory))} --resume`",
+                    ) from error
                 continue
-            if isinstance(result, dict) and result.keys() >= _FIELDS:
+            if result.keys() >= _FIELDS:
                 yield file, result
 
 

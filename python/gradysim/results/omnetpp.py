@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.results.delays import bin_rows
+from gradysim.results.durable import replacing
 from gradysim.results.quantity import Histogram, Scalar
 from gradysim.results.recorder import Values, Vector
 from gradysim.results.result import Mode, RunResult
@@ -159,33 +160,24 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
     """
     import sqlite3
 
-    path.parent.mkdir(parents=True, exist_ok=True)
-    unfinished = path.with_name(f"{path.name}.{os.getpid()}")
-    unfinished.unlink(missing_ok=True)
-    try:
-        connection = sqlite3.connect(unfinished, isolation_level=None)
+    with replacing(path) as unfinished:
         try:
-            # No other process opens the file until it is complete, and an incomplete one is deleted.
-            connection.execute("PRAGMA journal_mode = OFF")
-            connection.execute("PRAGMA synchronous = OFF")
-            connection.execute("BEGIN")
-            for table, columns in TABLES.items():
-                listed = ", ".join(f"{name} {kind}" for name, kind in columns.items())
-                connection.execute(f"CREATE TABLE {table} ({listed})")
-            _insert_run(connection, identity)
-            yield connection
-            connection.execute("COMMIT")
-        finally:
-            connection.close()
-        unfinished.replace(path)
-    except BaseException as error:
-        with contextlib.suppress(OSError):  # a read-only directory
-            unfinished.unlink(missing_ok=True)
-        if isinstance(error, sqlite3.Error):
+            connection = sqlite3.connect(unfinished, isolation_level=None)
+            try:
+                # No other process opens the file until it is complete, and an incomplete one is deleted.
+                connection.execute("PRAGMA journal_mode = OFF")
+                connection.execute("PRAGMA synchronous = OFF")
+                connection.execute("BEGIN")
+                for table, columns in TABLES.items():
+                    listed = ", ".join(f"{name} {kind}" for name, kind in columns.items())
+                    connection.execute(f"CREATE TABLE {table} ({listed})")
+                _insert_run(connection, identity)
+                yield connection
+                connection.execute("COMMIT")
+            finally:
+                connection.close()
+        except sqlite3.Error as error:
             raise OSError(errno.EIO, str(error), str(path)) from error
-        if isinstance(error, OSError):
-            raise OSError(error.errno, error.strerror, str(path)) from error
-        raise
 
 
 def storable(text: str) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from gradysim.protocol.plain_value import as_float
+from gradysim.results.files import read_run_file
 from gradysim.results.means import RunSummary, read_results
 from gradysim.results.omnetpp_reader import read_vectors
 from gradysim.results.quantity import Names, name_filter, quantities
@@ -27,7 +28,7 @@ _TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs",
 def runs(directory: str | os.PathLike[str]) -> "Runs":
     """Return the runs in the directory of `gradysim run --result-dir`, without interrupted ones.
 
-    Raises OSError.
+    Raises ConfigError for a damaged file, and OSError.
     """
     return Runs(read_results(Path(directory)))
 
@@ -178,8 +179,8 @@ class Runs:
 
 
 def nodes_of(run: RunSummary) -> list[dict[str, Any]]:
-    """Return the nodes in a run's file. Raises OSError."""
-    nodes: list[dict[str, Any]] = json.loads(run.file.read_text(encoding="utf-8"))["nodes"]
+    """Return the nodes in a run's file. Raises OSError, and ValueError if it is damaged."""
+    nodes: list[dict[str, Any]] = read_run_file(run.file)["nodes"]
     return nodes
 
 

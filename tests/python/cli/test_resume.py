@@ -4,6 +4,8 @@ import json
 
 import pytest
 
+from python.cli.command import objects
+
 
 def results(folder):
     return {path.name: json.loads(path.read_text()) for path in (folder / "out").iterdir()}
@@ -73,3 +75,20 @@ def test_it_takes_a_folder(gradysim, options):
         "--resume: it goes by the JSON files of --result-dir, which is not given; expected --result-dir DIR,"
         " too\n"
     )
+
+
+def test_a_run_whose_file_has_a_changed_digit_begins_anew(gradysim, folder):
+    arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out")
+    gradysim(*arguments)
+    file = folder / "out" / "General-#1.prototype.json"
+    text = file.read_text()
+    assert text.count('"said": 10') == 2
+    file.write_text(text.replace('"said": 10', '"said": 11', 1))
+    for command in (("means", "out"), ("plot", "out", "--x", "run", "--y", "uavs[*] said", "-o", "said.svg")):
+        done = gradysim(*command)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert done.stderr.startswith("out/General-#1.prototype.json: ")
+    assert not (folder / "said.svg").exists()
+    done = gradysim(*arguments, "--resume", "--json")
+    assert [run["run"] for run in objects(done.stdout)] == [1]
+    assert gradysim("means", "out").returncode == 0

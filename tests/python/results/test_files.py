@@ -6,7 +6,14 @@ from hashlib import sha256
 
 import pytest
 
-from gradysim.results.files import files_changed_since, has_written, run_name, write_run_file
+from gradysim.results.files import (
+    files_changed_since,
+    has_written,
+    is_run_file,
+    read_run_file,
+    run_name,
+    write_run_file,
+)
 from gradysim.results.result import NodeResult, RunResult
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
@@ -25,7 +32,39 @@ def test_one_of_several_runs_has_a_name_for_files(make_scenario, count, name):
 def test_content_is_the_json_object(tmp_path):
     path = write_run_file(RESULT, tmp_path)
     content = json.loads(path.read_text(encoding="utf-8"))
-    assert content == {**RESULT.to_json_object(), "output_hashes": {}}
+    assert content == {**RESULT.to_json_object(), "output_hashes": {}, "checksum": content["checksum"]}
+    assert read_run_file(path) == content
+
+
+def test_a_changed_digit_is_noticed_wherever_it_is(tmp_path):
+    path = write_run_file(dataclasses.replace(RESULT, wall_s=0.30000000000000004), tmp_path)
+    text = path.read_text(encoding="utf-8")
+    digits = [place for place, letter in enumerate(text) if letter.isdigit()]
+    assert len(digits) > 40
+    for place in digits:
+        other = str(9 - int(text[place]))
+        path.write_text(text[:place] + other + text[place + 1 :], encoding="utf-8")
+        with pytest.raises(ValueError, match=r"checksum|delimiter"):
+            read_run_file(path)
+
+
+def test_a_file_without_a_checksum_is_taken_as_it_is(tmp_path):
+    path = tmp_path / "old.json"
+    path.write_text('{"run": 3}')
+    assert read_run_file(path) == {"run": 3}
+
+
+@pytest.mark.parametrize(
+    ("name", "is_result"),
+    [
+        ("A-#0.integrated.json", True),
+        ("A.b-#12.prototype.json", True),
+        ("A-#0.json", False),
+        ("a.json", False),
+    ],
+)
+def test_result_files_are_known_by_their_names(name, is_result):
+    assert is_run_file(name) == is_result
 
 
 def test_it_names_the_other_files_of_the_run_that_are_there(tmp_path):

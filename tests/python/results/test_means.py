@@ -18,6 +18,7 @@ from gradysim.results.means import (
     repeated,
 )
 from gradysim.results.tracked_variables import TrackedVariable
+from gradysim.scenario.errors import ConfigError
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -248,6 +249,17 @@ def test_other_files_and_interrupted_runs_are_left_out(tmp_path: Path) -> None:
     (tmp_path / "binary.json").write_bytes(b"\xff\xfe")
     (tmp_path / "folder.json").mkdir()
     assert read_results(tmp_path) == []
+
+
+@pytest.mark.parametrize("text", ['{"config": ', "[1]", "[" * 99_999, '{"checksum": "0123456789abcdef"}'])
+def test_a_damaged_result_is_an_error_that_names_it(tmp_path: Path, text: str) -> None:
+    (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result()))
+    file = tmp_path / "Study-#1.integrated.json"
+    file.write_text(text)
+    for read in (read_results, read_means):
+        with pytest.raises(ConfigError) as raised:
+            read(tmp_path)
+        assert raised.value.file == file
 
 
 @pytest.mark.parametrize("interrupted", [True, False])

@@ -1,0 +1,73 @@
+"""Files that are replaced as a whole, also if the process is killed or the power fails meanwhile.
+
+A new file has the id of its process at the end of its name until it is complete and on the disk.
+"""
+
+import contextlib
+import errno
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+LONGEST_PID = 2**22
+"""On Linux."""
+
+_UNFINISHED = re.compile(r"(?P<name>.+\.(json|sca|vec|pcap|html))\.\d{1,7}")
+_CANNOT_SYNC = (errno.EINVAL, errno.ENOTSUP)
+"""What some file systems answer for a directory."""
+
+
+def unfinished_file(path: Path, pid: int | None = None) -> Path:
+    """Return the name of a file until it is complete. `pid` is the process that writes it; None: this one."""
+    return path.with_name(f"{path.name}.{os.getpid() if pid is None else pid}")
+
+
+def finished_name(name: str) -> str | None:
+    """Return the name that an unfinished file was to have; None for any other file."""
+    found = _UNFINISHED.fullmatch(name)
+    return found["name"] if found else None
+
+
+@contextlib.contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Yield the name for a new file, which then takes the place of `path`, complete or not at all.
+
+    Missing directories are created. Raises OSError, with the name of the file, if it cannot be written.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = unfinished_file(path)
+    try:
+        unfinished.unlink(missing_ok=True)  # of a killed process that had the same id
+        yield unfinished
+        finish(path)
+    except BaseException as error:
+        with contextlib.suppress(OSError):  # a read-only directory
+            unfinished.unlink(missing_ok=True)
+        if isinstance(error, OSError):  # of a full disk, without the name of the file
+            raise OSError(error.errno, error.strerror, str(path)) from error
+        raise
+
+
+def finish(path: Path) -> None:
+    """Give `unfinished_file(path)`, which is complete, its name. Both outlast a power failure.
+
+    Raises OSError.
+    """
+    unfinished = unfinished_file(path)
+    _sync(unfinished, os.O_RDWR)
+    unfinished.replace(path)
+    if hasattr(os, "O_DIRECTORY"):  # elsewhere a directory cannot be opened
+        try:
+            _sync(path.parent, os.O_RDONLY)
+        except OSError as error:
+            if error.errno not in _CANNOT_SYNC:
+                raise
+
+
+def _sync(path: Path, flags: int) -> None:
+    descriptor = os.open(path, flags)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
