@@ -26,6 +26,9 @@ def add_protocol_note(
     """Add a note with node, simulated time (s) and callback to an exception that a protocol has raised.
 
     A KeyboardInterrupt gets the note, too: it names a callback that does not return.
+
+    In prototype mode `PythonEncapsulator` calls this. The engine (`PythonProtocol::check`) calls it by
+    `NetsimEncapsulator`. For native protocols `integrated/run.py` does.
     """
     label = f"{protocol.__name__} {node_id}"
     exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")

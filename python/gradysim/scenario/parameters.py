@@ -42,8 +42,9 @@ _CONTRACT = {*dir(IProtocol), *annotations_of(IProtocol)}
 def parameters_of(cls: type[IProtocol]) -> dict[str, ParameterType]:
     """Return {name: type of its values} for the parameters of a protocol.
 
-    The type is that of the default; `delay: float = 0` is a float, too. Quantities are converted to the unit
-    of the parameter, or to SI units if nothing declares it. An angle needs a declared unit.
+    The type is that of the default; `delay: float = 0` is a float, too. `read_scalar` in lookup.py converts
+    quantities by it, to the unit of the parameter, or to SI units if nothing declares it. An angle needs a
+    declared unit.
     """
     parameters: dict[str, ParameterType] = {}
     for base in reversed(cls.__mro__):

@@ -24,6 +24,8 @@ PARAMETERS: Mapping[str, float] = {
     "DISARM_DELAY": 0,
     "FS_THR_ENABLE": 0,
     "FS_GCS_ENABLE": 0,
+    # Its port for remote control listens on all interfaces. It ignores what comes there.
+    "SIM_RC_FAIL": 1,
     # Only one connection is used. The others would listen on all interfaces.
     "SERIAL1_PROTOCOL": -1,
     "SERIAL2_PROTOCOL": -1,

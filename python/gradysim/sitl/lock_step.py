@@ -5,6 +5,7 @@ sends its servo outputs by UDP and blocks. It continues with a line of JSON: sen
 """
 
 import asyncio
+import logging
 import select
 import selectors
 import socket
@@ -18,6 +19,8 @@ from gradysim.sitl import SitlError
 from gradysim.sitl.mavlink import MavlinkLink
 from gradysim.sitl.process import AutopilotProcess
 from gradysim.sitl.quadcopter import Quadcopter
+
+_logger = logging.getLogger(__name__)
 
 RATE_HZ = 400
 """Steps per second, those of ArduCopter's main loop. It starts with 1200 until it reads its parameters."""
@@ -41,6 +44,7 @@ class LockStepAutopilot:
         time_s: Time of its clock, from 0.
         port: UDP port that it sends to.
         is_at_work: Whether it computes its next step.
+        foreign_datagrams: How many came from elsewhere. They are ignored.
     """
 
     def __init__(self, link: MavlinkLink, body: Quadcopter) -> None:
@@ -54,6 +58,7 @@ class LockStepAutopilot:
         self.is_at_work = False
         self._frame: int | None = None
         self._address: Any = None
+        self.foreign_datagrams = 0
         self._process: AutopilotProcess | None = None
         self._physics = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._physics.bind(("127.0.0.1", 0))
@@ -127,6 +132,9 @@ class LockStepAutopilot:
                 data, sender = self._physics.recvfrom(_DATAGRAM)
             except BlockingIOError:
                 return False
+            if self._address not in (None, sender):
+                self.foreign_datagrams += 1
+                continue
             if len(data) != _SERVOS.size:
                 continue
             magic, rate_hz, frame, *pulses_us = _SERVOS.unpack(data)
@@ -171,6 +179,13 @@ class LockStepAutopilot:
 
     def close(self) -> None:
         """Close the connections. Do nothing if they are closed."""
+        if self.foreign_datagrams:
+            _logger.warning(
+                "%s: %d datagrams to its port came from elsewhere and were ignored",
+                self.link.name,
+                self.foreign_datagrams,
+            )
+            self.foreign_datagrams = 0
         self.link.lose("the connection was closed")
         for part in (self._physics, self._server, self._mavlink):
             if part is not None:

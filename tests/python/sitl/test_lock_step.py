@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import socket
 import struct
 import time
 from contextlib import ExitStack, closing
@@ -43,6 +44,18 @@ def test_a_wish_that_is_repeated_is_taken_once(played):
 def test_what_is_no_wish_is_ignored(played, data):
     played.physics.send(data)
     assert not played.ours.take_servos()
+
+
+def test_a_wish_of_somebody_else_is_ignored_and_counted(played, caplog):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        for frame in (2, 3):
+            other.sendto(struct.pack(SERVOS, 18458, 400, frame, *IDLE), ("127.0.0.1", played.ours.port))
+    with closing(LockStepGroup([played.ours])) as group:
+        assert not group.fly_to(0.0)
+    assert not played.ours.take_servos()
+    assert played.ours.foreign_datagrams == 2
+    played.ours.close()
+    assert "2 datagrams" in caplog.text
 
 
 def test_its_motors_turn_the_vehicle(played):

@@ -5,6 +5,9 @@ Not among the tests that are run otherwise: nobody can be expected to have one, 
 
 import csv
 import os
+import socket
+import struct
+import threading
 
 import pytest
 
@@ -101,6 +104,27 @@ def test_on_simulated_time_flights_are_exact_and_repeatable():
     assert moved == pytest.approx([0, -60, 10], abs=1)
     assert ground.at(20) == pytest.approx((0, 0, 0), abs=0.3)
     assert [each.track for each in on_simulated_time()] == [each.track for each in flights]
+
+
+def test_nobody_flies_it_by_the_port_for_remote_control():
+    """The port is open to all: 5501 and ten more for each instance. Channel 5 low is the mode STABILIZE."""
+    undisturbed = on_simulated_time()[0].track
+    has_landed = threading.Event()
+
+    def disturb():
+        orders = struct.pack("<16H", 1700, 1300, 1000, 1500, 1000, *[1500] * 11)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as remote:
+            while not has_landed.wait(0.01):
+                for instance in range(256):
+                    remote.sendto(orders, ("127.0.0.1", 5501 + 10 * instance))
+
+    thread = threading.Thread(target=disturb)
+    thread.start()
+    try:
+        assert on_simulated_time()[0].track == undisturbed
+    finally:
+        has_landed.set()
+        thread.join()
 
 
 def test_on_simulated_time_it_stands_in_the_wind():
