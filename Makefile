@@ -90,7 +90,7 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 	build/bench/netsim_layers 10000
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
 
-viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/replay/page.html, from viewer/.
+viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer/page.html, from viewer/.
 	cd viewer && npm run --silent check && npm run --silent build
 
 figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of docs/guides/plots.md.

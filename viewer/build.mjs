@@ -1,11 +1,11 @@
-// Builds python/gradysim/replay/page.html: one file, with the script and the styles in it.
+// Builds python/gradysim/viewer/page.html: one file, with the script and the styles in it.
 // `node build.mjs FILE` writes it to another place.
 import { build } from "esbuild";
 import { readFile, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
-const target = process.argv[2] ?? `${here}../python/gradysim/replay/page.html`;
+const target = process.argv[2] ?? `${here}../python/gradysim/viewer/page.html`;
 
 const licenses = [];
 for (const name of ["three", "uplot"])

@@ -2,7 +2,7 @@
 
 import subprocess
 
-from gradysim.replay.file import page
+from gradysim.viewer.page import page
 
 
 def test_the_page_is_built_from_its_sources(viewer, tmp_path):

@@ -11,7 +11,7 @@ from subprocess import PIPE
 import pytest
 
 from gradysim.replay import read_replay
-from gradysim.replay.file import page
+from gradysim.viewer.page import page
 
 ROOT = Path(__file__).parents[2]
 INTERFERENCE = [0xC1, 0x12, 0x1F]

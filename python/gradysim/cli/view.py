@@ -50,7 +50,8 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
 
 def show_replays(files: tuple[Path, ...], options: ViewOptions) -> int:
     """Open a replay, or several beside each other. Raises OSError and ValueError for what is none."""
-    from gradysim.replay.file import page_beside, read_parts
+    from gradysim.replay.file import read_parts
+    from gradysim.viewer.page import page_beside
 
     for file in files:
         read_parts(file)

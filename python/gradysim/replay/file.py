@@ -7,10 +7,11 @@ one, and a browser shows them.
 import base64
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from importlib import resources
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import IO, Any
+
+from gradysim.viewer.page import json_text, page
 
 FORMAT = 1
 """Version of the format. Readers take no other one."""
@@ -32,7 +33,7 @@ class ReplayFile:
         self.path = path
         self._file: IO[bytes] = path.open("wb")
         head, tail = page().split("<!-- run -->")
-        self._write(head + _RUN + _json({"format": FORMAT, **run}) + _CLOSE + tail)
+        self._write(head + _RUN + json_text({"format": FORMAT, **run}) + _CLOSE + tail)
 
     def add(self, chunk: bytes) -> None:
         """Append a packed chunk. Raises OSError, as when the disk is full."""
@@ -40,32 +41,12 @@ class ReplayFile:
 
     def close(self, end: Mapping[str, Any]) -> None:
         """Say how the run ended, and close the file."""
-        self._write(_END + _json(end) + _CLOSE)
+        self._write(_END + json_text(end) + _CLOSE)
         self._file.close()
 
     def _write(self, text: str) -> None:
         self._file.write(text.encode())
         self._file.flush()
-
-
-def live_page(socket: str) -> str:
-    """Return the page for a run that goes on; its chunks come from the WebSocket with that path."""
-    return _page_with(f'<script type="application/json" id="gradysim-live">{_json({"socket": socket})}')
-
-
-def page_beside(replays: Sequence[Path]) -> str:
-    """Return a page that shows several replays beside each other, on one clock."""
-    addresses = [path.resolve().as_uri() for path in replays]
-    return _page_with(f'<script type="application/json" id="gradysim-beside">{_json(addresses)}')
-
-
-def _page_with(element: str) -> str:
-    return page().replace("<!-- run -->", element + _CLOSE)
-
-
-def page() -> str:
-    """Return the page that shows a run, with a comment where the run goes."""
-    return resources.files("gradysim.replay").joinpath("page.html").read_text(encoding="utf-8")
 
 
 def read_parts(path: Path) -> tuple[dict[str, Any], Iterator[bytes], dict[str, Any] | None]:
@@ -85,8 +66,3 @@ def read_parts(path: Path) -> tuple[dict[str, Any], Iterator[bytes], dict[str, A
     )
     end = re.search(re.escape(_END) + "(.*?)</script>", text, re.DOTALL)
     return run, chunks, None if end is None else json.loads(end[1])
-
-
-def _json(value: Mapping[str, Any] | Sequence[str]) -> str:
-    # Nothing in it may end the element.
-    return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")

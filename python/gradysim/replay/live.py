@@ -15,13 +15,13 @@ import socket
 import threading
 import time
 from collections.abc import Mapping
-from http import HTTPStatus
 from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlsplit
 
 from gradysim.replay.chunk import RawChunk, pack
-from gradysim.replay.file import live_page
+from gradysim.viewer.page import live_page
+from gradysim.viewer.serving import HANDSHAKE_S, LONGEST_MESSAGE_BYTES, answer, is_allowed, silent_logger
 
 if TYPE_CHECKING:
     from websockets.http11 import Request, Response
@@ -30,13 +30,8 @@ if TYPE_CHECKING:
 HOST = "127.0.0.1"
 CHUNK_S = 0.1
 """Wall time between two chunks, in seconds."""
-LONGEST_MESSAGE_BYTES = 1000
-"""Of a viewer."""
 LOOKAHEAD_S = 2.0
 """How far the run may be ahead of the fastest viewer, in seconds of wall time at its speed."""
-
-_HANDSHAKE_S = 2.0
-"""Wall time that a viewer may take to connect or to leave, in seconds."""
 
 
 class LiveView:
@@ -73,10 +68,10 @@ class LiveView:
             process_request=self._answer,
             max_size=LONGEST_MESSAGE_BYTES,
             ping_interval=None,
-            open_timeout=_HANDSHAKE_S,
-            close_timeout=_HANDSHAKE_S,
+            open_timeout=HANDSHAKE_S,
+            close_timeout=HANDSHAKE_S,
             compression=None,
-            logger=_silent_logger(),
+            logger=silent_logger(__name__),
         )
         self._port: int = self._server.socket.getsockname()[1]
         threading.Thread(target=self._server.serve_forever, name="gradysim view", daemon=True).start()
@@ -141,24 +136,9 @@ class LiveView:
 
     def _answer(self, connection: "ServerConnection", request: "Request") -> "Response | None":
         """Answer a request that is not for the WebSocket, and all that is not allowed."""
-        url = urlsplit(request.path)
-        own = {f"{host}:{self._port}" for host in (HOST, "localhost")}
-        origin = request.headers.get("Origin")
-        token = parse_qs(url.query).get("token", [""])[0]
-        if (
-            request.headers.get("Host") not in own
-            or (origin is not None and origin.removeprefix("http://") not in own)
-            or not secrets.compare_digest(token.encode(), self._token.encode())
-        ):
-            return connection.respond(HTTPStatus.FORBIDDEN, "Open the address that gradysim view printed.\n")
-        if url.path == "/chunks":
-            return None
-        if url.path != "/":
-            return connection.respond(HTTPStatus.NOT_FOUND, "There is nothing here.\n")
-        response = connection.respond(HTTPStatus.OK, live_page(f"/chunks?token={self._token}"))
-        del response.headers["Content-Type"]
-        response.headers["Content-Type"] = "text/html; charset=utf-8"
-        return response
+        token = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
+        allowed = is_allowed(request) and secrets.compare_digest(token.encode(), self._token.encode())
+        return answer(connection, request, allowed, lambda: live_page(f"/chunks?token={self._token}"))
 
     def _meet(self, viewer: "ServerConnection") -> None:
         """Serve one viewer until it leaves."""
@@ -213,12 +193,3 @@ class LiveView:
                 if end is not None and told == len(self._places):
                     viewer.send(json.dumps({"end": end}))
                     return
-
-
-def _silent_logger() -> Any:
-    """Return a logger for the library, which logs each handshake that fails."""
-    import logging
-
-    logger = logging.getLogger("gradysim.replay.websockets")
-    logger.setLevel(logging.CRITICAL + 1)
-    return logger

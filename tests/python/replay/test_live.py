@@ -15,7 +15,8 @@ from websockets.sync.client import connect
 
 from gradysim.prototype.run import PrototypeRun
 from gradysim.replay.chunk import unpack
-from gradysim.replay.live import LONGEST_MESSAGE_BYTES, LiveView
+from gradysim.replay.live import LiveView
+from gradysim.viewer.serving import LONGEST_MESSAGE_BYTES
 
 
 @pytest.fixture
