@@ -1,7 +1,7 @@
 // Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
 // {file, address, width, height, scale, dark, times, seeks, keys, fill, until, screenshot, color}, or
-// {file, beside} for a page with two replays, of which the first one gets a key. `url` instead of `file`, and the
-// time `after` which to look, are for a run that goes on. Writes one object to standard output.
+// {file, beside} for a page with two replays, of which the first one gets a key. `url` instead of `file`, the time
+// `after` which to look, and `pause`, are for a run that goes on. Writes one object to standard output.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
@@ -38,6 +38,7 @@ async function look() {
   await page.evaluate(() => gradysim.ready);
   said.open_s = (performance.now() - opened) / 1000;
   await page.waitForFunction((time) => document.querySelector("input.time").value >= time, asked.after ?? 0);
+  if (asked.pause) await pause();
   said.states = await page.evaluate(async (times) => {
     const states = [];
     for (const time of times) states.push(await gradysim.state(time));
@@ -65,6 +66,22 @@ async function look() {
   said.scrolls_sideways = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   const picture = await page.screenshot(asked.screenshot ? { path: asked.screenshot } : {});
   Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0]]));
+}
+
+/** Pause, wait until the time stands still, note the state then, and play again. */
+async function pause() {
+  await page.keyboard.press(" ");
+  await page.waitForFunction(() => document.querySelector("button.main").textContent === "Play");
+  const stands = () => {
+    const time = document.querySelector("input.time").value;
+    const before = window.timeBefore;
+    window.timeBefore = time;
+    return time === before && Number(time);
+  };
+  const time = await (await page.waitForFunction(stands, null, { polling: 1000 })).jsonValue();
+  said.paused = await page.evaluate((seconds) => gradysim.state(seconds), time);
+  await page.keyboard.press(" ");
+  await page.waitForFunction((before) => document.querySelector("input.time").value > before, time);
 }
 
 /** Press a key in the first of two replays; return the times that both show once they agree. */

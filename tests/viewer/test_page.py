@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import threading
 from collections import Counter
 from pathlib import Path
 from random import Random
@@ -10,12 +11,21 @@ from subprocess import PIPE
 
 import pytest
 
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.replay import read_replay
+from gradysim.simulator.extension.visualization_controller import VisualizationController
+from gradysim.simulator.handler.mobility import MobilityHandler
+from gradysim.simulator.handler.timer import TimerHandler
+from gradysim.simulator.handler.visualization import VisualizationConfiguration, VisualizationHandler
+from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 from gradysim.viewer.page import page
+from python.quiet_protocol import Quiet
 
 ROOT = Path(__file__).parents[2]
 INTERFERENCE = [0xC1, 0x12, 0x1F]
 RECEIVER_TRANSMITTING = [0xD9, 0x48, 0x0F]
+PAINTED = [0xFF, 0x00, 0xFF]
+SPEED_MPS = 10.0
 
 
 def state(replay, time_s):
@@ -105,3 +115,58 @@ def test_a_run_is_shown_while_it_goes_on(zigzag, browser):
             view.kill()
     assert said["states"] == [state(read_replay(zigzag), 1.5)]
     assert said["console"] == []
+
+
+class Flyer(Quiet):
+    """Flies along x, and counts seconds in a variable whose name is not HTML."""
+
+    def initialize(self):
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(1e5, 20 * self.provider.get_id(), 0))
+        controller = VisualizationController(self)
+        controller.paint_node(0, PAINTED)
+        controller.resize_nodes(4)
+        self.handle_timer("second")
+
+    def handle_timer(self, timer):
+        now = self.provider.current_time()
+        self.provider.tracked_variables["<b>seconds</b>"] = int(now)
+        self.provider.schedule_timer("second", now + 1)
+
+
+@pytest.fixture
+def shown():
+    """A `VisualizationHandler`, with a simulation that goes on in a thread until the test ends."""
+    handler = VisualizationHandler(VisualizationConfiguration(host="127.0.0.1", port=0))
+    builder = SimulationBuilder(SimulationConfiguration(execution_logging=False, real_time=True))
+    for other in (TimerHandler(), MobilityHandler(), handler):
+        builder.add_handler(other)
+    for node in range(3):
+        builder.add_node(Flyer, (0, 20 * node, 0))
+    simulation = builder.build()
+    simulation.step_simulation()
+    stop = threading.Event()
+
+    def run():
+        while not stop.is_set():
+            simulation.step_simulation()
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    yield handler
+    stop.set()
+    thread.join()
+    simulation.finalize()
+
+
+def test_a_simulation_is_shown_while_it_runs(shown, browser):
+    url = f"http://127.0.0.1:{shown.port}/#node=Flyer%201"
+    said = browser(None, url=url, after=2, pause=True, color=PAINTED)
+    x_m = SPEED_MPS * said["paused"]["time_s"]
+    for node, (x, *rest) in enumerate(said["paused"]["positions"]):
+        assert x == pytest.approx(x_m, abs=SPEED_MPS * 0.02)
+        assert rest == [20 * node, 0]
+    assert shown.held_up_s > 0.4
+    assert said["near_pixels"] > 50
+    assert "<b>seconds</b>" in said["text"]
+    assert said["console"] == []
+    assert said["requests"] == []

@@ -5,11 +5,12 @@ import { dialog } from "./keys";
 import { Replay } from "./replay";
 
 export function titleOf({ run }: Replay): string {
-  return `${run.config} #${run.run}`;
+  return run.config ? `${run.config} #${run.run}` : "Simulation";
 }
 
 export function subtitleOf(replay: Replay): string {
-  const { description, iterations, mode, seed, file, nodes } = replay.run;
+  const { config, description, iterations, mode, seed, file, nodes } = replay.run;
+  if (!config) return `${nodes.length} nodes`;
   const values = Object.entries(iterations).map(([name, value]) => `${name} = ${value}`);
   const parts = [description, ...values, `${mode} mode`, `seed ${seed}`, `${nodes.length} nodes`, file];
   return parts.filter(Boolean).join(" · ");

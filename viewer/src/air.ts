@@ -4,6 +4,7 @@ import { Vector3 } from "three";
 import { outcomeColor, outcomeDash, rgb, styleColor } from "./colors";
 import { Filter, senderOf } from "./filter";
 import { Instances } from "./instances";
+import { Look } from "./look";
 import { Reception } from "./receptions";
 import { Frame, isSameFrame, Replay, startOf } from "./replay";
 import * as shapes from "./shapes";
@@ -26,6 +27,7 @@ export interface Picture {
   speed: number;
   positions: Float64Array;
   state: Readonly<State>;
+  look: Look;
   filter: Filter;
   /** Those that caused the losses of the chosen frame. */
   interferers: readonly Interferer[];

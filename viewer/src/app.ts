@@ -27,7 +27,7 @@ const TEXTS_MS = 160;
 export class App implements Actions {
   readonly replay: Replay;
   readonly ready: Promise<void>;
-  private readonly clock = new Clock();
+  private readonly clock: Clock;
   private readonly store = new Store();
   private readonly scene: Scene;
   private readonly overlay: Overlay;
@@ -48,6 +48,7 @@ export class App implements Actions {
 
   constructor(source: Source) {
     this.replay = new Replay(source);
+    this.clock = new Clock(source.follows);
     this.filter = parseFilter("", this.replay);
     this.address = new Address(this.replay);
     this.dialogs = { run: runDialog(this.replay), keys: keysDialog() };
@@ -76,6 +77,7 @@ export class App implements Actions {
     source.onChange = () => this.takeNews();
     this.takeNews();
     this.clock.isPlaying = source.isLive;
+    if (source.follows) this.clock.seek(this.clock.endNs);
     this.ready = this.open();
   }
 
@@ -108,6 +110,7 @@ export class App implements Actions {
   }
 
   async step(goal: Goal, direction: 1 | -1): Promise<void> {
+    if (!this.replay.hasFrames) return;
     this.clock.isPlaying = false;
     const from = this.store.now.frame ?? this.clock.timeNs;
     const frame = await findStep(this.replay, goal, this.filter, from, direction);
@@ -161,7 +164,7 @@ export class App implements Actions {
   }
 
   showRun(): void {
-    this.dialogs.run.showModal();
+    if (this.replay.hasFrames) this.dialogs.run.showModal();
   }
 
   showKeys(): void {
@@ -171,8 +174,7 @@ export class App implements Actions {
   /** More of the run has come. */
   private takeNews(): void {
     const { end, isLive, isLost } = this.replay.source;
-    this.clock.endNs = this.replay.endNs;
-    this.clock.mayGrow = isLive && !isLost && end === null;
+    this.clock.grow(this.replay.endNs, isLive && !isLost && end === null);
     setText(this.warning, warningOf(this.replay));
     this.redraw();
   }
@@ -184,6 +186,7 @@ export class App implements Actions {
   }
 
   private layOut(canvas: HTMLCanvasElement, labels: HTMLCanvasElement): void {
+    document.body.classList.toggle("no-frames", !this.replay.hasFrames);
     document.title = `${titleOf(this.replay)} – gradysim replay`;
     document.body.append(
       make(
@@ -199,7 +202,7 @@ export class App implements Actions {
         "aside",
         {},
         this.inspector.element,
-        make("section", { "aria-label": "Frames" }, this.chosen.element, ...this.list.elements),
+        make("section", { class: "of-frames", "aria-label": "Frames" }, this.chosen.element, ...this.list.elements),
       ),
       make("footer", {}, this.controls.bar, this.timeline.element),
       this.dialogs.run,
@@ -241,14 +244,14 @@ export class App implements Actions {
     this.store.set(place.state);
     const frame = place.frame === null ? null : await findNumber(this.replay, place.frame);
     if (frame) await this.chooseFrame(frame);
-    else await this.show(place.timeNs ?? this.clock.timeNs);
+    else await this.show(place.timeNs ?? (this.clock.isFollowing ? this.clock.endNs : this.clock.timeNs));
   }
 
   private async open(): Promise<void> {
     await this.replay.load(0);
     const chunk = this.replay.chunk(0);
     const ends = chunk ? [...chunk.legs.ends()].flat() : [];
-    this.scene.fit(ends, SLANT);
+    this.scene.fit([...ends, ...(this.replay.run.extent_m ?? [])], SLANT);
     await this.goToAddress();
     requestAnimationFrame((nowMs) => this.tick(nowMs));
   }
@@ -257,17 +260,17 @@ export class App implements Actions {
     const wallS = Math.min(0.25, (nowMs - this.lastTickMs) / 1000);
     this.lastTickMs = nowMs;
     const isReady = this.replay.isReady(this.clock.timeNs);
-    this.replay.source.tell(this.clock.timeNs, this.clock.speed);
-    if (this.clock.isPlaying && isReady && this.neighbors.mayAdvance) {
+    this.replay.source.tell(this.clock.timeNs, this.clock.speed, this.clock.isPlaying);
+    if (isReady && this.neighbors.mayAdvance && this.clock.advance(wallS)) {
       if (this.store.now.frame !== null) this.store.set({ frame: null });
-      this.clock.advance(wallS);
       this.isDirty = true;
       // What comes next is decoded before it is needed.
       void this.replay.load(Math.min(this.clock.endNs, this.clock.timeNs + this.clock.speed * 1e9));
     }
-    if (this.isDirty && this.replay.isReady(this.clock.timeNs)) this.draw();
+    const canDraw = this.replay.isReady(this.clock.timeNs);
+    if (this.isDirty && canDraw) this.draw();
     else if (this.isDirty) void this.replay.load(this.clock.timeNs);
-    if (this.areTextsOld && nowMs - this.lastTextsMs > TEXTS_MS) this.drawTexts(nowMs);
+    if (this.areTextsOld && canDraw && nowMs - this.lastTextsMs > TEXTS_MS) this.drawTexts(nowMs);
     requestAnimationFrame((next) => this.tick(next));
   }
 
@@ -279,13 +282,13 @@ export class App implements Actions {
     const positions = this.replay.positions(timeNs);
     const state = this.store.now;
     const { filter, chosen } = this;
-    this.scene.draw({ timeNs, speed, positions, state, filter, interferers: chosen.interferers });
-    this.overlay.draw(positions, state);
+    const look = this.replay.look(timeNs);
+    this.scene.draw({ timeNs, speed, positions, state, look, filter, interferers: chosen.interferers });
+    this.overlay.draw(positions, state, look);
     this.timeline.draw(timeNs);
     this.controls.update();
-    const earlier = this.replay.chunkIndexAt(timeNs) - 1;
-    if (this.replay.chunkIndexAt(timeNs - TRAIL_S * 1e9) === earlier && !this.replay.chunk(earlier))
-      void this.replay.loadChunk(earlier).then(() => this.redraw());
+    const missing = this.replay.missingBefore(timeNs, Math.max(0, timeNs - TRAIL_S * 1e9));
+    if (missing !== null) void this.replay.loadChunk(missing).then(() => this.redraw());
   }
 
   private drawTexts(nowMs: number): void {
@@ -294,6 +297,7 @@ export class App implements Actions {
     const { timeNs, isPlaying } = this.clock;
     this.inspector.update(timeNs, this.replay.positions(timeNs));
     this.list.update(timeNs, this.filter);
-    if (!isPlaying) this.address.write(timeNs, this.store.now);
+    // A page that is loaded again does not have the past of a run that does not wait.
+    if (!isPlaying && !this.replay.source.follows) this.address.write(timeNs, this.store.now);
   }
 }

@@ -12,6 +12,7 @@ export class Camera {
   readonly camera = new THREE.PerspectiveCamera(35, 1, 1, 1e6);
   private readonly controls: MapControls;
   private radius = 100;
+  private heightPx = 1;
   private readonly followed = new THREE.Vector3(NaN, NaN, NaN);
 
   constructor(canvas: HTMLElement, onMove: () => void) {
@@ -31,12 +32,19 @@ export class Camera {
     return this.camera.position.distanceTo(this.controls.target);
   }
 
+  /** How long a meter is at a place, in pixels of the page. */
+  pixelsPerMeter(place: THREE.Vector3): number {
+    const distance = this.camera.position.distanceTo(place);
+    return this.heightPx / (2 * distance * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)));
+  }
+
   /** Whether it looks down. */
   get isTop(): boolean {
     return this.controls.getPolarAngle() < 0.01;
   }
 
   resize(width: number, height: number): void {
+    this.heightPx = height;
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
   }

@@ -53,6 +53,12 @@ export function styleColor(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
+/** A color for words on a background. */
+export function inkOn(background: string): string {
+  const [red, green, blue] = rgb(background);
+  return 0.3 * red + 0.6 * green + 0.1 * blue > 0.5 ? "#1b2229" : "#e8ecf0";
+}
+
 /** Red, green and blue of "#rrggbb", from 0 to 1. */
 export function rgb(color: string): [number, number, number] {
   const value = Number.parseInt(color.slice(1), 16);

@@ -50,7 +50,7 @@ export class Controls {
     const steps = (words: string, key: string, backKey: string, step: (direction: 1 | -1) => void): HTMLElement =>
       make(
         "span",
-        { class: "steps", role: "group", "aria-label": words },
+        { class: "steps of-frames", role: "group", "aria-label": words },
         button("◀", `Previous ${words} (${backKey})`, () => step(-1)),
         make("span", { class: "words" }, words),
         button("▶", `Next ${words} (${key})`, () => step(1)),
@@ -74,10 +74,9 @@ export class Controls {
     );
     this.addToggle("labels", "Names", "Show the names of nodes (l)");
     this.addToggle("trails", "Trails", "Show the last 30 s of each way (r)");
-    this.tools.append(
-      button("Run", "What was run (i)", () => actions.showRun()),
-      button("Keys", "Keys (?)", () => actions.showKeys()),
-    );
+    const run = button("Run", "What was run (i)", () => actions.showRun());
+    run.classList.add("of-frames");
+    this.tools.append(run, button("Keys", "Keys (?)", () => actions.showKeys()));
   }
 
   toggle(name: "isFollowing" | "labels" | "trails"): void {

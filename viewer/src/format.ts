@@ -1,5 +1,7 @@
 // Decodes the chunks of a replay. gradysim.replay.chunk and gradysim.replay.tables define them.
 
+import { Look } from "./look";
+
 export interface RunNode {
   id: number;
   name: string;
@@ -33,6 +35,8 @@ export interface Run {
   outcomes: string[];
   kinds: string[];
   event_kinds: string[];
+  /** Places (x, y, z, x, …) that the first picture shows, besides the nodes. */
+  extent_m?: number[];
 }
 
 /** How a run ended. */
@@ -49,7 +53,19 @@ export interface Header {
   strings: string[];
   density: { bin_ns: number; frames: number[]; lost: number[] };
   outcomes: { node: number[]; outcome: number[]; count: number[] };
+  tables: Record<string, { rows: number }>;
+}
+
+interface PackedHeader extends Header {
   tables: Record<string, { rows: number; columns: [string, ColumnType, boolean, number][] }>;
+}
+
+/** A part of a run. */
+export interface StoredChunk {
+  readonly header: Header;
+  /** How the run wants to be drawn during this chunk. */
+  readonly look?: Look;
+  table(name: string): Promise<Table>;
 }
 
 export type Values = Uint8Array | Int16Array | Uint32Array | Float64Array;
@@ -71,8 +87,8 @@ function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 }
 
 /** A packed chunk: its header is read at once, its columns when a table is asked for. */
-export class PackedChunk {
-  readonly header: Header;
+export class PackedChunk implements StoredChunk {
+  readonly header: PackedHeader;
   private readonly columnsStart: number;
 
   /** `packed` is base64, as in a file, or bytes, as from a live run. */

@@ -15,15 +15,15 @@ export class Inspector {
   readonly element = make("section", { "aria-label": "Inspector" });
   private readonly choice = make("select", { "aria-label": "Node", title: "Choose a node" });
   private readonly facts = make("p", { class: "message" });
-  private readonly outcomes = make("div", { class: "outcomes" });
-  private readonly outcomesNote = make("p", { class: "message" });
+  private readonly outcomes = make("div", { class: "outcomes of-frames" });
+  private readonly outcomesNote = make("p", { class: "message of-frames" });
   private readonly charts: Charts;
   private readonly ofNode = make("div", {});
   private readonly chartsNote = make("p", { class: "message" });
   private readonly neighbors = make("div", { class: "list" });
   private readonly neighborsTitle = make("h3", {});
-  private readonly events = make("div", { class: "list" });
-  private readonly eventsTitle = make("h3", {}, "Events");
+  private readonly events = make("div", { class: "list of-frames" });
+  private readonly eventsTitle = make("h3", { class: "of-frames" }, "Events");
   private history: History | null = null;
   private isReading = false;
 
@@ -57,7 +57,7 @@ export class Inspector {
     this.element.append(
       make("div", { class: "row" }, make("h2", {}, "Node"), this.choice),
       this.facts,
-      make("h3", {}, "Outcomes so far"),
+      make("h3", { class: "of-frames" }, "Outcomes so far"),
       this.outcomes,
       this.outcomesNote,
       this.ofNode,
@@ -71,14 +71,16 @@ export class Inspector {
     const { node } = this.store.now;
     this.showOutcomes(timeNs, node);
     if (node === null) {
-      setText(this.facts, "Click a node, or choose one here, to see its variables, neighbors and events.");
+      const more = this.replay.hasFrames ? ", neighbors and events" : " and neighbors";
+      setText(this.facts, `Click a node, or choose one here, to see its variables${more}.`);
       return;
     }
     const [x, y, z] = positions.subarray(node * 3, node * 3 + 3);
     const { group, protocol, id, range_m } = this.replay.nodes.get(node)!;
     const place = [x, y, z].map((value) => value.toFixed(1)).join(", ");
     const range = range_m === null ? "" : ` · range ${distanceText(range_m)}`;
-    setText(this.facts, `id ${id} · ${group} · ${protocol}${range} · at (${place}) m`);
+    const names = [...new Set([group, protocol])].join(" · ");
+    setText(this.facts, `id ${id} · ${names}${range} · at (${place}) m`);
     this.showNeighbors(node, positions);
     void this.readHistory();
     this.charts.moveTo(timeNs / 1e9);

@@ -1,13 +1,14 @@
 // The chunks of a run that goes on, from `gradysim view`, over a WebSocket.
 
 import { PackedChunk, Run, RunEnd } from "./format";
-import { jsonElement, Source } from "./source";
+import { connect, Source } from "./source";
 
 /** Between two messages to the run, in milliseconds. */
 const TELL_MS = 100;
 
 class LiveSource implements Source {
   readonly isLive = true;
+  readonly follows = false;
   readonly chunks: PackedChunk[] = [];
   run!: Run;
   end: RunEnd | null = null;
@@ -42,13 +43,7 @@ class LiveSource implements Source {
   }
 }
 
-/** Connect to the run that the page names; null if it names none. Resolves when there is something to show. */
+/** Connect to the run that the page names; null if it names none. */
 export function liveSource(): Promise<Source> | null {
-  const live = jsonElement<{ socket: string }>("gradysim-live");
-  if (live === null) return null;
-  return new Promise((resolve, reject) => {
-    const socket = new WebSocket(`ws://${location.host}${live.socket}`);
-    const source: Source = new LiveSource(socket, () => resolve(source));
-    socket.addEventListener("close", () => reject(new Error("the run does not answer")));
-  });
+  return connect("gradysim-live", (socket, started) => new LiveSource(socket, started));
 }

@@ -3,6 +3,7 @@ import { showBeside } from "./beside";
 import { make } from "./dom";
 import { liveSource } from "./live";
 import { scriptInterface } from "./script";
+import { snapshotSource } from "./snapshots";
 import { fileSource, jsonElement } from "./source";
 import "./style.css";
 
@@ -10,7 +11,7 @@ async function start(): Promise<void> {
   try {
     const beside = jsonElement<string[]>("gradysim-beside");
     if (beside !== null) return showBeside(beside);
-    const source = await (liveSource() ?? fileSource());
+    const source = await (liveSource() ?? snapshotSource() ?? fileSource());
     if (source === null) document.body.append(make("p", { class: "message" }, "This page holds no run."));
     else Object.assign(window, { gradysim: scriptInterface(new App(source)) });
   } catch (error) {

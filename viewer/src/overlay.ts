@@ -1,8 +1,8 @@
 // What is written over the 3-D picture: names of nodes and a scale bar. Finds the node under the mouse, too.
 
-import * as THREE from "three";
-import { styleColor } from "./colors";
+import { inkOn, styleColor } from "./colors";
 import { distanceText, prepareCanvas } from "./dom";
+import { Look } from "./look";
 import { Replay } from "./replay";
 import { Scene } from "./scene";
 import { State } from "./state";
@@ -19,7 +19,7 @@ export class Overlay {
     private readonly scene: Scene,
   ) {}
 
-  draw(positions: Float64Array, state: Readonly<State>): void {
+  draw(positions: Float64Array, state: Readonly<State>, look: Look): void {
     const [context, width, height] = prepareCanvas(this.canvas);
     this.project(positions, width, height);
     context.font = "12px system-ui, sans-serif";
@@ -27,8 +27,8 @@ export class Overlay {
     context.lineJoin = "round";
     context.lineWidth = 3;
     context.strokeStyle = styleColor("--scene");
-    context.fillStyle = styleColor("--ink");
-    if (state.labels) this.drawLabels(context, state.node);
+    context.fillStyle = inkOn(styleColor("--scene"));
+    if (state.labels) this.drawLabels(context, state.node, look.nameless);
     this.drawScale(context, height);
   }
 
@@ -66,8 +66,9 @@ export class Overlay {
   }
 
   /** Near nodes first; a name that would lie on another one is left out, but for that of the chosen node. */
-  private drawLabels(context: CanvasRenderingContext2D, chosen: number | null): void {
-    const nodes = [...this.places].sort((a, b) => a[1].depth - b[1].depth);
+  private drawLabels(context: CanvasRenderingContext2D, chosen: number | null, hidden: Set<number>): void {
+    const named = [...this.places].filter(([node]) => node === chosen || !hidden.has(node));
+    const nodes = named.sort((a, b) => a[1].depth - b[1].depth);
     nodes.sort((a, b) => Number(b[0] === chosen) - Number(a[0] === chosen));
     const taken: [number, number, number, number][] = nodes.map(([, { x, y }]) => [x - 5, y - 5, x + 5, y + 5]);
     for (const [node, { x, y }] of nodes) {
@@ -95,16 +96,16 @@ export class Overlay {
 
   /** A bar of 1, 2 or 5 times a power of ten meters, as it looks in the middle of the picture. */
   private drawScale(context: CanvasRenderingContext2D, height: number): void {
-    const { camera, distance } = this.scene.camera;
-    const perMeter = height / (2 * distance * Math.tan(THREE.MathUtils.degToRad(camera.fov / 2)));
+    const perMeter = this.scene.camera.pixelsPerMeter(this.scene.camera.target);
     const most = 140 / perMeter;
     const power = 10 ** Math.floor(Math.log10(most));
     const length = [5, 2, 1].map((step) => step * power).find((step) => step <= most) ?? power;
     const [x, y, wide] = [16, height - 18, length * perMeter];
     const text = length < 1 ? `${length} m` : distanceText(length).replace(".0", "");
-    for (const style of [styleColor("--scene"), styleColor("--ink")]) {
+    const scene = styleColor("--scene");
+    for (const [style, lineWidth] of [[scene, 4.5], [inkOn(scene), 1.5]] as const) {
       context.strokeStyle = style;
-      context.lineWidth = style === styleColor("--ink") ? 1.5 : 4.5;
+      context.lineWidth = lineWidth;
       context.beginPath();
       context.moveTo(x, y - 5);
       context.lineTo(x, y);
@@ -112,7 +113,7 @@ export class Overlay {
       context.lineTo(x + wide, y - 5);
       context.stroke();
     }
-    context.strokeStyle = styleColor("--scene");
+    context.strokeStyle = scene;
     context.lineWidth = 3;
     context.strokeText(text, x + 6, y - 10);
     context.fillText(text, x + 6, y - 10);

@@ -1,7 +1,8 @@
 // What a run was like at a time. Chunks are decoded when they are needed; a few are kept.
 
-import { PackedChunk, Run, RunNode, Table } from "./format";
+import { Run, RunNode, StoredChunk, Table } from "./format";
 import { Legs } from "./legs";
+import { Look, plainLook } from "./look";
 import { Frames } from "./receptions";
 import { Source } from "./source";
 
@@ -12,6 +13,8 @@ const KEPT_ROWS = 200_000;
 /** A frame may begin so long before the chunk in which it ends. */
 const LONGEST_FRAME_NS = 2e9;
 
+const PLAIN = plainLook();
+
 const NOT_LOST = ["delivered", "below_sensitivity", "in_air", "out_of_range"];
 
 /** A decoded chunk. */
@@ -20,25 +23,25 @@ export class Chunk {
 
   constructor(
     readonly index: number,
-    readonly packed: PackedChunk,
+    readonly stored: StoredChunk,
     readonly frames: Frames,
     readonly legs: Legs,
   ) {}
 
   /** How many rows are decoded. */
   get size(): number {
-    const { frames, receptions, legs } = this.packed.header.tables;
+    const { frames, receptions, legs } = this.stored.header.tables;
     return frames.rows + receptions.rows + legs.rows;
   }
 
   get strings(): string[] {
-    return this.packed.header.strings;
+    return this.stored.header.strings;
   }
 
   /** A table that is not needed to draw. */
   table(name: string): Promise<Table> {
     let table = this.lazy.get(name);
-    if (table === undefined) this.lazy.set(name, (table = this.packed.table(name)));
+    if (table === undefined) this.lazy.set(name, (table = this.stored.table(name)));
     return table;
   }
 }
@@ -62,6 +65,8 @@ export class Replay {
   /** One more than the largest id. */
   readonly nodeCount: number;
   readonly isLost: readonly boolean[];
+  /** Whether the run has frames and events; otherwise only positions and variables. */
+  readonly hasFrames: boolean;
 
   private readonly decoded = new Map<number, Chunk>(); // the one that was used last is the last one
   private readonly loading = new Map<number, Promise<Chunk>>();
@@ -72,10 +77,11 @@ export class Replay {
     this.nodes = new Map(this.run.nodes.map((node) => [node.id, node]));
     this.nodeCount = Math.max(-1, ...this.run.nodes.map((node) => node.id)) + 1;
     this.isLost = this.run.outcomes.map((name) => !NOT_LOST.includes(name));
+    this.hasFrames = this.run.outcomes.length > 0;
     this.earlier = { chunks: 0, frames: 0, counts: this.noCounts() };
   }
 
-  get chunks(): readonly PackedChunk[] {
+  get chunks(): readonly StoredChunk[] {
     return this.source.chunks;
   }
 
@@ -161,6 +167,24 @@ export class Replay {
     return places;
   }
 
+  /** Return how the run wants to be drawn. */
+  look(timeNs: number): Look {
+    return this.chunks[this.chunkIndexAt(timeNs)]?.look ?? PLAIN;
+  }
+
+  /** Return the last chunk before a time that trails from `fromNs` on need and that is not decoded; null if none. */
+  missingBefore(timeNs: number, fromNs: number): number | null {
+    let rows = 0;
+    const now = this.chunkIndexAt(timeNs);
+    for (let index = now - 1; index >= 0 && this.chunks[index].header.end_ns > fromNs; index -= 1) {
+      const chunk = this.decoded.get(index);
+      if (chunk === undefined) return this.hasFrames && this.chunkIndexAt(fromNs) < now - 1 ? null : index;
+      rows += chunk.size;
+      if (rows > KEPT_ROWS / 2) return null;
+    }
+    return null;
+  }
+
   /** Return where a node was when a frame began. */
   position(node: number, frame: Frame): Float64Array {
     const place = new Float64Array(3);
@@ -176,7 +200,7 @@ export class Replay {
       const first = chunk.frames.rowsUntil(fromNs);
       for (let row = chunk.frames.rowsUntil(toNs) - 1; row >= first && found.length < most; row -= 1)
         found.push({ chunk, row });
-      if (chunk.packed.header.start_ns <= fromNs || found.length >= most) break;
+      if (chunk.stored.header.start_ns <= fromNs || found.length >= most) break;
     }
     return found;
   }
@@ -205,7 +229,7 @@ export class Replay {
     from: Frame | number,
     step: 1 | -1,
     passes: (chunk: Chunk, row: number) => boolean,
-    mayHave: (chunk: PackedChunk) => boolean = () => true,
+    mayHave: (chunk: StoredChunk) => boolean = () => true,
   ): Promise<Frame | null> {
     const isFrame = typeof from !== "number";
     let index = isFrame ? from.chunk.index : this.chunkIndexAt(from);
@@ -231,6 +255,7 @@ export class Replay {
     if (!this.chunks.length) return [];
     const index = this.chunkIndexAt(timeNs);
     const needed = [index];
+    if (!this.hasFrames) return needed;
     for (let next = index + 1; next < this.chunks.length; next += 1) {
       if (this.chunks[next].header.start_ns > timeNs + LONGEST_FRAME_NS) break;
       needed.push(next);
@@ -252,13 +277,13 @@ export class Replay {
   }
 
   private async decode(index: number): Promise<Chunk> {
-    const packed = this.chunks[index];
+    const stored = this.chunks[index];
     const [frames, receptions, legs] = await Promise.all(
-      ["frames", "receptions", "legs"].map((name) => packed.table(name)),
+      ["frames", "receptions", "legs"].map((name) => stored.table(name)),
     );
     const chunk = new Chunk(
       index,
-      packed,
+      stored,
       new Frames(frames, receptions, this.nodeCount, this.isLost),
       new Legs(legs, this.nodeCount),
     );

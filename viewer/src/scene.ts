@@ -23,6 +23,7 @@ export class Scene {
   private readonly obstacles = new THREE.Group();
   private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   private readonly groups: ReadonlyMap<string, number>;
+  private background = "";
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -98,7 +99,12 @@ export class Scene {
 
   draw(picture: Picture): void {
     this.resize();
-    const { state, positions } = picture;
+    const { state, positions, look } = picture;
+    if (look.background !== this.background) {
+      this.background = look.background;
+      document.documentElement.style.setProperty("--scene", look.background);
+      this.applyTheme();
+    }
     if (state.isFollowing && state.node !== null) {
       const at = state.node * 3;
       const range = this.replay.nodes.get(state.node)?.range_m ?? Infinity;
@@ -131,28 +137,28 @@ export class Scene {
     this.ground.material.uniforms.fadeAt.value = distance * 4;
   }
 
-  private drawTrails({ timeNs, state, positions }: Picture): void {
+  private drawTrails({ timeNs, state, positions, look }: Picture): void {
     this.trails.clear();
     const ink = rgb(styleColor("--muted"));
     const fromNs = timeNs - TRAIL_S * 1e9;
     const start = new Float64Array(3);
     const chunks: Chunk[] = []; // by time, those that the trails go through
     for (const chunk of this.replay.chunksBefore(timeNs)) {
-      if (chunk.packed.header.start_ns <= timeNs) chunks.unshift(chunk);
-      if (chunk.packed.header.start_ns <= fromNs) break;
+      if (chunk.stored.header.start_ns <= timeNs) chunks.unshift(chunk);
+      if (chunk.stored.header.start_ns <= fromNs) break;
     }
     const crowd = Math.min(1, Math.sqrt(40 / this.replay.nodes.size));
     for (const node of this.replay.nodes.keys()) {
       const [x, y, z] = [positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]];
       if (Number.isNaN(x)) continue;
       const isChosen = node === state.node;
-      const color = rgb(groupColor(this.groupOf(node)));
+      const color = look.colors.get(node) ?? rgb(groupColor(this.groupOf(node)));
       const strength = isChosen ? 0.9 : 0.7 * crowd * (state.node === null ? 1 : 0.5);
       const end = this.place(x, y, z);
       if (z > 0.5) this.trails.add(end.x, end.y, end.z, end.x, end.y, 0, ...ink, 0.5, 0.25, 1, 0);
       if (!chunks.length || !(state.trails || isChosen)) continue;
       chunks[0].legs.position(node, Math.max(0, fromNs), start);
-      const corners = chunks.flatMap(({ legs, packed: { header } }, place) => [
+      const corners = chunks.flatMap(({ legs, stored: { header } }, place) => [
         ...legs.corners(node, place === 0 ? fromNs : Math.max(fromNs, header.start_ns - 1), timeNs),
       ]);
       let [beforeNs, a] = [fromNs, this.place(start[0], start[1], start[2])];
@@ -167,18 +173,21 @@ export class Scene {
     this.trails.show();
   }
 
-  private drawNodes({ positions, state, interferers }: Picture): void {
+  private drawNodes({ positions, state, look, interferers }: Picture): void {
     this.marks.clear();
     this.ranges.clear();
     const accent = rgb(styleColor("--accent"));
     const interfering = new Set(state.frame ? interferers.map((interferer) => interferer.node) : []);
     const interference = rgb(outcomeColor("interference"));
-    const size = this.replay.nodes.size > 60 ? 9 : 13;
+    const usual = this.replay.nodes.size > 60 ? 9 : 13;
     for (const [node, { range_m }] of this.replay.nodes) {
-      const { x, y, z } = this.place(positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]);
+      const place = this.place(positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]);
+      const { x, y, z } = place;
       if (Number.isNaN(x)) continue;
       const group = this.groupOf(node);
-      this.marks.add(x, y, z, ...rgb(groupColor(group)), 1, size, group % shapes.SHAPES);
+      const color = look.colors.get(node) ?? rgb(groupColor(group));
+      const size = look.radiusM ? Math.max(4, 2 * look.radiusM * this.camera.pixelsPerMeter(place)) : usual;
+      this.marks.add(x, y, z, ...color, 1, size, group % shapes.SHAPES);
       if (interfering.has(node)) this.marks.add(x, y, z, ...interference, 1, size + 12, shapes.CIRCLE);
       if (node !== state.node) continue;
       this.marks.add(x, y, z, ...accent, 1, size + 12, shapes.CIRCLE);

@@ -1,21 +1,23 @@
 // Where the chunks of a run come from: the elements of the page, or a run that still goes on.
 
-import { PackedChunk, Run, RunEnd } from "./format";
+import { PackedChunk, Run, RunEnd, StoredChunk } from "./format";
 
 export interface Source {
   readonly run: Run;
   /** By time; grows while a run goes on. */
-  readonly chunks: readonly PackedChunk[];
+  readonly chunks: readonly StoredChunk[];
   /** How the run ended; null if that is not known. */
   readonly end: RunEnd | null;
   /** Whether more may come. */
   readonly isLive: boolean;
+  /** Whether the run does not wait for the page, so that the page has to follow. */
+  readonly follows: boolean;
   /** Whether the process of the run has gone before its end. */
   readonly isLost: boolean;
   /** Called when something of this has changed. */
   onChange: (() => void) | null;
-  /** Tell the run what the page shows, and how fast it goes on: the run waits for that. */
-  tell(timeNs: number, speed: number): void;
+  /** Tell the run what the page shows, how fast it goes on, and whether it does. */
+  tell(timeNs: number, speed: number, isPlaying: boolean): void;
 }
 
 export const FORMAT = 1;
@@ -35,7 +37,21 @@ export function fileSource(): Source | null {
     }
   }
   const end = jsonElement<RunEnd>("gradysim-end");
-  return { run, chunks, end, isLive: false, isLost: end === null, onChange: null, tell: () => {} };
+  return { run, chunks, end, isLive: false, follows: false, isLost: end === null, onChange: null, tell: () => {} };
+}
+
+/** Connect to the run that an element names; null if there is none. Resolves when there is something to show. */
+export function connect(
+  id: string,
+  create: (socket: WebSocket, started: () => void) => Source,
+): Promise<Source> | null {
+  const named = jsonElement<{ socket: string }>(id);
+  if (named === null) return null;
+  return new Promise((resolve, reject) => {
+    const socket = new WebSocket(`ws://${location.host}${named.socket}`);
+    const source: Source = create(socket, () => resolve(source));
+    socket.addEventListener("close", () => reject(new Error("the run does not answer")));
+  });
 }
 
 /** What an element of the page holds; null if there is none. */

@@ -124,6 +124,15 @@ export class Timeline {
       }
     }
     this.bars = { frames, lost };
+    if (this.replay.hasFrames) this.drawLanes(context, frames, lost, height);
+    const recorded = ((this.replay.endNs - fromNs) / (toNs - fromNs)) * width;
+    if (recorded < width) {
+      context.fillStyle = styleColor("--panel");
+      context.fillRect(recorded, 0, width - recorded, height);
+    }
+  }
+
+  private drawLanes(context: CanvasRenderingContext2D, frames: Float64Array, lost: Float64Array, height: number): void {
     const top = Math.round(height * 0.36);
     this.drawLane(context, frames, 0, top - 2, styleColor("--quiet"));
     this.drawLane(context, lost, top, height, outcomeColor("interference"));
@@ -132,11 +141,6 @@ export class Timeline {
     context.fillStyle = styleColor("--muted");
     context.fillText("frames", -LEFT_PX, top);
     context.fillText("losses", -LEFT_PX, height);
-    const recorded = ((this.replay.endNs - fromNs) / (toNs - fromNs)) * width;
-    if (recorded < width) {
-      context.fillStyle = styleColor("--panel");
-      context.fillRect(recorded, 0, width - recorded, height);
-    }
   }
 
   /** Bars from zero to the most; high ones are stronger in color, too. */
@@ -165,7 +169,8 @@ export class Timeline {
     const [frames, lost] = [this.bars.frames[bar], this.bars.lost[bar]].map((count) =>
       count > 0 && count < 1 ? "< 1" : countText(Math.round(count)),
     );
-    const text = `${timeText(this.timeAt(x + LEFT_PX), 3)} s: ${frames} frames, ${lost} losses`;
+    const counts = this.replay.hasFrames ? `: ${frames} frames, ${lost} losses` : "";
+    const text = `${timeText(this.timeAt(x + LEFT_PX), 3)} s${counts}`;
     const wide = context.measureText(text).width + 12;
     const left = Math.min(x + 10, width - wide);
     context.fillStyle = styleColor("--panel");

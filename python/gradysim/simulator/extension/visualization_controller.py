@@ -26,22 +26,22 @@ class VisualizationController(Extension):
         self._handler = handler_of(protocol, "visualization")
 
     def paint_node(self, node_id: int, color: Color) -> None:
-        """Give a node a colour; each part from 0 to 255."""
+        """Give a node a color; each part from 0 to 255."""
         self._check_node(node_id)
         self._send("paint_node", node_id=node_id, color=_checked_color(color, 255))
 
     def paint_environment(self, color: Color) -> None:
-        """Give the background a colour; numbers >= 0: the public viewer takes 1 for full brightness."""
+        """Give the background a color; each part is >= 0, and 1 is full brightness."""
         self._send("paint_environment", color=_checked_color(color, math.inf))
 
     def resize_nodes(self, size: float) -> None:
-        """Draw all nodes as spheres of this size, > 0."""
+        """Draw all nodes with this radius in meters, > 0."""
         if not is_in_range(size, 0, above=True):
             raise ValueError(f"the size of nodes must be a finite number > 0, got {size!r}")
         self._send("resize_nodes", size=size)
 
     def show_node_id(self, node_id: int, show: bool) -> None:
-        """Show or hide the id of a node."""
+        """Show or hide the name of a node."""
         self._check_node(node_id)
         if not isinstance(show, bool):
             raise TypeError(f"show must be True or False, got {show!r}")

@@ -20,14 +20,12 @@ from gradysim.simulator.validation import checked_configuration
 
 _logger = logging.getLogger(__name__)
 
-VIEWER_URL = "https://project-gradys.github.io/gradys-sim-nextgen-visualization/"
-"""The public viewer. It connects to localhost, port 5678."""
-
 
 class VisualizationHandler(INodeHandler):
-    """Serves viewers over a WebSocket while the simulation runs; they may pause it.
+    """Shows the simulation in web browsers while it runs; viewers may pause it.
 
-    It does not keep a simulation going in which nothing else is left to happen.
+    The page is at http://HOST:PORT/. The public viewer of gradysim can connect, too. The handler does not
+    keep a simulation going in which nothing else is left to happen.
 
     Attributes:
         command_queue: Commands to the viewers, as VisualizationController makes them; they wait here until
@@ -68,7 +66,7 @@ class VisualizationHandler(INodeHandler):
         self.nodes[node.id] = node
 
     def initialize(self) -> None:
-        """Start to serve viewers; if the address cannot be used the log says so, and nobody watches."""
+        """Start to serve viewers. If the address is in use, log a warning and run without viewers."""
         self.held_up_s = 0.0
         self._start_wall_s = time.monotonic()
         welcome = greeting(self._configuration, list(self.nodes.values()))
@@ -87,8 +85,9 @@ class VisualizationHandler(INodeHandler):
         self._server = server
         self._publish(server)
         self._schedule_collection()
+        _logger.info("The simulation is shown at %s", server.address)
         if self._configuration.open_browser:
-            webbrowser.open(VIEWER_URL)
+            webbrowser.open(server.address)
 
     def finalize(self) -> None:
         """Show the end, and stop to serve."""

@@ -29,9 +29,9 @@ class VisualizationConfiguration:
         x_range: (lowest, highest) x of the drawn ground; m.
         y_range: The same for y.
         z_range: The same for z.
-        host: Address to listen on.
+        host: Address to listen on. With another one than localhost, other machines can watch and pause, too.
         port: Port to listen on; 0 for any free port. The public viewer looks for 5678 on localhost.
-        open_browser: Open the public viewer in a web browser when the simulation starts.
+        open_browser: Open the page of the handler in a web browser when the simulation starts.
     """
 
     information_collection_interval: float = 0.01
@@ -122,7 +122,7 @@ def is_pause_or_resume(message: str | bytes) -> bool:
     """
     try:
         content = json.loads(message)
-    except ValueError:
+    except (ValueError, RecursionError):
         content = None
     if isinstance(content, dict) and content.get("interaction") == "pause/resume":
         return True

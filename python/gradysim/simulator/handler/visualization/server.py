@@ -2,6 +2,9 @@
 
 The simulation gives it texts (`publish`) and a queue of commands; it sends them every `update_rate`. What
 the viewers want in return is whether the simulation is paused.
+
+    GET /           the page of gradysim, which connects to this server
+    a WebSocket     the messages of `messages.py`, for scripts, that page and the public viewer
 """
 
 import asyncio
@@ -20,18 +23,31 @@ from gradysim.simulator.handler.visualization.messages import (
     command_text,
     is_pause_or_resume,
 )
+from gradysim.viewer.page import snapshot_page
+from gradysim.viewer.serving import (
+    HANDSHAKE_S,
+    LONGEST_MESSAGE_BYTES,
+    LOOPBACK_NAMES,
+    answer,
+    is_allowed,
+    silent_logger,
+)
 
 if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
+    from websockets.http11 import Request, Response
 
 _logger = logging.getLogger(__name__)
 
-# The library logs every handshake. Viewers look for the server with plain HTTP requests.
-_library_logger = logging.getLogger(f"{__name__}.websockets")
-_library_logger.setLevel(logging.CRITICAL + 1)
+PUBLIC_VIEWER = "https://project-gradys.github.io"
+"""Origin of the public viewer, which connects to port 5678 on localhost."""
 
-# A viewer that does not take the last messages within this time does without them; s of wall time.
+# Time limits in seconds of wall time: for the last messages of a simulation, and for any other one.
 _LAST_WORDS_S = 1.0
+_MESSAGE_S = 20.0
+
+# Hosts that listen on all addresses of this machine.
+_WILDCARDS = ("", "0.0.0.0", "[::]")
 
 
 class VisualizationException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
@@ -50,22 +66,30 @@ class _Viewer:
         self.commands: deque[str] = deque()
         self.snapshot: str | None = None
         self.leaving = False
+        self.has_sent_nonsense = False
         self.news = asyncio.Event()
 
     async def write(self, greeting: str) -> None:
-        """Send what there is to send, until `leaving`."""
-        await self.connection.send(greeting)
-        while True:
-            while self.commands:
-                await self.connection.send(self.commands.popleft())
-            text, self.snapshot = self.snapshot, None
-            if text is not None:
-                await self.connection.send(text)
-            elif self.leaving:
-                return
-            elif not self.commands:
-                await self.news.wait()
-                self.news.clear()
+        """Send what there is to send, until `leaving`. A viewer that does not read is disconnected."""
+        try:
+            await self._send(greeting)
+            while True:
+                while self.commands:
+                    await self._send(self.commands.popleft())
+                text, self.snapshot = self.snapshot, None
+                if text is not None:
+                    await self._send(text)
+                elif self.leaving:
+                    return
+                elif not self.commands:
+                    await self.news.wait()
+                    self.news.clear()
+        except TimeoutError:
+            self.connection.transport.abort()
+
+    async def _send(self, text: str) -> None:
+        async with asyncio.timeout(_MESSAGE_S):
+            await self.connection.send(text)
 
 
 class VisualizationServer:
@@ -82,7 +106,9 @@ class VisualizationServer:
         self._configuration = configuration
         self._greeting = greeting
         self._commands = commands
+        self._last_commands: dict[tuple[str, int | None], str] = {}
         self._viewers: dict[_Viewer, asyncio.Task[None]] = {}
+        self._pausing: _Viewer | None = None
         # The newest one, and the one that the viewers have.
         self._snapshot: str | None = None
         self._sent: str | None = None
@@ -94,6 +120,13 @@ class VisualizationServer:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stop: asyncio.Event | None = None
         self.port = 0
+        host = configuration.host
+        self._name = f"[{host}]" if ":" in host else host
+
+    @property
+    def address(self) -> str:
+        """Address of the page for browsers on this machine."""
+        return f"http://{'localhost' if self._name in _WILDCARDS else self._name}:{self.port}/"
 
     @property
     def wants_snapshot(self) -> bool:
@@ -168,10 +201,13 @@ class VisualizationServer:
             self._meet,
             configuration.host,
             configuration.port,
+            process_request=self._answer,
             create_connection=ViewerConnection,
-            logger=_library_logger,
-            compression=None,
+            max_size=LONGEST_MESSAGE_BYTES,
+            open_timeout=HANDSHAKE_S,
             close_timeout=_LAST_WORDS_S,
+            logger=silent_logger(__name__),
+            compression=None,
         ) as server:
             self._started.set_result(next(iter(server.sockets)).getsockname()[1])
             while not self._stop.is_set():
@@ -188,6 +224,16 @@ class VisualizationServer:
             viewer.news.set()
         if self._viewers:
             await asyncio.wait(list(self._viewers.values()), timeout=_LAST_WORDS_S)
+        # The library has no time limit for sending "close" to a viewer that does not read.
+        asyncio.get_running_loop().call_later(_LAST_WORDS_S, self._disconnect)
+
+    def _disconnect(self) -> None:
+        for viewer in self._viewers:
+            viewer.connection.transport.abort()
+
+    def _answer(self, connection: "ServerConnection", request: "Request") -> "Response | None":
+        names = LOOPBACK_NAMES if self._name in LOOPBACK_NAMES else None
+        return answer(connection, request, is_allowed(request, names, [PUBLIC_VIEWER]), snapshot_page)
 
     def _update(self) -> None:
         """Hand the viewers what is new; without any, commands wait for the first one."""
@@ -207,7 +253,9 @@ class VisualizationServer:
         texts: list[str] = []
         try:
             while True:
-                texts.append(command_text(self._commands.get_nowait()))
+                command = self._commands.get_nowait()
+                texts.append(command_text(command))
+                self._last_commands[command["command"], command["payload"].get("node_id")] = texts[-1]
         except Empty:
             return texts
 
@@ -215,23 +263,29 @@ class VisualizationServer:
         """Serve one viewer until it leaves."""
         viewer = _Viewer(connection)
         viewer.snapshot = self._sent  # A simulation that is paused has no newer one.
+        viewer.commands.extend(self._last_commands.values())
         writer = asyncio.create_task(viewer.write(self._greeting))
         self._viewers[viewer] = writer
         try:
             async for message in connection:
-                self._interact(message)
+                self._interact(viewer, message)
         finally:
             del self._viewers[viewer]
+            if viewer is self._pausing:
+                self._running.set()
             writer.cancel()
             await asyncio.gather(writer, return_exceptions=True)
 
-    def _interact(self, message: str | bytes) -> None:
+    def _interact(self, viewer: _Viewer, message: str | bytes) -> None:
         try:
             is_pause_or_resume(message)
         except ValueError as error:
-            _logger.warning("A viewer's message was ignored: %s", error)
+            if not viewer.has_sent_nonsense:  # one line in the log is enough
+                _logger.warning("A viewer's message was ignored: %s", error)
+            viewer.has_sent_nonsense = True
             return
         if self._running.is_set():
+            self._pausing = viewer
             self._running.clear()
         else:
             self._running.set()

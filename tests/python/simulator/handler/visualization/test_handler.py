@@ -1,5 +1,8 @@
 import gc
+import socket
 import threading
+import time
+import urllib.request
 import webbrowser
 from contextlib import contextmanager
 
@@ -13,8 +16,8 @@ from gradysim.simulator.handler.visualization import (
     VisualizationHandler,
 )
 from gradysim.simulator.handler.visualization import handler as handler_module
-from gradysim.simulator.handler.visualization.handler import VIEWER_URL
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
+from gradysim.viewer.page import snapshot_page
 
 
 def is_snapshot(message):
@@ -191,25 +194,57 @@ def test_pauses_add_up(shown, monkeypatch, wall_clock):
         assert show.handler.held_up_s == held_up_s
 
 
-def test_nonsense_of_a_viewer_is_ignored_with_a_warning(shown, caplog):
+def test_a_pause_ends_when_the_viewer_that_paused_leaves(paused):
+    show, simulation, viewer = paused
+    other = show.viewer()
+    at = simulation.current_time
+    viewer.connection.close()
+    assert other.read_until(lambda message: message.get("simulation_time", 0) > at)
+
+
+def test_a_pause_ends_when_the_connection_is_lost(paused):
+    show, simulation, viewer = paused
+    other = show.viewer()
+    at = simulation.current_time
+    viewer.connection.socket.shutdown(socket.SHUT_RDWR)
+    assert other.read_until(lambda message: message.get("simulation_time", 0) > at)
+
+
+def test_a_pause_goes_on_when_another_viewer_leaves(paused):
+    show, _, viewer = paused
+    server = show.handler._server
+    other = show.viewer()
+    other.read()
+    other.connection.close()
+    viewer.connection.ping().wait(30)
+    while len(server._viewers) > 1:
+        time.sleep(0.01)
+    assert server.is_paused
+
+
+def test_nonsense_of_a_viewer_is_ignored_with_one_warning(shown, caplog):
     show = shown()
     simulation = show.start()
     viewer = show.viewer()
-    viewer.send("{nonsense")
+    for _ in range(3):
+        viewer.send("{nonsense")
     viewer.connection.ping().wait(30)
     simulation.start_simulation()
     assert ["{nonsense" in message for message in caplog.messages] == [True]
 
 
-def test_a_request_that_is_no_websocket_leaves_no_line_in_the_log(shown, caplog):
-    import urllib.error
-    import urllib.request
-
+def test_the_log_says_once_where_the_page_is(shown, caplog):
+    caplog.set_level("INFO")
     show = shown()
-    show.start()
-    with pytest.raises(urllib.error.HTTPError):
-        urllib.request.urlopen(f"http://127.0.0.1:{show.handler.port}", timeout=30)
-    assert caplog.messages == []
+    simulation = show.start()
+    address = f"http://127.0.0.1:{show.handler.port}/"
+    with urllib.request.urlopen(address, timeout=30) as answer:
+        assert answer.headers["Content-Type"] == "text/html; charset=utf-8"
+        assert answer.read().decode() == snapshot_page()
+    simulation.start_simulation()
+    assert [message for message in caplog.messages if "http:" in message] == [
+        f"The simulation is shown at {address}"
+    ]
 
 
 def test_values_that_json_does_not_know_are_shown_as_text(shown):
@@ -277,11 +312,12 @@ def test_a_host_of_another_machine_is_refused(shown):
 
 
 @pytest.mark.parametrize("wanted", [True, False])
-def test_the_public_viewer_is_opened_if_asked_for(shown, monkeypatch, wanted):
+def test_the_page_is_opened_if_asked_for(shown, monkeypatch, wanted):
     opened = []
     monkeypatch.setattr(webbrowser, "open", opened.append)
-    shown(open_browser=wanted).start()
-    assert opened == ([VIEWER_URL] if wanted else [])
+    show = shown(open_browser=wanted)
+    show.start()
+    assert opened == ([f"http://127.0.0.1:{show.handler.port}/"] if wanted else [])
 
 
 def test_the_port_is_known_while_it_runs(shown):

@@ -89,7 +89,9 @@ def test_pause_and_resume():
     assert is_pause_or_resume('{"interaction": "pause/resume"}')
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", '"pause/resume"', '{"interaction": "stop"}', b"\xff\xfe"])
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", "[" * 1000, '"pause/resume"', '{"interaction": "stop"}', b"\xff\xfe"]
+)
 def test_anything_else_is_refused(text):
     with pytest.raises(ValueError, match="pause/resume"):
         is_pause_or_resume(text)

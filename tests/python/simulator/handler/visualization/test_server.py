@@ -1,12 +1,21 @@
+import socket
 import subprocess
 import sys
+import threading
+import time
+import urllib.error
+import urllib.request
+from contextlib import ExitStack, contextmanager
 
 import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from gradysim.simulator.handler.visualization import VisualizationConfiguration
+from gradysim.simulator.handler.visualization import server as server_module
 from gradysim.simulator.handler.visualization.messages import CommandQueue
-from gradysim.simulator.handler.visualization.server import VisualizationServer, _Viewer
+from gradysim.simulator.handler.visualization.server import PUBLIC_VIEWER, VisualizationServer, _Viewer
+from gradysim.viewer.serving import LONGEST_MESSAGE_BYTES
 
 
 @pytest.fixture
@@ -14,13 +23,21 @@ def commands():
     return CommandQueue()
 
 
-@pytest.fixture
-def server(commands):
-    configuration = VisualizationConfiguration(host="127.0.0.1", port=0, update_rate=0.001)
+@contextmanager
+def serving(commands, host="127.0.0.1"):
+    configuration = VisualizationConfiguration(host=host, port=0, update_rate=0.001)
     server = VisualizationServer(configuration, "hello", commands)
     server.start()
-    yield server
-    server.stop()
+    try:
+        yield server
+    finally:
+        server.stop()
+
+
+@pytest.fixture
+def server(commands):
+    with serving(commands) as server:
+        yield server
 
 
 def url(server):
@@ -87,6 +104,126 @@ def test_a_slow_viewer_misses_snapshots_but_no_command(server, commands):
     sizes = [message for message in messages if message.startswith("{")]
     assert len(sizes) == 50
     assert len(messages) - len(sizes) < 50
+
+
+def test_who_comes_later_gets_the_last_command_of_each_kind_and_node(server, commands):
+    with connect(url(server)) as first:
+        first.recv(timeout=30)
+        for node_id, color in [(0, 1), (1, 2), (0, 3)]:
+            payload = {"node_id": node_id, "color": color}
+            commands.put({"command": "paint_node", "payload": payload})
+            first.recv(timeout=30)
+        with connect(url(server)) as second:
+            assert [second.recv(timeout=30) for _ in range(3)] == [
+                "hello",
+                '{"command": "paint_node", "payload": {"node_id": 0, "color": 3}}',
+                '{"command": "paint_node", "payload": {"node_id": 1, "color": 2}}',
+            ]
+
+
+def code_of(address, **headers):
+    """The HTTP code of the answer to a GET request."""
+    try:
+        with urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=30) as answer:
+            return answer.status
+    except urllib.error.HTTPError as error:
+        error.close()
+        return error.code
+
+
+def test_the_page_is_at_the_address_and_nothing_beside_it(server):
+    assert (code_of(server.address), code_of(server.address + "other")) == (200, 404)
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", ""])
+def test_if_it_listens_everywhere_the_address_is_that_of_this_machine(commands, host):
+    with serving(commands, host) as server:
+        assert server.address == f"http://localhost:{server.port}/"
+
+
+def test_addresses_of_ipv6_are_in_brackets(commands):
+    server = VisualizationServer(VisualizationConfiguration(host="fe80::1"), "hello", commands)
+    assert server.address == "http://[fe80::1]:0/"
+
+
+@pytest.mark.parametrize("name", ["127.0.0.1", "localhost"])
+def test_its_own_page_and_the_public_viewer_connect(server, name):
+    for origin in (f"http://{name}:{server.port}", PUBLIC_VIEWER):
+        with connect(f"ws://{name}:{server.port}", origin=origin) as viewer:
+            assert viewer.recv(timeout=30) == "hello"
+
+
+@pytest.mark.parametrize("origin", ["https://example.org", "http://localhost:1", "null"])
+def test_no_other_page_connects(server, origin):
+    with pytest.raises(InvalidStatus) as refused, connect(url(server), origin=origin):
+        pass
+    assert refused.value.response.status_code == 403
+
+
+def test_another_name_of_this_machine_is_refused_unless_others_may_watch(commands):
+    for host, code in (("127.0.0.1", 403), ("0.0.0.0", 200)):
+        with serving(commands, host) as server:
+            assert code_of(f"http://127.0.0.1:{server.port}/", Host=f"example.org:{server.port}") == code
+
+
+def test_a_request_with_two_hosts_is_refused(server):
+    with socket.create_connection(("127.0.0.1", server.port)) as connection:
+        connection.sendall(b"GET / HTTP/1.1\r\nHost: localhost\r\nHost: example.org\r\n\r\n")
+        assert b" 500 " in connection.recv(100)
+
+
+def test_a_long_message_ends_the_connection(server):
+    with connect(url(server)) as viewer:
+        viewer.send("x" * LONGEST_MESSAGE_BYTES)
+        assert viewer.recv(timeout=30) == "hello"
+        viewer.send("x" * (LONGEST_MESSAGE_BYTES + 1))
+        with pytest.raises(ConnectionClosed) as closed:
+            viewer.recv(timeout=30)
+    assert closed.value.rcvd.code == 1009
+
+
+def never_reads(server):
+    """Connect a viewer that does not read from its socket."""
+    return connect(url(server), max_queue=1, max_size=None, close_timeout=0.1)
+
+
+def fill_buffers(server):
+    """Publish until the buffers on the way to viewers that do not read are full."""
+    for number in range(1000):
+        server.publish(f"{number} {'x' * 2_000_000}")
+        time.sleep(0.1)
+        if all(viewer.snapshot is not None for viewer in list(server._viewers)):
+            return
+    raise AssertionError("somebody reads")
+
+
+def test_a_viewer_that_pauses_and_never_reads_is_disconnected(server, monkeypatch):
+    monkeypatch.setattr(server_module, "_MESSAGE_S", 0.2)
+    with never_reads(server) as viewer:
+        viewer.send('{"interaction": "pause/resume"}')
+        while not server.is_paused:
+            time.sleep(0.01)
+        fill_buffers(server)
+        assert server._running.wait(30)
+
+
+def test_a_hundred_clients_of_all_kinds_end_with_the_server(server):
+    threads = threading.active_count()
+    with ExitStack() as clients:
+        for _ in range(25):
+            clients.enter_context(socket.create_connection(("127.0.0.1", server.port)))  # says nothing
+            asks = clients.enter_context(socket.create_connection(("127.0.0.1", server.port)))
+            asks.sendall(f"GET / HTTP/1.1\r\nHost: localhost:{server.port}\r\n\r\n".encode())
+            clients.enter_context(never_reads(server))
+        fill_buffers(server)
+        reading = [clients.enter_context(connect(url(server), max_size=None)) for _ in range(25)]
+        started = time.monotonic()
+        server.publish("the end")
+        server.stop()
+        assert time.monotonic() - started < 10
+        assert all(list(viewer)[-1] == "the end" for viewer in reading)
+    while threading.active_count() >= threads:  # those of the clients
+        time.sleep(0.01)
 
 
 def test_it_asks_for_a_snapshot_when_it_took_the_last(server):
