@@ -1,8 +1,12 @@
 """Draws the pictures of the README and the guides from runs: `make pictures`."""
 
 import json
+import re
+import socket
 import subprocess
+import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +19,8 @@ from gradysim.replay.sink import ReplayWriter
 from gradysim.scenario import load_scenarios
 
 HERE = Path(__file__).parent
-CONFIGS = HERE.parents[1] / "configs"
+ROOT = HERE.parents[1]
+CONFIGS = ROOT / "configs"
 
 
 def pictures(
@@ -53,9 +58,13 @@ def draw_shot(folder: Path, shot: Shot) -> None:
     (picture,) = pictures(
         folder, CONFIGS / shot.file, shot.config, f"{shot.time_s + 2}s", shot.address, [shot.time_s]
     )
-    picture.quantize(128, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(
-        HERE / f"{shot.name}.png", optimize=True
-    )
+    save(picture, shot.name)
+
+
+def save(picture: Image.Image, name: str) -> None:
+    """Write a picture of a guide."""
+    few_colors = picture.quantize(128, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few_colors.save(HERE / f"{name}.png", optimize=True)
 
 
 def draw_film(folder: Path) -> None:
@@ -70,11 +79,41 @@ def draw_film(folder: Path) -> None:
     film[0].save(HERE / "replay.gif", save_all=True, append_images=film[1:], duration=120, loop=0)
 
 
+def is_listening(port: int) -> bool:
+    """Return whether a server listens on this port of this machine."""
+    with socket.socket() as client:
+        return client.connect_ex(("127.0.0.1", port)) == 0
+
+
+def draw_viewer(folder: Path) -> None:
+    """Draw what the guide of handlers shows in the browser."""
+    guide = (ROOT / "docs/guides/handlers.md").read_text()
+    climber, *programs = re.findall(r"^```python\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
+    (ini,) = re.findall(r"^```ini\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
+    (folder / "climber.py").write_text(climber)
+    (folder / "watch.py").write_text("\n\n".join(programs) + "\nshow('watch.ini')\n")
+    (folder / "watch.ini").write_text(ini.replace("10s", "1000s"))
+    asked = {"url": "http://localhost:5678/#node=Climber%201", "after": 6, "pause": True}
+    asked |= {"width": 900, "height": 560, "screenshot": str(folder / "viewer.png")}
+    with subprocess.Popen([sys.executable, "watch.py"], cwd=folder) as run:
+        try:
+            while run.poll() is None and not is_listening(5678):
+                time.sleep(0.1)
+            browser = ROOT / "tests/viewer/browser.mjs"
+            subprocess.run(
+                ["node", browser], input=json.dumps(asked), text=True, check=True, stdout=subprocess.DEVNULL
+            )
+        finally:
+            run.kill()
+    save(Image.open(folder / "viewer.png").convert("RGB"), "viewer")
+
+
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
         draw_film(Path(name))
         for shot in SHOTS:
             draw_shot(Path(name), shot)
+        draw_viewer(Path(name))
     curve = HERE / "curve.png"
     main(
         ["calibrate", str(CONFIGS / "zigzag.ini"), "-c", "ZigZag5", "--range", "50m", "--picture", str(curve)]
