@@ -73,7 +73,7 @@ def runs_of(file: Path, config: str) -> tuple[list[set[str]], set[str]]:
     sections = search_order(read_ini(file), config)
     entries, variables = name_iterations(entries_in_order((), sections))
     options = {entry.key: entry for entry in reversed(entries) if is_option(entry)}
-    numbered, _ = numbered_runs(options, variables, config, None, sections[0].source, "runs")
+    numbered = numbered_runs(options, variables, config, None, sections[0].source, "runs")
     last = run_variables(file, "Network", config, *numbered[-1])
     return (
         [

@@ -54,7 +54,7 @@ def calibrate_power(
     from gradysim.scenario.sweep import text_of_iterations
 
     try:
-        scenario = check(file, config, "0", settings).scenarios[0]
+        scenario = check(file, config, "0", settings)[0]
         if not 0 < ratio < 1:
             hint = f"; did you mean {ratio / 100:g}?" if 1 < ratio < 100 else ""
             raise ConfigError(

@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from gradysim.cli.errors import MISTAKE, OK, say_mistake
 from gradysim.cli.options import FileArgument, Mode, SetOption
-from gradysim.cli.runs import check, findings_of, placed
+from gradysim.cli.runs import check, findings_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -76,8 +76,7 @@ def _checked(
     before = len(errors.errors)
     findings: list[Finding] = []
     with errors.collecting():
-        checked = check(file, config, None, settings)
-        scenarios = placed(checked, checked.scenarios)
+        scenarios = check(file, config, None, settings).checked_in_full()
         for scenario in scenarios:
             with errors.collecting():
                 check_scenario(scenario)

@@ -211,8 +211,11 @@ def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
         raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")
 
 
-def check_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
-    """Raise ConfigError for a name that an option was given, and that no node has in any of these runs."""
+def check_names(scenarios: "Sequence[Scenario]", options: RunOptions, run_count: int) -> None:
+    """Raise ConfigError for a name that an option was given, and that no node has in any of `run_count` runs.
+
+    `scenarios` are runs with all nodes that there are.
+    """
     from gradysim.scenario.scenario import check_node_names
 
     for option, names in (
@@ -222,4 +225,4 @@ def check_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
         ("--replay", options.replay),
         ("--trace", options.trace),
     ):
-        check_node_names(scenarios, names, option)
+        check_node_names(scenarios, names, option, run_count)

@@ -12,6 +12,7 @@ from gradysim.cli.options import Mode, RunOptions
 if TYPE_CHECKING:
     from gradysim.replay.sink import ReplaySink
     from gradysim.results.result import RunResult
+    from gradysim.scenario.load import Study
     from gradysim.scenario.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
 
@@ -223,12 +224,14 @@ def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", options: RunOp
         yield f"vectors in {path}"
 
 
-def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Scenario]":
-    """Return the runs that lack a file that is asked for, and say which do not, and which are outdated.
+def left_to_do(study: "Study", options: RunOptions) -> list[int]:
+    """Return the places in `study` of runs that lack a file that is asked for.
+
+    Says which do not, and which are outdated.
 
     Raises ConfigError without a folder.
     """
-    from gradysim.results.files import files_changed_since
+    from gradysim.results.files import files_changed_since, run_file
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_files, text_of_runs
 
@@ -240,24 +243,28 @@ def left_to_do(scenarios: "Sequence[Scenario]", options: RunOptions) -> "list[Sc
         )
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
-    for scenario in scenarios:
+    for place, number in enumerate(study.numbers):
+        if not run_file(result_dir, study.config, number, options.mode).exists():
+            left.append(place)
+            continue
+        scenario = study[place]
         complete = _has_left_its_files(scenario, options)
         changed = files_changed_since(scenario, options.mode, result_dir, ids_of_fates(scenario, options))
         if changed == () and complete:
-            done.append(scenario.run_number)
+            done.append(number)
             continue
-        left.append(scenario)
+        left.append(place)
         if changed:
-            outdated.setdefault(changed, []).append(scenario.run_number)
+            outdated.setdefault(changed, []).append(number)
     for files, runs in outdated.items():
         print(
-            f"{scenarios[0].config}: {text_of_files(files)} changed after {len(runs)} of {len(scenarios)}"
+            f"{study.config}: {text_of_files(files)} changed after {len(runs)} of {len(study)}"
             f" runs in {result_dir} ({text_of_runs(runs)}), which begin anew",
             file=sys.stderr,
         )
     if done:
         print(
-            f"{scenarios[0].config}: {len(done)} of {len(scenarios)} runs {'is' if len(done) == 1 else 'are'}"
+            f"{study.config}: {len(done)} of {len(study)} runs {'is' if len(done) == 1 else 'are'}"
             f" in {result_dir} ({text_of_runs(done)}) and left out",
             file=sys.stderr,
         )

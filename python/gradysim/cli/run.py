@@ -3,6 +3,7 @@
 import gc
 import os
 import sys
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import chdir, nullcontext, redirect_stdout, suppress
 from functools import partial
@@ -20,22 +21,27 @@ from gradysim.cli.output import (
     make_result_dir,
     write_files,
 )
-from gradysim.cli.runs import check, findings_of, placed, tell, warnings_of_seeds
+from gradysim.cli.runs import check, findings_of, tell, warnings_of_seeds
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
     from rich.console import Console
 
+    from gradysim.scenario.load import Study
     from gradysim.scenario.scenario import Scenario
 
     Reported = tuple[int, OSError | None]
     """The exit code of a run, and the error if standard output takes no more."""
 
-    CarryOut = Callable[[Scenario], Reported]
+    CarryOut = Callable[[int], Reported]
+    """Carries out the run at a place of a study."""
 
 
 DEFAULTS = RunOptions()
+
+_MOST_SUBMITTED = 1000
+"""Runs that an executor is given before the first of them has ended."""
 
 _SHOW_CURSOR = "\r\x1b[?25h"
 """A progress bar hides it, and a worker that dies leaves it so."""
@@ -74,74 +80,75 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         # What protocols print when they are imported must not get between the JSON objects.
         with redirect_stdout(sys.stderr) if options.as_json else nullcontext():
             with waiting(f"reading {file}", shown=bar):
-                checked = check(file, options.config, options.runs, options.settings, options.seed)
-            scenarios: Sequence[Scenario] = checked.scenarios
+                study = check(file, options.config, options.runs, options.settings, options.seed)
+                checked = study.checked_in_full()
             check_network, build = simulator(options)
-            check_names(scenarios, options)
-            check_file_names(scenarios, options)
-            tell(warnings_of_seeds(scenarios))
+            check_names(checked, options, len(study))
+            check_file_names(study, options)
+            tell(warnings_of_seeds(study))
+            left: Sequence[int] = range(len(study))
             if options.resume:
-                scenarios = left_to_do(scenarios, options)
-                if not scenarios:
+                left = left_to_do(study, options)
+                if not left:
                     return OK
             if options.writes_files:
                 check_may_be_written_to(options.directory)
-            with waiting(f"reading {file}", shown=bar):
-                scenarios = placed(checked, scenarios)
             with waiting(f"checking {options.config}", shown=bar):
                 errors = ErrorCollector()
-                for scenario in scenarios:
+                for scenario in checked:
                     with errors.collecting():
-                        check_network(scenario, is_built_next=len(scenarios) == 1)
+                        check_network(scenario, is_built_next=len(left) == 1)
                 errors.raise_all()
-            tell(findings_of(scenarios, options.mode))
+            tell(findings_of(checked, options.mode))
     except (ConfigError, CompiledPartMissingError, OSError) as mistake:
         return say_mistake(mistake)
 
-    def carry_out(scenario: "Scenario") -> "Reported":
+    def carry_out(place: int) -> "Reported":
         gc.enable()
         try:
             with redirect_stdout(sys.stderr) if options.as_json else nullcontext(), chdir("."):
+                scenario = study[place]
                 outcome = execute(build, scenario, interrupt, terminal)
-            if scenario is scenarios[0]:
+            if place == left[0]:
                 tell(outcome.findings)
             write = partial(write_files, scenario, options=options)
-            return report(outcome, write, options, names.get(scenario.run_number))
+            return report(outcome, write, options, begin_of_line(scenario) if has_lines else None)
         except KeyboardInterrupt:  # while it was built
             return INTERRUPTED, None
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake), None
 
-    names = {} if options.details else names_of_runs(checked.scenarios)
-    has_lines = bool(names) and not (options.as_json or options.quiet)
+    has_lines = len(study) > 1 and not options.details
+    begin_of_line = line_of_runs(study)
     report_crashes()
     terminal = error_terminal() if bar and options.jobs == 1 and not options.trace else None
     import_what_runs_use(options)
     with StopOnInterrupt() as interrupt:
         workers = ForkExecutor(options.jobs, interrupt) if executor is None else nullcontext(executor)
         with workers as chosen:
-            code = run_all(scenarios, carry_out, chosen)
-    if code == OK and has_lines and (options.writes_files or options.pcap):
+            code = run_all(study, left, carry_out, chosen)
+    if (
+        code == OK
+        and has_lines
+        and not (options.as_json or options.quiet)
+        and (options.writes_files or options.pcap)
+    ):
         print(f"files in {options.directory}")
     return code
 
 
-def names_of_runs(scenarios: "Sequence[Scenario]") -> dict[int, str]:
-    """Return {run number: the begin of its line}, of equal length; nothing for one run."""
+def line_of_runs(study: "Study") -> "Callable[[Scenario], str]":
+    """Return what gives the beginning of the line of a run; all have one length."""
     from gradysim.scenario.sweep import text_of_iterations
 
-    if len(scenarios) < 2:
-        return {}
-    number_width = len(str(scenarios[-1].run_number))
-    values = {
-        each.run_number: f"{text_of_iterations(each.iterations)} #{each.repetition}".lstrip()
-        for each in scenarios
-    }
-    width = max(map(len, values.values()))
-    config = scenarios[0].config
-    return {
-        number: f"{config} run {number:{number_width}}  {text:{width}}" for number, text in values.items()
-    }
+    number_width = len(str(study.numbers[-1]))
+    values_width = study.width_of_iterations()
+
+    def begin(scenario: "Scenario") -> str:
+        values = f"{text_of_iterations(scenario.iterations)} #{scenario.repetition}".lstrip()
+        return f"{study.config} run {scenario.run_number:{number_width}}  {values:{values_width}}"
+
+    return begin
 
 
 def error_terminal() -> "Console | None":
@@ -167,8 +174,8 @@ def import_what_runs_use(options: RunOptions) -> None:
         import_module(name)
 
 
-def run_all(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", executor: "Executor") -> int:
-    """Let `executor` carry out runs, and return the exit code of the command.
+def run_all(study: "Study", left: Sequence[int], carry_out: "CarryOut", executor: "Executor") -> int:
+    """Let `executor` carry out the runs at the places `left`, and return the exit code of the command.
 
     `carry_out` writes and shows what came out of a run. After a run that does not end with OK no other one
     starts. A worker that dies says nothing about the runs of others: they go on. A standard output that takes
@@ -176,34 +183,51 @@ def run_all(scenarios: "Sequence[Scenario]", carry_out: "CarryOut", executor: "E
     """
     from concurrent.futures import CancelledError
 
-    futures = [executor.submit(carry_out, scenario) for scenario in scenarios]
+    submitted: deque[tuple[int, Future[Reported]]] = deque()
+    remaining = iter(left)
+    is_over = False
 
     def cancel_others(ended: "Future[Reported]") -> None:
         if not ended.cancelled() and not _may_others_go_on(ended):
-            for future in futures:
-                future.cancel()
+            cancel()
 
-    for future in futures:
-        future.add_done_callback(cancel_others)
+    def cancel() -> None:
+        nonlocal is_over
+        is_over = True
+        for _, future in submitted:
+            future.cancel()
+
+    def submit() -> None:
+        while not is_over and len(submitted) < _MOST_SUBMITTED:
+            place = next(remaining, None)
+            if place is None:
+                return
+            future = executor.submit(carry_out, place)
+            submitted.append((place, future))
+            future.add_done_callback(cancel_others)
+
     codes: dict[int, int] = {}
     output_error: OSError | None = None
     try:
-        for index, (scenario, future) in enumerate(zip(scenarios, futures, strict=True)):
+        submit()
+        while submitted:
+            place, future = submitted[0]
+            number = study.numbers[place]
             with suppress(CancelledError):
-                codes[index], error = _shown(future, f"{scenario.config} run {scenario.run_number}")
+                codes[number], error = _shown(future, f"{study.config} run {number}")
                 if error is not None and output_error is None:
                     output_error = error
                     abandon_output()
-                    for other in futures:
-                        other.cancel()
+                    cancel()
+            submitted.popleft()
+            submit()
     except KeyboardInterrupt:  # the third one
-        for future in futures:
-            future.cancel()
-    complete = len(codes) == len(scenarios) and not any(codes.values())
+        cancel()
+    complete = len(codes) == len(left) and not any(codes.values())
     if output_error is not None and not (complete and isinstance(output_error, BrokenPipeError)):
         print(f"standard output: {output_error.strerror}", file=sys.stderr)
     if not complete:
-        _print_unfinished(scenarios, codes)
+        _print_unfinished(study, left, codes)
     if output_error is not None:
         return OK if complete and isinstance(output_error, BrokenPipeError) else MISTAKE
     return OK if complete else next((c for c in codes.values() if c not in (OK, INTERRUPTED)), INTERRUPTED)
@@ -248,18 +272,18 @@ def check_jobs(jobs: int) -> None:
         raise ConfigError(f"--jobs {jobs}: this system cannot fork a process; expected --jobs 1")
 
 
-def _print_unfinished(scenarios: "Sequence[Scenario]", codes: Mapping[int, int]) -> None:
+def _print_unfinished(study: "Study", left: Sequence[int], codes: Mapping[int, int]) -> None:
     """Say on the error output which of several runs are missing; `codes` are those of the runs that began."""
-    if len(scenarios) > 1:
-        numbers = [scenario.run_number for scenario in scenarios]
-        done = [number for index, number in enumerate(numbers) if codes.get(index) == OK]
-        left = [number for index, number in enumerate(numbers) if index not in codes]
+    if len(left) > 1:
+        numbers = [study.numbers[place] for place in left]
+        done = [number for number in numbers if codes.get(number) == OK]
+        missing = [number for number in numbers if number not in codes]
         ended = {
-            numbers[index]: "was interrupted" if code == INTERRUPTED else "failed"
-            for index, code in sorted(codes.items())
+            number: "was interrupted" if code == INTERRUPTED else "failed"
+            for number, code in sorted(codes.items())
             if code != OK
         }
-        print(text_of_unfinished(scenarios[0].config, done, ended, left), file=sys.stderr)
+        print(text_of_unfinished(study.config, done, ended, missing), file=sys.stderr)
 
 
 def text_of_unfinished(

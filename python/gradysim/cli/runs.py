@@ -11,7 +11,7 @@ from gradysim.cli.options import ConfigOption, FileArgument, SetOption
 
 if TYPE_CHECKING:
     from gradysim.scenario.lint import Finding
-    from gradysim.scenario.load import CheckedScenarios
+    from gradysim.scenario.load import Study
     from gradysim.scenario.scenario import Scenario
 
 
@@ -28,31 +28,25 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     except ConfigError as mistake:
         return say_mistake(mistake)
     with contextlib.suppress(ConfigError):  # `gradysim check` reports it
-        first = check(file, config, None, settings).scenarios[0]
+        first = check(file, config, None, settings)[0]
         tell(unread_variables(first.unread_variables, first.lines))
     return OK
 
 
 def check(
     file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
-) -> "CheckedScenarios":
-    """Return one scenario per run, checked. Raises ConfigError.
+) -> "Study":
+    """Return the runs of a configuration, checked. Raises ConfigError.
 
     Says on the error output which of `settings` have no effect, because others before them have their keys.
     """
     from gradysim.scenario.errors import ArgumentNames
-    from gradysim.scenario.load import CheckedScenarios
+    from gradysim.scenario.load import Study
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
     with contextlib.chdir("."):  # afterwards; files of protocols are carried out, and may go elsewhere
-        return CheckedScenarios(file, config, runs, settings, seed, names)
-
-
-def placed(checked: "CheckedScenarios", scenarios: "Iterable[Scenario]") -> "list[Scenario]":
-    """Return some of them with all their nodes where they are."""
-    with contextlib.chdir("."):
-        return [checked.placed(scenario) for scenario in scenarios]
+        return Study(file, config, runs, settings, seed, names)
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
@@ -75,14 +69,13 @@ def tell(warnings: "Iterable[str | Finding]") -> None:
         print(warning, file=sys.stderr)
 
 
-def warnings_of_seeds(scenarios: "Sequence[Scenario]") -> Iterator[str]:
+def warnings_of_seeds(study: "Study") -> Iterator[str]:
     """Yield a line if runs share a seed, all else being equal."""
-    seeds = {scenario.seed for scenario in scenarios}
-    different = {(scenario.seed, *scenario.iterations.values()) for scenario in scenarios}
-    if len(different) < len(scenarios):
-        same = f"seed {seeds.pop()}" if len(seeds) == 1 else "only a few different seeds"
+    if study.has_equal_runs():
+        first = study.seeds[0]
+        same = f"seed {first}" if all(seed == first for seed in study.seeds) else "only a few different seeds"
         yield (
-            f"warning: the {len(scenarios)} runs of {scenarios[0].config} have {same}: runs with one seed are"
+            f"warning: the {len(study)} runs of {study.config} have {same}: runs with one seed are"
             " identical if nothing else depends on ${runnumber}; `seed-set = ${runnumber}` is the default"
         )
 

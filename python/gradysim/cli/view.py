@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure, say_mistake
 from gradysim.cli.options import Mode, ViewOptions
-from gradysim.cli.runs import check, placed
+from gradysim.cli.runs import check
 
 if TYPE_CHECKING:
     from gradysim.cli.execution import Run
@@ -68,8 +68,7 @@ def show_live(file: Path, options: ViewOptions) -> int:
     """Run a configuration while viewers watch. Returns when the run has ended and they have left."""
     from gradysim.replay.live import LiveView
 
-    checked = check(file, options.config, str(options.run), options.settings, options.seed)
-    (scenario,) = placed(checked, checked.scenarios)
+    (scenario,) = check(file, options.config, str(options.run), options.settings, options.seed)
     live = LiveView(options.port)
     try:
         run = _built(scenario, options.mode, live)

@@ -1,17 +1,12 @@
-"""Reads a configuration of a file as scenarios, one for each run. Runs with the same network share it."""
+"""Reads a configuration of a file as scenarios, one for each run."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
-from functools import partial
-from itertools import chain
-from operator import attrgetter
+from array import array
+from collections.abc import Iterable, Mapping, Sequence, Set
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, overload
 
-from gradysim.scenario.distributions import distribution_in
+from gradysim.scenario.coverage import Coverage
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector, Source
-from gradysim.scenario.geojson import read_obstacle_files
-from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import (
     Entry,
     entries_in_order,
@@ -20,53 +15,39 @@ from gradysim.scenario.ini import (
     search_order,
     what_to_run_instead,
 )
-from gradysim.scenario.interfaces import interface_count
-from gradysim.scenario.keys import NETWORK_KEYS
-from gradysim.scenario.lookup import (
-    Lookup,
-    SettingReader,
-    is_ignored,
-    is_option,
-    network_name,
-    options_in_force,
-    read_scalar,
-    read_struct,
-)
-from gradysim.scenario.native_protocols import file_of_native
-from gradysim.scenario.nodes import build_nodes, load_protocols
-from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
-from gradysim.scenario.protocols import ProtocolLoader
+from gradysim.scenario.lookup import is_ignored, is_option, network_name, options_in_force, read_scalar
+from gradysim.scenario.networks import Networks
 from gradysim.scenario.runs import (
-    FileHashes,
+    NumberedRun,
     UnreadVariables,
     check_seeds_of_runs,
     entries_of_the_hash,
-    line_instead,
     numbered_runs,
     seed_of_file,
     settings_hash,
-    unread_variables,
     whole_seed,
 )
-from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
+from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import OPTIONS
 from gradysim.scenario.sweep import (
-    IterationVariable,
+    REPETITION,
     depends_on_run,
     free_text,
     name_iterations,
     run_variables,
     substitute,
     substituted,
+    text_of_iterations,
+    variables_in,
     with_labels,
 )
-from gradysim.scenario.unknown_keys import (
-    NoSuchNodeError,
-    ProtocolAndInterfaces,
-    check_names,
-    check_option,
-    check_parameters,
-)
+from gradysim.scenario.unknown_keys import check_option
+
+_CHECKED_IN_FULL = 100
+"""Networks of a study that are read and built before its first run, all combinations of values."""
+
+_MOST_CHECKED = 300
+"""Networks that are read before the first run if each has a value that no other one has."""
 
 _MOST_FAILED = 20
 """Combinations of iteration variables with errors, after which reading stops."""
@@ -98,16 +79,20 @@ def load_scenarios(
         ConfigError: Anything is wrong. Several errors are a ConfigErrors, whose `errors` are sorted by line.
         TypeError: An argument has the wrong type.
     """
-    checked = CheckedScenarios(file, config, runs, overrides, seed, names)
-    return [checked.placed(scenario) for scenario in checked.scenarios]
+    return list(Study(file, config, runs, overrides, seed, names))
 
 
-class CheckedScenarios:
-    """The checked runs of a configuration.
+class Study(Sequence[Scenario]):
+    """The wanted runs of a configuration, checked. A scenario is made when it is asked for.
+
+    The first `_CHECKED_IN_FULL` networks are checked in full, and then those with values that are in none of
+    them. Beyond `_MOST_CHECKED` networks, values are checked by themselves. Making a scenario that was not
+    checked in full raises ConfigError for what is wrong.
 
     Attributes:
-        scenarios: One per run, by run number. Those that differ only in their seeds may have the nodes of the
-            first of them; `placed` returns them with their own nodes.
+        config: Name of the configuration.
+        numbers: Numbers of the runs.
+        seeds: Seeds of the runs.
     """
 
     def __init__(
@@ -122,98 +107,174 @@ class CheckedScenarios:
         """Read and check it; arguments and exceptions are those of `load_scenarios`."""
         if not isinstance(config, str):
             raise TypeError(f"{names.config} {config!r}: expected the name of a configuration")
-        if seed is not None:
-            seed = whole_seed(seed)
-        file = Path(file)
+        self._seed = None if seed is None else whole_seed(seed)
+        self.config = config
+        self._file = file = Path(file)
         ini = read_ini(file)
-        sections = tuple(search_order(ini, config))
-        source = sections[0].source
-        lines = entries_in_order(read_overrides(file, overrides, names.overrides), sections)
+        self._sections = tuple(search_order(ini, config))
+        self._source = source = self._sections[0].source
+        lines = entries_in_order(read_overrides(file, overrides, names.overrides), self._sections)
         errors = ErrorCollector()
         for entry in lines:
             if is_option(entry):
                 with errors.collecting():
                     check_option(entry)
         try:
-            network_of_file = network_name(lines)
+            self._network = network_name(lines)
             lines, variables = name_iterations(lines)
-            as_written = options_in_force(lines)
-            numbered, run_count = numbered_runs(as_written, variables, config, runs, source, names.runs)
-            if seed is not None:
-                check_seeds_of_runs(seed, max((number for number, _, _ in numbered), default=0), names.seed)
+            self._options = options_in_force(lines)
+            self._runs = numbered_runs(self._options, variables, config, runs, source, names.runs)
+            if self._seed is not None and self._runs:
+                check_seeds_of_runs(self._seed, self._runs.numbers[-1], names.seed)
         except ConfigError as error:  # without runs there is nothing else to check
             errors.add(error)
             raise errors.combined() from None
+        self._lines = tuple(lines)
+        read = [line for line in lines if not is_ignored(line)]
+        self._names = set[str]().union(*(variables_in(line.text) for line in read))
+        self._options_differ = any(map(depends_on_run, self._options.values()))
+        self._hashed = entries_of_the_hash(lines)
+        self._hashes: dict[tuple[str, ...], str] = {}
+        instead = what_to_run_instead(ini, config, self._sections, names.config)
+        self._networks = Networks(lines, file.parent, instead, source)
+        self._coverage = Coverage(lines, self._options, variables, self._runs)
+        self._checked: list[int] = []
+        self._unread: tuple[UnreadVariables, ...] = ()
+        self.numbers = self._runs.numbers
+        self.seeds = self._seeds(errors)
+        self._check(errors)
+        errors.raise_all()
+        if len(self._runs) == self._runs.run_count and len(self._checked) < _MOST_CHECKED:
+            self._networks.check_lines_of_other_runs()
+            self._unread = self._networks.unread(variables)
 
-        instead = what_to_run_instead(ini, config, sections, names.config)
-        networks = self._networks = Networks(lines, file.parent, instead, source)
-        self._elsewhere: dict[int, dict[str, str]] = {}  # variables of runs with a network of another seed
-        in_force = entries_of_the_hash(lines)
-        hashes: dict[tuple[str, ...], str] = {}  # by the values of the iterations: no more of a run is in it
-        made: list[Callable[..., Scenario]] = []
+    def _check(self, errors: ErrorCollector) -> None:
         failed: set[tuple[str, ...]] = set()
-        for number, repetition, iterations in numbered:
-            key = tuple(iterations.values())
+        for index in range(len(self._runs)):
+            network = self._coverage.network_of(index)
+            is_new = self._coverage.adds_a_value(index)
+            is_checked = self._networks.is_checked(network, self.seeds[index])
+            if not is_new and (is_checked or len(self._checked) >= _CHECKED_IN_FULL):
+                continue
+            run = self._runs[index]
+            key = tuple(run.iterations.values())
             if key in failed:
                 continue
             if len(failed) == _MOST_FAILED:
-                break
-            values = run_variables(file, network_of_file, config, number, repetition, iterations)
-            limit_s, of_file = 1.0, 0
+                return
             error_count = len(errors.errors)
             with errors.collecting():
-                with errors.collecting():
-                    of_file = seed_of_file(as_written, number, values)
-                seed_of_run = of_file if seed is None else seed + number
-                if key not in hashes:
-                    hashed = with_labels(values, seed_of_run, as_written, for_hash=True)
-                    hashes[key] = settings_hash(substituted(in_force, hashed))
-                values = with_labels(values, seed_of_run, as_written)
-                options = {name: substitute(entry, values) for name, entry in as_written.items()}
-                with errors.collecting():
-                    limit_s = _sim_time_limit_s(options, config, source)
-                    interval_s = _vector_record_interval_s(options)
-                description = _description(options)
-                network, is_its_own = networks.checked(values, seed_of_run)
+                values = self._variables(run, self.seeds[index], self._names)
+                if index == 0 or self._options_differ:
+                    with errors.collecting():
+                        self._settings(values)
+                if len(self._checked) >= _MOST_CHECKED:
+                    self._networks.check_values(values)
+                elif not is_checked:
+                    self._networks.check(network, values, self.seeds[index])
+                    self._checked.append(index)
             if len(errors.errors) > error_count:
                 failed.add(key)
-                continue
-            if not is_its_own:
-                self._elsewhere[number] = values
-            made.append(
-                partial(
-                    Scenario,
-                    file=file,
-                    config=config,
-                    run_number=number,
-                    seed=seed_of_run,
-                    description=description,
-                    sim_time_limit_s=limit_s,
-                    vector_record_interval_s=interval_s,
-                    **network.fields,
-                    sections=sections,
-                    repetition=repetition,
-                    iterations=iterations,
-                    settings_hash=hashes[key],
-                    run_count=run_count,
-                    network=network_of_file,
-                    lines=tuple(lines),
-                )
-            )
-        errors.raise_all()
-        if len(numbered) < run_count:  # the other runs may have more nodes, and read other lines
-            self.scenarios = [make() for make in made]
-            return
-        networks.check_lines_of_other_runs()
-        unread = networks.unread(variables)
-        self.scenarios = [make(unread_variables=unread) for make in made]
 
-    def placed(self, scenario: Scenario) -> Scenario:
-        """Return one of the scenarios with its nodes where they are."""
-        variables = self._elsewhere.get(scenario.run_number)
-        if variables is None:
-            return scenario
-        return replace(scenario, **self._networks.of_run(variables, scenario.seed).fields)
+    def __len__(self) -> int:
+        return len(self._runs)
+
+    @overload
+    def __getitem__(self, index: int) -> Scenario: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Scenario]: ...
+
+    def __getitem__(self, index: int | slice) -> Scenario | list[Scenario]:
+        if isinstance(index, slice):
+            return [self[each] for each in range(len(self))[index]]
+        index = range(len(self))[index]
+        run, seed = self._runs[index], self.seeds[index]
+        variables = self._variables(run, seed)
+        return Scenario(
+            file=self._file,
+            config=self.config,
+            run_number=run.number,
+            seed=seed,
+            **self._settings(variables),
+            **self._networks.of_run(self._coverage.network_of(index), variables, seed),
+            sections=self._sections,
+            repetition=run.repetition,
+            iterations=run.iterations,
+            settings_hash=self._hash(run, seed),
+            run_count=self._runs.run_count,
+            network=self._network,
+            lines=self._lines,
+            unread_variables=self._unread,
+        )
+
+    def checked_in_full(self) -> list[Scenario]:
+        """Return the scenarios whose networks were checked: at least the first one.
+
+        Each node of the study, and each line in force, is in one of them, unless there are too many.
+        """
+        return [self[index] for index in self._checked]
+
+    def has_equal_runs(self) -> bool:
+        """Return whether runs share a seed, all else being equal."""
+        if isinstance(self.seeds, range):
+            return False
+        runs = {(seed, *run.iterations.values()) for seed, run in zip(self.seeds, self._runs, strict=True)}
+        return len(runs) < len(self._runs)
+
+    def width_of_iterations(self) -> int:
+        """Return the width of the longest `$x=1, $speed=5 #0` of a run."""
+        return max(
+            len(f"{text_of_iterations(run.iterations)} #{run.repetition}".lstrip()) for run in self._runs
+        )
+
+    def _seeds(self, errors: ErrorCollector) -> Sequence[int]:
+        """Return the seeds of all runs; `errors` takes what is wrong with those of the file."""
+        entry, numbers = self._options.get("seed-set"), self._runs.numbers
+        of_file: Sequence[int] = numbers
+        if entry is not None and not depends_on_run(entry):
+            with errors.collecting():
+                of_file = [seed_of_file(entry, {})] * len(numbers)
+        elif entry is not None:
+            seeds, names = array("q"), variables_in(entry.text)
+            count = len(errors.errors)
+            for run in self._runs:
+                with errors.collecting():
+                    seeds.append(seed_of_file(entry, self._variables(run, None, names)))
+                if len(errors.errors) - count == _MOST_FAILED:
+                    break
+            of_file = seeds if len(seeds) == len(numbers) else numbers
+        if self._seed is None:
+            return of_file
+        if isinstance(numbers, range):
+            return range(self._seed, self._seed + len(numbers))
+        return [self._seed + number for number in numbers]
+
+    def _variables(self, run: NumberedRun, seed: int | None, names: Set[str] | None = None) -> dict[str, str]:
+        """Return the variables of a run, at least those called `names`; without a seed, not its labels."""
+        plain = {**run.iterations, "runnumber": str(run.number), REPETITION: str(run.repetition)}
+        if names is not None and names <= plain.keys():
+            return plain  # ten times faster
+        values = run_variables(self._file, self._network, self.config, *run)
+        return values if seed is None else with_labels(values, seed, self._options)
+
+    def _settings(self, variables: Mapping[str, str]) -> dict[str, Any]:
+        """Return the fields of a Scenario that are options. Raises ConfigError."""
+        options = {name: substitute(entry, variables) for name, entry in self._options.items()}
+        return {
+            "sim_time_limit_s": _sim_time_limit_s(options, self.config, self._source),
+            "vector_record_interval_s": _vector_record_interval_s(options),
+            "description": _description(options),
+        }
+
+    def _hash(self, run: NumberedRun, seed: int) -> str:
+        """Return the hash of the settings of a run: no more of it is in the hash than its iterations."""
+        key = tuple(run.iterations.values())
+        if key not in self._hashes:
+            values = run_variables(self._file, self._network, self.config, *run)
+            values = with_labels(values, seed, self._options, for_hash=True)
+            self._hashes[key] = settings_hash(substituted(self._hashed, values))
+        return self._hashes[key]
 
 
 def _sim_time_limit_s(options: Mapping[str, Entry], config: str, source: Source) -> float:
@@ -244,169 +305,4 @@ def runs_of(
     overridden = read_overrides(Path(file), overrides, names.overrides)
     lines, variables = name_iterations(entries_in_order(overridden, sections))
     as_written = options_in_force(lines)
-    return numbered_runs(as_written, variables, config, None, sections[0].source, names.runs)[0]
-
-
-class Network(NamedTuple):
-    """The network of a run: nodes, medium and obstacles.
-
-    Attributes:
-        fields: Those of a Scenario, by name.
-        lines_of_other_runs: Lines about nodes that this run does not have, and other runs may have.
-        lookup: The lines in force.
-        settings: What has read their values.
-    """
-
-    fields: Mapping[str, Any]
-    lines_of_other_runs: Sequence[Source]
-    lookup: Lookup
-    settings: SettingReader
-
-
-class Networks:
-    """Reads the networks of runs, one after another."""
-
-    def __init__(self, lines: Sequence[Entry], folder: Path, instead: str, source: Source) -> None:
-        """Prepare for the first run. `lines` have variables; for the others see `read_network`."""
-        self._lines = lines
-        self._instead = instead
-        self._source = source
-        self._loader, self._hashes = ProtocolLoader(), FileHashes(folder)
-        parameters = [entry for entry in lines if not is_option(entry) and not is_ignored(entry)]
-        self._varying = [entry for entry in parameters if depends_on_run(entry)]
-        self._always_draws = any(distribution_in(entry.text) for entry in parameters)
-        self._last: tuple[list[str], int, Network] | None = None  # with the values and the seed of its run
-        self._of_other_runs: list[Sequence[Source]] = []
-        self._read: set[Source] = set()
-
-    def of_run(self, variables: Mapping[str, str], seed: int) -> Network:
-        """Return the network of a run: that of the previous run if the same lines make it.
-
-        Raises ConfigError for anything that is wrong.
-        """
-        network, is_its_own = self.checked(variables, seed)
-        return network if is_its_own else self._read_network(self._texts(variables), variables, seed)
-
-    def checked(self, variables: Mapping[str, str], seed: int) -> tuple[Network, bool]:
-        """Return the network of a run, or one with another seed that is valid if and only if this one is.
-
-        Also returns whether it is that of the run. Raises ConfigError for anything that is wrong.
-        """
-        texts = self._texts(variables)
-        if self._last is not None and self._last[0] == texts:
-            _, last_seed, last = self._last
-            if seed == last_seed or not (self._always_draws or any(map(distribution_in, texts))):
-                return last, True
-            if last.settings.is_right_for_all_seeds():
-                return last, False
-        return self._read_network(texts, variables, seed), True
-
-    def _texts(self, variables: Mapping[str, str]) -> list[str]:
-        """Return the values that differ between networks, before any are drawn."""
-        return [substitute(entry, variables).text for entry in self._varying]
-
-    def _read_network(self, texts: list[str], variables: Mapping[str, str], seed: int) -> Network:
-        settings = SettingReader(seed)
-        entries = substituted(self._lines, variables)
-        network = read_network(entries, settings, self._loader, self._hashes, self._instead, self._source)
-        self._of_other_runs.append(network.lines_of_other_runs)
-        self._read |= settings.lines_read()
-        self._last = texts, seed, network
-        return network
-
-    def check_lines_of_other_runs(self) -> None:
-        """Raise ConfigError for the lines that all runs leave to other runs."""
-        errors = ErrorCollector()
-        first, *others = self._of_other_runs
-        for line in first:
-            if all(line in lines for lines in others):
-                problem, expected = f"`{line.key}` matches no node in any run", "a node that some run has"
-                errors.add(NoSuchNodeError(problem, line, expected=expected))
-        errors.raise_all()
-
-    def unread(self, variables: Sequence[IterationVariable]) -> tuple[UnreadVariables, ...]:
-        """Return the variables that no run has read."""
-        assert self._last is not None
-        network = self._last[2]
-        nodes = [spec.name for spec in network.fields["nodes"]]
-        return tuple(
-            UnreadVariables(line, names, line_instead(line, network.lookup, nodes))
-            for line, names in unread_variables(self._lines, variables, self._read).items()
-        )
-
-
-def read_network(
-    entries: list[Entry],
-    settings: SettingReader,
-    loader: ProtocolLoader,
-    hashes: FileHashes,
-    instead: str,
-    source: Source,
-) -> Network:
-    """Read the network of a run, whose entries have values instead of variables.
-
-    `instead` is the end of messages about nodes that do not exist, `source` the place of the configuration.
-    Raises ConfigError for all that is wrong.
-    """
-    errors = ErrorCollector()
-    lookup = Lookup(entries)
-    groups = find_groups(lookup, settings, errors)
-    lines_of_other_runs = check_names(lookup, groups, errors)
-    errors.errors = [
-        error.with_hint(instead) if isinstance(error, NoSuchNodeError) else error for error in errors.errors
-    ]
-    protocols = load_protocols(lookup, groups, settings, loader, errors)
-    if not protocols:
-        errors.raise_all()
-        raise _no_nodes(groups, instead, source)
-    counts = {name: interface_count(name, lookup, settings, errors) for name in protocols}
-    obstacles_below = obstacle_count(lookup, settings, errors)
-    kinds = {name: ProtocolAndInterfaces(protocol.cls, counts[name]) for name, protocol in protocols.items()}
-    check_parameters(lookup, groups, kinds, obstacles_below, errors)
-
-    found = {
-        key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None
-    }
-    path_of = attrgetter("path")
-    communication = read_struct("communication_medium", found, settings, path_of, errors)
-    reference = read_struct("reference", found, settings, path_of, errors)
-    latitude, longitude, altitude = (
-        float(reference[field].value) if field in reference else 0.0
-        for field in ("latitude_deg", "longitude_deg", "altitude_m")
-    )
-    nodes = build_nodes(lookup, groups, protocols, counts, settings, errors)
-    medium = read_struct("medium", found, settings, path_of, errors)
-    obstacles = read_obstacles(obstacles_below, lookup, settings, errors)
-    obstacle_files: dict[Path, tuple[ObstacleSpec, ...]] = {}
-    with errors.collecting():
-        is_placed = {"latitude_deg", "longitude_deg"} <= reference.keys()
-        obstacle_files = read_obstacle_files(
-            lookup, settings, (latitude, longitude, altitude) if is_placed else None
-        )
-    errors.raise_all()
-    chosen = set(protocols.values())
-    files = [file for protocol in chosen for file in protocol.files]
-    files += [*obstacle_files, *settings.files()]
-    return Network(
-        {
-            "nodes": nodes,
-            "medium": medium,
-            "communication_medium": CommunicationMediumSpec(
-                **{field: float(setting.value) for field, setting in communication.items()}
-            ),
-            "reference_coordinates": (latitude, longitude, altitude),
-            "obstacles": (*obstacles, *chain.from_iterable(obstacle_files.values())),
-            "file_hashes": hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
-        },
-        lines_of_other_runs,
-        lookup,
-        settings,
-    )
-
-
-def _no_nodes(groups: Sequence[Group], instead: str, source: Source) -> ConfigError:
-    for group in groups:  # each has a number of nodes, and it is 0
-        if group.size_found is not None:
-            size = group.size_found.entry.source
-            return ConfigError.at(size, "there are no nodes", expected="at least one", hint=instead)
-    return ConfigError("there are no nodes", source, expected="some, such as `*.numUavs = 2`", hint=instead)
+    return numbered_runs(as_written, variables, config, None, sections[0].source, names.runs)

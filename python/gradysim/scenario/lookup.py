@@ -336,6 +336,10 @@ class SettingReader:
         """Return the lines of the values read so far."""
         return frozenset(entry.source for entry in self._read.values())
 
+    def types_read(self) -> list[tuple[Source, ParameterType]]:
+        """Return lines whose values were read and are the same for all parameters, with their types."""
+        return [(entry.source, kind) for entry, kind, _ in self._settings.values()]
+
     def is_right_for_all_seeds(self) -> bool:
         """Whether runs that differ from this one only in their seed are valid if this one is."""
         return all(self._right_for_all_seeds.values())

@@ -132,15 +132,17 @@ def nodes_named(scenario: Scenario, names: Iterable[str]) -> list[NodeSpec]:
     return [chosen[node_id] for node_id in sorted(chosen)]
 
 
-def check_node_names(scenarios: Sequence[Scenario], names: Iterable[str], option: str) -> None:
+def check_node_names(
+    scenarios: Sequence[Scenario], names: Iterable[str], option: str, run_count: int
+) -> None:
     """Raise ConfigError for the first name that exists in none of these runs of a configuration.
 
-    `option` is the option that has the names, `--pcap`.
+    `option` is the option that has the names, `--pcap`. The scenarios stand for `run_count` runs.
     """
     networks = list({id(scenario.nodes): scenario for scenario in scenarios}.values())
     for name in names:
         if not any(_nodes_of(scenario, name) for scenario in networks):
-            raise _no_such_node(scenarios, name, option)
+            raise _no_such_node(scenarios, name, option, run_count)
 
 
 def _nodes_of(scenario: Scenario, name: str) -> Sequence[NodeSpec]:
@@ -148,13 +150,13 @@ def _nodes_of(scenario: Scenario, name: str) -> Sequence[NodeSpec]:
     return scenario.nodes if name == ALL and not found else found
 
 
-def _no_such_node(scenarios: Sequence[Scenario], name: str, option: str) -> ConfigError:
+def _no_such_node(scenarios: Sequence[Scenario], name: str, option: str, run_count: int) -> ConfigError:
     nodes = {node.name: node for scenario in scenarios for node in scenario.nodes}
     if not nodes:
         return ConfigError(f"{option} {name}: no such node; the scenario has none")
     groups = list(dict.fromkeys(node.group for node in nodes.values()))
     where = ""
-    if len(scenarios) > 1:
+    if run_count > 1:
         where = " in any of the runs"
     elif scenarios[0].run_count > 1:  # others may have it
         where = f" in run {scenarios[0].run_number}"

@@ -9,13 +9,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation, Overflow
-from itertools import product
 from pathlib import Path
 
 from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
-from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.functions import is_quoted, text_of, unquoted
+from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.lookup import is_ignored, read_scalar
 from gradysim.scenario.schema import OPTIONS
@@ -51,9 +49,6 @@ _SAME_IN_ALL_RUNS = ("configname", "inifile", "network")
 _HIDDEN_IN_HASH = {name: f"${{{name}}}" for name in ("runnumber", REPETITION, "seedset", "inifile")}
 """Placeholders for variables in a settings hash: runs that differ only in these have the same settings."""
 
-_THE_OTHERS = "*"
-"""Stands for all other variables in `iteration-nesting-order`."""
-
 _MOST_DIGITS = 300
 """Of the numbers of a range, which are written without exponents."""
 
@@ -64,7 +59,6 @@ _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})(?:\s+step\s+({_NUMBER}))?", re.ASCII)
 _LIKE_A_RANGE = re.compile(r"[-+]?\.?\d[^\"']*\.\.", re.ASCII)
 _VARIABLE = re.compile(r"\$\{([^{}]*)\}")
-_VARIABLE_OF_CONSTRAINT = re.compile(r"\$(?:\{\s*(\w+)\s*\}|(\w+))", re.ASCII)
 _NOT_IN_FILE_NAMES = re.compile(r"[^\w!()\[\];=+@~.#,-]", re.ASCII)
 
 
@@ -254,122 +248,6 @@ def _unknown(source: Source, name: str, known: Sequence[str], left_out: Sequence
     return ConfigError.at(source, problem, expected=expected, suggestion=nearest(name, known))
 
 
-def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | None) -> list[IterationVariable]:
-    """Return the variables from the outermost to the innermost; by default in their order.
-
-    Raises ConfigError for an order that names an unknown variable, or one twice.
-    """
-    by_name = {variable.name: variable for variable in variables}
-    named = [name.strip() for name in wanted.text.strip('"').split(",") if name.strip()] if wanted else []
-    for place, name in enumerate(named):
-        if wanted and name in named[:place]:
-            raise ConfigError.at(wanted.source, f"`{name}` stands there twice; expected each once")
-        if wanted and name != _THE_OTHERS and name not in by_name:
-            raise ConfigError.at(
-                wanted.source,
-                f"there is no variable `{name}`",
-                expected=f"some of {', '.join(by_name)}, {_THE_OTHERS} for the others",
-                suggestion=nearest(name, by_name),
-            )
-    if _THE_OTHERS not in named:
-        named.append(_THE_OTHERS)
-    others = [name for name in by_name if name not in named]
-    at = named.index(_THE_OTHERS)
-    return [by_name[name] for name in [*named[:at], *others, *named[at + 1 :]]]
-
-
-def combinations(variables: Sequence[IterationVariable]) -> Iterator[dict[str, str]]:
-    """Return all combinations of values by name; the last variable changes fastest."""
-    by_name = {variable.name: variable for variable in variables}
-    leaders = {variable.name: _leader(variable, by_name).name for variable in variables}
-    free = [variable for variable in variables if not variable.follows]
-    for places in product(*(range(len(variable.values)) for variable in free)):
-        chosen = dict(zip([variable.name for variable in free], places, strict=True))
-        yield {variable.name: variable.values[chosen[leaders[variable.name]]] for variable in variables}
-
-
-def count_combinations(variables: Sequence[IterationVariable]) -> int:
-    """Return the number of combinations, without making them. ConfigError if there are too many."""
-    count = 1
-    for variable in variables:
-        count *= 1 if variable.follows else len(variable.values)
-        if count > MAX_VALUES:
-            problem = f"more than {MAX_VALUES} combinations of values; expected fewer"
-            raise ConfigError.at(variable.source, problem)
-    return count
-
-
-def check_lock_step(variables: Sequence[IterationVariable]) -> None:
-    """Raise ConfigError for a lock-step in a circle, or of variables with different numbers of values."""
-    by_name = {variable.name: variable for variable in variables}
-    for variable in variables:
-        leader = _leader(variable, by_name)
-        if len(leader.values) != len(variable.values):
-            raise ConfigError.at(
-                variable.source,
-                f"it has {len(variable.values)} values and is in lock-step with `{leader.name}`, which has"
-                f" {len(leader.values)}; expected as many",
-            )
-
-
-def _leader(variable: IterationVariable, by_name: Mapping[str, IterationVariable]) -> IterationVariable:
-    """The variable that this one is in lock-step with in the end; itself if there is none."""
-    passed = [variable.name]
-    while variable.follows:
-        if variable.follows in passed:
-            raise ConfigError.at(
-                variable.source, f"`{variable.follows}` is in lock-step with itself; expected no circle"
-            )
-        variable = by_name[variable.follows]
-        passed.append(variable.name)
-    return variable
-
-
-class Constraint:
-    """The option `constraint`: which combinations are runs, as in `$nodes * $rate < 500`.
-
-    It is an expression that is true or false. Variables are written `$x` or `${x}`, and their values take
-    their places. Each result is kept: repetitions ask for it again.
-    """
-
-    def __init__(self, entry: Entry) -> None:
-        self.source = entry.source
-        text = entry.text
-        if is_quoted(text):
-            text = text[1:-1].replace('\\"', '"')
-        self._text = text.strip()
-        self._known: dict[str, bool] = {"": True}  # that is the default
-
-    def holds(self, variables: Mapping[str, str]) -> bool:
-        """Whether a combination of values is wanted.
-
-        Raises:
-            ConfigError: The constraint is neither true nor false, or cannot be decided.
-        """
-
-        def value(match: re.Match[str]) -> str:
-            name = match[1] or match[2]
-            if name in variables:
-                return variables[name]
-            known = " or ".join(f"`${other}`" for other in variables) or "a configuration with `${x=1, 2}`"
-            raise ConfigError.at(self.source, f"there is no variable `{name}`; expected {known}")
-
-        text = _VARIABLE_OF_CONSTRAINT.sub(value, self._text)
-        if text not in self._known:
-            self._known[text] = self._decide(text)
-        return self._known[text]
-
-    def _decide(self, text: str) -> bool:
-        try:
-            value = parse_value(text)
-            if isinstance(value, bool):
-                return value
-            raise BadValue(f"`{text_of(value)}` is neither true nor false")
-        except BadValue as error:
-            error = error.with_problem(f"{error.problem} in `{text}`")
-            raise error.at(self.source, expected="comparisons such as `$x < $y && $y != 3`") from error
-
-
 def text_of_iterations(values: Mapping[str, object]) -> str:
     """Write a combination as OMNeT++ does: `$x=1, $speed=5`."""
     return ", ".join(f"${name}={value}" for name, value in values.items())
@@ -458,6 +336,11 @@ def substitute(entry: Entry, variables: Mapping[str, str]) -> Entry:
 def substituted(entries: Iterable[Entry], variables: Mapping[str, str]) -> list[Entry]:
     """Return the entries with their variables replaced, except in OMNeT++'s own entries."""
     return [entry if is_ignored(entry) else substitute(entry, variables) for entry in entries]
+
+
+def variables_in(text: str) -> set[str]:
+    """Return the names of the variables in a value."""
+    return set(_VARIABLE.findall(text))
 
 
 def depends_on_run(entry: Entry) -> bool:

@@ -4,9 +4,10 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario import ConfigError, load, load_scenarios
+from gradysim.scenario import ConfigError, load_scenarios, networks
 from gradysim.scenario.errors import OF_SCRIPT, ConfigErrors
-from gradysim.scenario.load import CheckedScenarios, read_network
+from gradysim.scenario.load import Study
+from gradysim.scenario.networks import read_network
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.unknown_keys import NoSuchNodeError
 from python.scenario.conftest import BASE
@@ -390,9 +391,9 @@ def test_errors_of_all_parts_of_a_file_are_reported_at_once(folder: Any) -> None
 PLACES = "repeat = 5\n*.uavs[*].mobility.initialX = uniform(0m, 1km)\n"
 
 
-def checked(folder: Any, added: str) -> CheckedScenarios:
+def checked(folder: Any, added: str) -> Study:
     folder.write("test.ini", BASE + added)
-    return CheckedScenarios(folder.ini, "General", None, (), None, OF_SCRIPT)
+    return Study(folder.ini, "General", None, (), None, OF_SCRIPT)
 
 
 @pytest.mark.parametrize(
@@ -407,8 +408,8 @@ def test_runs_whose_nodes_only_stand_elsewhere_are_checked_once(
     folder: Any, monkeypatch: pytest.MonkeyPatch, added: str, count: int
 ) -> None:
     read: list[object] = []
-    monkeypatch.setattr(load, "read_network", lambda *given: read.append(given) or read_network(*given))
-    assert len({id(scenario.nodes) for scenario in checked(folder, added).scenarios}) == len(read) == count
+    monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
+    assert len(checked(folder, added).checked_in_full()) == len(read) == count
 
 
 def test_they_are_placed_where_they_stand_if_read_alone(folder: Any) -> None:
@@ -417,7 +418,7 @@ def test_they_are_placed_where_they_stand_if_read_alone(folder: Any) -> None:
 
     study = checked(folder, PLACES)
     alone = [positions(load_scenarios(folder.ini, runs=str(number))[0]) for number in range(5)]
-    assert [positions(study.placed(scenario)) for scenario in study.scenarios] == alone
+    assert list(map(positions, study)) == alone
     assert [positions(scenario) for scenario in load_scenarios(folder.ini)] == alone
     assert len(set(map(str, alone))) == 5
 
@@ -425,3 +426,95 @@ def test_they_are_placed_where_they_stand_if_read_alone(folder: Any) -> None:
 def test_what_only_the_seed_of_a_later_run_makes_wrong_is_refused(folder: Any) -> None:
     with pytest.raises(ConfigError, match="with seed 4: it is out of range"):
         checked(folder, "repeat = 50\n*.uavs[*].mobility.speed = uniform(-1mps, 20mps)\n")
+
+
+THREE_SWEEPS = (
+    "*.uavs[*].mobility.speed = ${speed=1..20}mps\n"
+    "*.uavs[*].protocol.heartbeat_jitter = ${jitter=1..20}\n"
+    "*.uavs[*].mobility.lineStepX = ${step=1..20}m\n"
+)
+
+
+def networks_read(monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    """The list that each network that is read from now on adds an element to."""
+    read: list[object] = []
+    monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
+    return read
+
+
+def test_a_large_study_reads_each_value_once_and_scenarios_when_they_are_asked_for(
+    folder: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read = networks_read(monkeypatch)
+    study = checked(folder, THREE_SWEEPS + "repeat = 10\n")
+    assert (len(study), len(read)) == (80_000, 100 + 15 + 19)
+    speeds = {str(each.nodes[1].mobility["speed_mps"].value) for each in study.checked_in_full()}
+    assert len(speeds) == 20
+    last = study[-1]
+    assert (last.run_number, last.repetition, last.seed) == (79_999, 9, 79_999)
+    assert dict(last.iterations) == {"speed": "20", "jitter": "20", "step": "20"}
+    assert (len(read), last.nodes[2].initial_position) == (100 + 15 + 19 + 1, (20.0, 0.0, 0.0))
+
+
+def test_the_runs_of_a_large_study_are_those_that_are_read_alone(folder: Any) -> None:
+    study = checked(folder, THREE_SWEEPS + "*.uavs[*].mobility.initialZ = uniform(0m, 9m)\n")
+    for number in (0, 99, 100, 4321, 7999):
+        alone = load_scenarios(folder.ini, runs=[number])[0]
+        assert repr(study[number]) == repr(alone)
+        assert study[number].settings_hash == alone.settings_hash
+
+
+@pytest.mark.parametrize("place", [0, 150, 350, 499])
+def test_a_wrong_value_is_found_wherever_it_stands_in_a_sweep(folder: Any, place: int) -> None:
+    speeds = [f"{speed}mps" for speed in range(1, 501)]
+    speeds[place] = "3s"
+    with pytest.raises(ConfigError) as caught:
+        checked(folder, f"*.uavs[*].mobility.speed = ${{{', '.join(speeds)}}}\n")
+    assert (caught.value.line, caught.value.key) == (6, "*.uavs[*].mobility.speed")
+
+
+def test_all_wrong_values_of_several_sweeps_are_found_before_the_first_run(folder: Any) -> None:
+    with pytest.raises(ConfigErrors) as caught:
+        checked(folder, THREE_SWEEPS.replace("20}mps", "20, -9}mps").replace("20}m\n", "20, 1e30}m\n"))
+    assert {error.line for error in caught.value.errors} == {6, 8}
+
+
+def test_all_choices_of_nodes_and_protocols_are_combined(folder: Any) -> None:
+    choices = (
+        '*.uavs[2].protocol.class = ${class="protocols.py:Mobile", "protocols.py:Sensor"}\n'
+        "*.numUavs = ${n=1..3}\n"
+        "*.uavs[2].protocol.retries = 1\n"  # Sensor has no such parameter
+    )
+    lines = BASE.replace("*.numUavs = 2\n", "").splitlines(keepends=True)
+    folder.write("test.ini", "".join([*lines[:-1], choices, lines[-1], THREE_SWEEPS]))
+    with pytest.raises(ConfigError) as caught:
+        Study(folder.ini, "General", None, (), None, OF_SCRIPT)
+    assert (caught.value.line, caught.value.key) == (6, "*.uavs[2].protocol.retries")
+
+
+def test_what_only_a_combination_makes_wrong_is_found_before_it_runs(folder: Any) -> None:
+    study = checked(
+        folder,
+        "*.uavs[*].mobility.lineStartX = ${start=1..20}00000m * 4\n"
+        "*.uavs[*].mobility.lineStepX = ${step=1..20}00000m * 3\n",
+    )
+    with pytest.raises(ConfigError) as caught:
+        study[-1]
+    assert caught.value.line == 7
+
+
+@pytest.mark.parametrize(
+    ("seed", "equal"),
+    [
+        ("5", True),
+        ("${runnumber}", False),
+        ("${repetition}", False),
+        ("10 - ${repetition}", False),
+        ("${repetition} * 0", True),
+        ("${repetition} % 2", True),
+    ],
+)
+def test_runs_are_equal_if_all_but_their_number_is(folder: Any, seed: str, equal: bool) -> None:
+    study = checked(folder, f"repeat = 3\n*.uavs[*].mobility.speed = ${{1, 2}}mps\nseed-set = {seed}\n")
+    assert study.has_equal_runs() is equal
+    assert [scenario.seed for scenario in study] == list(study.seeds)

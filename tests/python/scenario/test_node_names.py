@@ -30,13 +30,13 @@ def scenario(make_scenario, tmp_path):
     ],
 )
 def test_nodes_by_name(scenario, names, nodes):
-    check_node_names([scenario], names, "--pcap")
+    check_node_names([scenario], names, "--pcap", 1)
     assert [node.id for node in nodes_named(scenario, names)] == nodes
 
 
 def test_an_unknown_name_says_what_there_is(scenario):
     with pytest.raises(ConfigError) as error:
-        check_node_names([scenario], ["groundstation"], "--fates-at")
+        check_node_names([scenario], ["groundstation"], "--fates-at", 1)
     assert str(error.value) == (
         "--fates-at groundstation: no such node; expected a node such as uavs[0],"
         " a group (uavs, groundStation) or all; did you mean `groundStation`?"
@@ -46,7 +46,7 @@ def test_an_unknown_name_says_what_there_is(scenario):
 def test_of_several_runs_the_one_without_such_a_node_is_named(scenario):
     one_of_two = replace(scenario, run_number=1, run_count=2)
     with pytest.raises(ConfigError) as caught:
-        check_node_names([one_of_two], ["uavs[7]"], "--pcap")
+        check_node_names([one_of_two], ["uavs[7]"], "--pcap", 1)
     assert "run 1" in caught.value.problem
 
 
@@ -57,7 +57,7 @@ def study(scenario):
 
 
 def test_a_node_that_one_of_several_runs_has(study):
-    check_node_names(study, ["uavs[2]", "all"], "--vectors")
+    check_node_names(study, ["uavs[2]", "all"], "--vectors", 2)
     assert [[node.name for node in nodes_named(scenario, ["uavs[2]"])] for scenario in study] == [
         [],
         ["uavs[2]"],
@@ -66,7 +66,7 @@ def test_a_node_that_one_of_several_runs_has(study):
 
 def test_a_node_that_none_of_several_runs_has(study):
     with pytest.raises(ConfigError) as error:
-        check_node_names(study, ["uavs[2]", "uavs[3]"], "--vectors")
+        check_node_names(study, ["uavs[2]", "uavs[3]"], "--vectors", 2)
     assert str(error.value).startswith(
         "--vectors uavs[3]: no such node in any of the runs; expected a node such as uavs[0], a group (uavs,"
     )

@@ -127,7 +127,7 @@ SOURCE = Source(Path("a.ini"), 3)
     ],
 )
 def test_selects(runs: str | list[int] | None, expected: list[int]) -> None:
-    assert select_runs(runs, 5, "X", SOURCE) == expected
+    assert list(select_runs(runs, 5, "X", SOURCE)) == expected
 
 
 @pytest.mark.parametrize("runs", ["", "a", "1,,2", "3..1", "-1", "1.5"])

@@ -3,18 +3,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from gradysim.scenario import load_scenarios
+from gradysim.scenario.combinations import check_lock_step
 from gradysim.scenario.errors import ConfigError, ConfigErrors, Source
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.sweep import (
-    Constraint,
     IterationVariable,
-    check_lock_step,
-    combinations,
-    count_combinations,
     depends_on_run,
     name_iterations,
     run_variables,
@@ -131,110 +126,12 @@ def test_mistakes(texts: list[str]) -> None:
     assert (error.line, error.key) == (len(texts), f"**.p{len(texts)}")
 
 
-def test_the_variable_that_is_written_first_changes_slowest() -> None:
-    variables = named("${x=1,2}", "${a, b}")[1]
-    assert list(combinations(variables)) == [
-        {"x": "1", "0": "a"},
-        {"x": "1", "0": "b"},
-        {"x": "2", "0": "a"},
-        {"x": "2", "0": "b"},
-    ]
-
-
 def test_a_variable_stands_inside_of_a_function() -> None:
     assert named("uniform(0s, ${1, 5}s)", '${"uniform(1)"}')[0] == ["uniform(0s, ${0}s)", "${1}"]
 
 
-def test_variables_in_lock_step_change_together() -> None:
-    variables = named("${10s, 20s ! x}", "${x=1,2}", "${y=a, b ! x}")[1]
-    assert list(combinations(variables)) == [
-        {"0": "10s", "x": "1", "y": "a"},
-        {"0": "20s", "x": "2", "y": "b"},
-    ]
-
-
-def test_without_variables_there_is_one_combination() -> None:
-    assert (list(combinations([])), count_combinations([])) == ([{}], 1)
-
-
-def test_too_many_combinations_are_refused_before_they_are_made() -> None:
-    variables = named("${1..1000}", "${1..1000}", "${1..1000}")[1]
-    with pytest.raises(ConfigError) as error:
-        count_combinations(variables)
-    assert error.value.line == 3
-
-
-@given(st.lists(st.integers(1, 4), max_size=4))
-def test_each_combination_is_there_once(lengths: list[int]) -> None:
-    variables = named(*(f"${{1..{length}}}" for length in lengths))[1]
-    found = [tuple(values.values()) for values in combinations(variables)]
-    assert len(found) == len(set(found)) == count_combinations(variables)
-    assert found == sorted(found)
-
-
 def test_the_text_of_a_combination() -> None:
     assert text_of_iterations({"x": "1", "speed": "5mps"}) == "$x=1, $speed=5mps"
-
-
-VALUES = {"x": "3", "y": "4", "t": "10ms", "p": "-80dBm", "name": '"a"', "0": "7"}
-
-
-def constraint(text: str) -> Entry:
-    return Entry("constraint", text, Source(Path("a.ini"), 7, "constraint", text))
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("$x < $y", True),
-        ("$x > $y", False),
-        ("$x <= 3", True),
-        ("$x >= 3.5", False),
-        ("${x} * ${ y } == 12", True),
-        ("$x != $y", True),
-        ("$t < 1s", True),
-        ("$t == 0.01s", True),
-        ("$p < -70dBm", True),
-        ('$name == "a"', True),
-        ('$name != "(a"', True),
-        ("($x + 1) * 2 == 8", True),
-        ("$0 == 7", True),
-        ("$x > $y || $t < 1s", True),
-        ("$x < $y && $t > 1s", False),
-        ("$x == 3 || $x == 4 && $y == 5", True),
-        ('"$x < $y"', True),
-        ('""', True),
-        ("($x < 3 || $y > 3) && !($x == $y)", True),
-        ("$x % 2 == 0", False),
-        ('$name =~ "b*"', False),
-        ('"a" == "b"', False),
-    ],
-)
-def test_constraints(text: str, expected: bool) -> None:
-    assert Constraint(constraint(text)).holds(VALUES) is expected
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "$z < 3",
-        "$x",
-        "1 < $x < 5",
-        "$x < $t",
-        "$x < 10mW",
-        "$t < 10mW",
-        "$x = 3",
-        "$x > 1 and $y > 1",
-        "$x > 1 or $y > 1",
-        "$x > 1 &&",
-        "($x > 1",
-        "$x == $name",
-    ],
-)
-def test_wrong_constraints(text: str) -> None:
-    with pytest.raises(ConfigError) as error:
-        Constraint(constraint(text)).holds(VALUES)
-    assert (error.value.line, error.value.key) == (7, "constraint")
 
 
 def variables_of(

@@ -1,0 +1,47 @@
+"""Studies of many runs: they begin at once, and a run costs no more than in a small study."""
+
+import resource
+import subprocess
+import sys
+
+from gradysim.cli.errors import FAILED
+
+INI = """
+[General]
+sim-time-limit = 1s
+*.numUavs = 10
+*.uavs[*].protocol.class = "protocol.py:Failing"
+*.uavs[*].mobility.speed = ${speed=1..10}mps
+*.uavs[*].mobility.lineStepX = ${step=1..10}m
+*.uavs[*].mobility.lineStepY = ${other=1..10}m
+repeat = 100
+"""
+
+PROTOCOL = """
+from gradysim.protocol.interface import IProtocol
+
+
+class Failing(IProtocol):
+    def initialize(self): raise RuntimeError("in the first run")
+    def handle_timer(self, timer): pass
+    def handle_packet(self, message): pass
+    def handle_telemetry(self, telemetry): pass
+    def finish(self): pass
+"""
+
+MOST_MEMORY = 200e6
+
+
+def test_a_study_of_100_000_runs_reaches_its_first_run_with_little_memory(tmp_path):
+    (tmp_path / "study.ini").write_text(INI)
+    (tmp_path / "protocol.py").write_text(PROTOCOL)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run(
+        [sys.executable, "-m", "gradysim", "run", "study.ini"], cwd=tmp_path, capture_output=True, text=True
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    assert done.returncode == FAILED
+    assert "in the first run" in done.stderr
+    assert "99999 were not begun (1..99999)" in done.stderr
+    assert after.ru_utime - before.ru_utime < 10  # of the processor; checking all runs took minutes
+    assert after.ru_maxrss * 1024 < max(MOST_MEMORY, before.ru_maxrss * 1024 + 1)
