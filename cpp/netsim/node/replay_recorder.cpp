@@ -24,7 +24,7 @@ constexpr std::size_t most_causes = 10'000;
 constexpr std::uint8_t no_longer_noticed = 255;
 constexpr std::int16_t no_power = std::numeric_limits<std::int16_t>::min();
 
-std::uint64_t ns(SimTime time) {
+constexpr std::uint64_t ns(SimTime time) {
     return static_cast<std::uint64_t>(std::max(time, SimTime{}).ps() / 1000);
 }
 
@@ -253,7 +253,8 @@ void ReplayRecorder::write(OpenFrame& frame) {
 void ReplayRecorder::count(const OpenFrame& frame) {
     const std::uint64_t start = ns(chunk_start_);
     const std::uint64_t since = frame.row.time < start ? 0 : frame.row.time - start;
-    const std::size_t bin = since / ns(density_bin);
+    constexpr std::uint64_t bin_ns = ns(density_bin);
+    const std::size_t bin = since / bin_ns;
     if (density_.frames.size() <= bin) {
         density_.frames.resize(bin + 1);
         density_.lost.resize(bin + 1);

@@ -88,8 +88,8 @@ public:
 
     void frame_begins(const Transmission& transmission, std::uint64_t noticed,
                       std::uint64_t too_weak) override;
-    void reception_ends(FrameNumber frame, NodeId receiver, FrameFate fate) override;
-    void frame_lost(FrameNumber frame, NodeId receiver, const Loss& loss) override;
+    void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) override;
+    void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) override;
 
     // Closes the chunk now. Frames whose receptions have not all ended go to the next one.
     void close_chunk();

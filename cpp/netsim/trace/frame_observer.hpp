@@ -15,6 +15,8 @@ enum class FrameFate : std::uint8_t;
 
 class FrameObserver {
 public:
+    virtual ~FrameObserver() = default;
+
     // A frame that a receiver was locked on to, and lost.
     struct Loss {
         double power_w = 0;
@@ -26,12 +28,9 @@ public:
     // the sensitivity.
     virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed,
                               std::uint64_t too_weak) = 0;
-    virtual void reception_ends(FrameNumber frame, NodeId receiver, FrameFate fate) = 0;
+    virtual void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) = 0;
     // Before reception_ends.
-    virtual void frame_lost(FrameNumber frame, NodeId receiver, const Loss& loss) = 0;
-
-protected:
-    ~FrameObserver() = default;
+    virtual void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) = 0;
 };
 
 }  // namespace netsim

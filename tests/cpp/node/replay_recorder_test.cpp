@@ -134,7 +134,7 @@ TEST(ReplayRecorder, ANodeThatIsNotRecordedHasAPathOnly) {
         config.initial_position = {x, 0, 0};
         Recorder& talker = test::add_recorder(network, config);
         talker.on_initialize = [](Recorder& self) {
-            self.node.schedule_timer("talk", SimTime::from_us(1000 * self.node.id()));
+            self.node.schedule_timer("talk", SimTime::from_us(std::int64_t{1000} * self.node.id()));
         };
         talker.on_timer = [](Recorder& self, const std::string&) { self.broadcast("hello"); };
     }
