@@ -7,6 +7,7 @@ BIN := $(VENV)/bin
 STAMPS := $(VENV)/stamps
 comma := ,
 FUZZ_SECONDS ?= 60
+MINUTES ?= 20
 # Of `make test-cpp`: a filter of GoogleTest; of `make test-python`: what pytest takes. All tests, if nothing is said.
 ONLY ?=
 
@@ -23,7 +24,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz lint lint-python lint-cpp format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads fuzz torture lint lint-python lint-cpp format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -55,6 +56,9 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 	@mkdir -p build/fuzz/corpus
 	build/fuzz/netsim_fuzzer build/fuzz/corpus -artifact_prefix=build/fuzz/ -max_total_time=$(FUZZ_SECONDS) \
 	  -timeout=20 -max_len=2000 -len_control=0 -verbosity=0 -print_final_stats=1
+
+torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUTES=20 long; prints what was lost.
+	cd tests && "$(CURDIR)/$(BIN)/python" -m python.torture $(MINUTES)
 
 lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
 

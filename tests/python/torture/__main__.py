@@ -8,21 +8,13 @@ import tempfile
 import time
 import traceback
 from collections import Counter
-from collections.abc import Callable
 from pathlib import Path
 from random import Random, SystemRandom
 
 from rich.console import Console
 from rich.table import Table
 
-from python.torture import scenarios
-
-Once = Callable[[Random, Path], int]
-"""Does harm in an empty folder, and returns how often. An AssertionError says what was lost."""
-
-KINDS: dict[str, Once] = {
-    "random scenarios, run twice": scenarios.once,
-}
+from python.torture.kinds import KINDS, Once
 
 
 def harm(once: Once, seed: int) -> tuple[int, str]:
@@ -39,7 +31,7 @@ def main(minutes: float) -> int:
     seeds = SystemRandom()
     done: Counter[str] = Counter()
     failures: Counter[str] = Counter()
-    spent_s: Counter[str] = Counter()
+    spent_s = dict.fromkeys(KINDS, 0.0)
     end_s = time.monotonic() + 60 * minutes
     while (begin_s := time.monotonic()) < end_s:
         kind = min(KINDS, key=lambda kind: spent_s[kind])

@@ -1,0 +1,15 @@
+"""The kinds of harm that `make torture` does, and the short tests a few times."""
+
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+
+from python.torture import clients, scenarios
+
+Once = Callable[[Random, Path], int]
+"""Does harm in an empty folder, and returns how often. An exception says what was lost."""
+
+KINDS: dict[str, Once] = {
+    "random scenarios, run twice": scenarios.once,
+    "hostile clients": clients.once,
+}

@@ -1,0 +1,13 @@
+"""Each kind of harm, a few times; `make torture` goes on for longer."""
+
+from random import Random
+
+import pytest
+
+from python.torture.kinds import KINDS
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("kind", KINDS)
+def test_nothing_is_lost(kind, seed, tmp_path):
+    assert KINDS[kind](Random(seed), tmp_path) > 0
