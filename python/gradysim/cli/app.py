@@ -11,7 +11,8 @@
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
 Exit codes: 0 all is well; 1 a protocol failed, or ended its process; 2 a mistake in the arguments
-or in the .ini file, or what the system refuses: an output that takes no more, another process; 130 Ctrl-C.
+or in the .ini file, or what the system refuses: an output that takes no more, a further process; 3 another
+process computes a run; 4 a run needs more than --memory; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
 Each command has its own file in `gradysim.cli`.
 """
 

@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import OK, say_mistake
-from gradysim.cli.options import ConfigOption, FileArgument, SetOption
+from gradysim.cli.options import ConfigOption, FileArgument, SetOption, option_value
 from gradysim.cli.runs import check
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gradysim.integrated.calibration import Calibration
-    from gradysim.scenario.parameter_types import ParameterType, Scalar
 
 
 BAR_WIDTH = 40
@@ -79,22 +78,6 @@ def calibrate_power(
     except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as mistake:
         return say_mistake(mistake)
     return OK
-
-
-def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
-    """Return the value that an option says. Raises ConfigError, which names the option."""
-    from gradysim.scenario.errors import BadValue, ConfigError
-    from gradysim.scenario.expressions import parse_value
-
-    try:
-        return kind.convert(parse_value(text))
-    except BadValue as error:
-        raise ConfigError(
-            f"{option} {text}: {error.problem}",
-            expected=kind.expected,
-            suggestion=error.suggestion,
-            hint=error.hint,
-        ) from error
 
 
 def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> str:

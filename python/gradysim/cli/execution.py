@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TextIO
 
 from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure
+from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.memory import limited
 from gradysim.cli.options import RunOptions
-from gradysim.cli.output import captures, ids_of_fates, log_level, nodes_of_vectors, replay_sink
+from gradysim.cli.output import captures_under_way, ids_of_fates, log_level, nodes_of_vectors, replay_sink
 from gradysim.cli.progress import RunProgress, waiting
-from gradysim.cli.runner import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.scenario.errors import ConfigError
 
@@ -54,7 +55,7 @@ class Outcome:
         result: None if the run could not even be built.
         failure: What a protocol raised, in a callback or when it was made; the KeyboardInterrupt if a second
             Ctrl-C ended it.
-        interrupted: Whether Ctrl-C ended it.
+        interrupted: Whether Ctrl-C, SIGTERM or SIGHUP ended it.
         findings: What lint checks found in the protocols.
     """
 
@@ -69,8 +70,9 @@ def execute(
     scenario: "Scenario",
     interrupt: StopOnInterrupt,
     terminal: "Console | None",
+    memory_bytes: int | None = None,
 ) -> Outcome:
-    """Build and execute a run, with a progress bar if there is a terminal.
+    """Build and execute a run, with a progress bar if there is a terminal, and with a limit of its memory.
 
     Raises:
         ConfigError, CompiledPartMissingError: The scenario or the installation is wrong.
@@ -79,6 +81,7 @@ def execute(
     try:
         with (
             interrupt.at_once(),
+            limited(memory_bytes),
             waiting(f"building {len(scenario.nodes):,} nodes", shown=terminal is not None),
         ):
             run = build(scenario)
@@ -87,12 +90,13 @@ def execute(
     except BaseException as failure:
         return Outcome(None, failure=failure)
     try:
-        if terminal is None:
-            run.execute(None, interrupt.should_stop)
-        else:
-            title = f"{scenario.config} run {scenario.run_number}"
-            with RunProgress(terminal, title, scenario.sim_time_limit_s) as bar:
-                run.execute(bar.update, interrupt.should_stop)
+        with limited(memory_bytes), interrupt.executing():
+            if terminal is None:
+                run.execute(None, interrupt.should_stop)
+            else:
+                title = f"{scenario.config} run {scenario.run_number}"
+                with RunProgress(terminal, title, scenario.sim_time_limit_s) as bar:
+                    run.execute(bar.update, interrupt.should_stop)
     except KeyboardInterrupt as pressed:
         return Outcome(run.result(), pressed, interrupted=True, findings=run.findings())
     except BaseException as failure:  # also SystemExit and asyncio.CancelledError
@@ -193,7 +197,7 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
     def build(scenario: "Scenario") -> "Run":
         return IntegratedRun(
             scenario,
-            captures(scenario, options),
+            captures_under_way(scenario, options),
             fates_at=ids_of_fates(scenario, options),
             vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
             replay=replay_sink(scenario, options),

@@ -10,6 +10,8 @@ from cyclopts import Parameter
 if TYPE_CHECKING:
     from cyclopts import Token
 
+    from gradysim.scenario.parameter_types import ParameterType, Scalar
+
 Mode = Literal["integrated", "prototype"]
 """The same as in `gradysim.results.result`, which `gradysim --help` does not load."""
 
@@ -118,8 +120,14 @@ class RunOptions:
     """Leave out runs whose file in --result-dir is complete and of the same settings, seed and files
     (protocols, obstacles), with what --scalars, --vectors, --pcap, --replay and --fates-at ask for."""
 
+    replace: Flag = False
+    """Replace results of other settings or seeds in --result-dir. Without it they are an error."""
+
     jobs: Annotated[Integer, Parameter(alias="-j")] = 1
     """How many runs at once."""
+
+    memory: str | None = None
+    """Memory that each run may allocate, such as 2GB. A run that needs more ends, and the others go on."""
 
     scalars: Flag = False
     """Write the numbers of each run to DIR/CONFIG-#RUN.MODE.sca for OMNeT++'s analysis tools, DIR as in
@@ -165,6 +173,11 @@ class RunOptions:
         return DEFAULT_DIR if self.result_dir is None else self.result_dir
 
     @property
+    def is_writer(self) -> bool:
+        """Whether runs write any file to the directory."""
+        return self.writes_files or bool(self.pcap)
+
+    @property
     def writes_files(self) -> bool:
         """Whether the directory has to exist before the runs; captures make it themselves."""
         return self.result_dir is not None or self.scalars or bool(self.vectors) or bool(self.replay)
@@ -193,3 +206,19 @@ class ViewOptions:
 
     browser: Annotated[bool, Parameter(negative="--no-browser", show_default=False)] = True
     """Open the page. Otherwise only its address is printed."""
+
+
+def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
+    """Return the value that an option says. Raises ConfigError, which names the option."""
+    from gradysim.scenario.errors import BadValue, ConfigError
+    from gradysim.scenario.expressions import parse_value
+
+    try:
+        return kind.convert(parse_value(text))
+    except BadValue as error:
+        raise ConfigError(
+            f"{option} {text}: {error.problem}",
+            expected=kind.expected,
+            suggestion=error.suggestion,
+            hint=error.hint,
+        ) from error

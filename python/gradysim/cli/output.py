@@ -1,8 +1,7 @@
-"""The files of a run of `gradysim run`: their names, how they are written, and what --resume lacks."""
+"""The files of a run of `gradysim run`: their names, and how they are written."""
 
 import errno
 import os
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,12 +11,8 @@ from gradysim.cli.options import Mode, RunOptions
 if TYPE_CHECKING:
     from gradysim.replay.sink import ReplaySink
     from gradysim.results.result import RunResult
-    from gradysim.scenario.load import Study
     from gradysim.scenario.node_spec import NodeSpec
     from gradysim.scenario.scenario import Scenario
-
-_LONGEST_PID = 2**22
-"""As Linux counts. Files that are being written have the number of the process at the end of their names."""
 
 
 def ids_of_fates(scenario: "Scenario", options: RunOptions) -> list[int]:
@@ -44,8 +39,9 @@ def replay_file(scenario: "Scenario", options: RunOptions) -> Path:
 def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
     """Return what writes the replay of a run, and its trace; None if neither is asked for.
 
-    Raises OSError if the replay cannot be written.
+    An earlier replay is replaced when the run has ended. Raises OSError if the replay cannot be written.
     """
+    from gradysim.results.durable import unfinished_file
     from gradysim.scenario.scenario import nodes_named
 
     sinks: list[ReplaySink] = []
@@ -54,7 +50,9 @@ def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None
 
         recorded = {node.id for node in nodes_named(scenario, options.replay)}
         is_all = len(recorded) == len(scenario.nodes)
-        sinks.append(ReplayWriter(replay_file(scenario, options), None if is_all else recorded))
+        page = replay_file(scenario, options)
+        under_way = unfinished_file(page) if page.is_file() else page
+        sinks.append(ReplayWriter(under_way, None if is_all else recorded))
     if options.trace:
         from gradysim.replay.trace import Trace
 
@@ -81,6 +79,16 @@ def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
     return capture_files(scenario, options.pcap, options.directory)
 
 
+def captures_under_way(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
+    """Return {id of a node: the file that its radio writes}: earlier captures are replaced after the run."""
+    from gradysim.results.durable import unfinished_file
+
+    files = captures(scenario, options)
+    if not any(file.is_file() for file in capture_files_of(scenario, options)):
+        return files
+    return {node_id: unfinished_file(file) for node_id, file in files.items()}
+
+
 def capture_files_of(scenario: "Scenario", options: RunOptions) -> list[Path]:
     """Return the capture files of all radios of the nodes that --pcap names."""
     if not options.pcap:
@@ -99,8 +107,13 @@ def omnetpp_file(scenario: "Scenario", options: RunOptions, suffix: str) -> Path
 
 def files_beside_result(scenario: "Scenario", options: RunOptions) -> list[Path]:
     """Return all files of a run that are asked for, but for that of its result."""
+    return [*files_of_the_run_itself(scenario, options), *files_for_omnetpp(scenario, options)]
+
+
+def files_of_the_run_itself(scenario: "Scenario", options: RunOptions) -> list[Path]:
+    """Return the files that are asked for and are written while the run goes on."""
     replays = [replay_file(scenario, options)] if options.replay else []
-    return [*capture_files_of(scenario, options), *replays, *files_for_omnetpp(scenario, options)]
+    return [*capture_files_of(scenario, options), *replays]
 
 
 def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
@@ -160,37 +173,50 @@ def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> No
 
 
 def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
-    """Give the files that a run will write, those that are renamed once they are complete as until then."""
+    """Give the files that a run will write, by the names that they have until they are complete."""
+    from gradysim.results.durable import LONGEST_PID, unfinished_file
     from gradysim.results.files import run_file
 
-    yield from capture_files_of(scenario, options)
-    if options.replay:
-        yield replay_file(scenario, options)
-    complete = files_for_omnetpp(scenario, options)
+    files = files_beside_result(scenario, options)
     if options.result_dir is not None:
-        complete.append(run_file(options.directory, scenario.config, scenario.run_number, options.mode))
-    for file in complete:
-        yield file.with_name(f"{file.name}.{_LONGEST_PID}")
+        files.append(run_file(options.directory, scenario.config, scenario.run_number, options.mode))
+    for file in files:
+        yield unfinished_file(file, LONGEST_PID)
 
 
 def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
     """Write what was asked for of a run, and give a line about each file.
 
-    Captures are there already: radios write them. Files for OMNeT++ that an earlier run left under names of
-    this one are removed first, also those that it replaces, if there is room for them. Raises OSError, with
-    the name of the file.
+    An interrupted run writes nothing if there is a complete result of it with the same settings. Files for
+    OMNeT++ of an earlier run that this one does not replace are removed. Raises OSError, with the name of the
+    file.
 
     The result comes first: it is there if the disk has no room for the others. Once they are complete it is
     written again, and names them.
     """
-    from gradysim.results.files import write_run_file
+    from gradysim.results.durable import finish, unfinished_file
+    from gradysim.results.files import files_changed_since, run_file, write_run_file
 
-    if options.writes_files:
-        yield from _remove_of_earlier_runs(scenario, options)
+    if not options.is_writer:
+        return
+    under_way = [
+        file for file in files_of_the_run_itself(scenario, options) if unfinished_file(file).exists()
+    ]
+    directory = options.directory
+    if result.interrupted and files_changed_since(scenario, options.mode, directory) is not None:
+        for file in under_way:
+            unfinished_file(file).unlink()
+        earlier = run_file(directory, scenario.config, scenario.run_number, options.mode)
+        yield f"kept {earlier}, which is complete"
+        return
     if options.result_dir is not None:
         yield f"written to {write_run_file(result, options.result_dir)}"
+    if options.writes_files:
+        yield from _remove_of_earlier_runs(scenario, options)
     if options.scalars or options.vectors:
         yield from _write_for_omnetpp(scenario, result, options)
+    for file in under_way:
+        finish(file)
     for capture in capture_files_of(scenario, options):
         yield f"captured in {capture}"
     if options.replay:
@@ -200,13 +226,29 @@ def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) 
 
 
 def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterator[str]:
-    """Remove what a reader would take for scalars or vectors of this run, and are those of another one."""
+    """Remove what a reader would take for scalars or vectors of this run, and are those of another one.
+
+    Those with the same settings stay until they are replaced.
+    """
     for suffix, is_replaced in ((".sca", options.scalars), (".vec", bool(options.vectors))):
         path = omnetpp_file(scenario, options, suffix)
-        if path.is_file():
+        if path.is_file() and not (is_replaced and have_labels([path], scenario, options.mode)):
             path.unlink()
             if not is_replaced:
                 yield f"removed {path}, of an earlier run"
+
+
+def have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
+    """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
+    from gradysim.results.omnetpp import lasting_attributes, storable
+    from gradysim.results.omnetpp_reader import run_attributes
+
+    expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
+    found = [run_attributes(file) for file in files]
+    return all(
+        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
+        for attributes in found
+    )
 
 
 def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
@@ -222,83 +264,3 @@ def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", options: RunOp
         path = omnetpp_file(scenario, options, ".vec")
         write_vector_file(vectors_of(result, scenario.network), identity, path)
         yield f"vectors in {path}"
-
-
-def left_to_do(study: "Study", options: RunOptions) -> list[int]:
-    """Return the places in `study` of runs that lack a file that is asked for.
-
-    Says which do not, and which are outdated.
-
-    Raises ConfigError without a folder.
-    """
-    from gradysim.results.files import files_changed_since, run_file
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.runs import text_of_files, text_of_runs
-
-    result_dir = options.result_dir
-    if result_dir is None:
-        raise ConfigError(
-            "--resume: it goes by the JSON files of --result-dir, which is not given;"
-            " expected --result-dir DIR, too"
-        )
-    left, done = [], []
-    outdated: dict[tuple[str, ...], list[int]] = {}
-    for place, number in enumerate(study.numbers):
-        if not run_file(result_dir, study.config, number, options.mode).exists():
-            left.append(place)
-            continue
-        scenario = study[place]
-        complete = _has_left_its_files(scenario, options)
-        changed = files_changed_since(scenario, options.mode, result_dir, ids_of_fates(scenario, options))
-        if changed == () and complete:
-            done.append(number)
-            continue
-        left.append(place)
-        if changed:
-            outdated.setdefault(changed, []).append(number)
-    for files, runs in outdated.items():
-        print(
-            f"{study.config}: {text_of_files(files)} changed after {len(runs)} of {len(study)}"
-            f" runs in {result_dir} ({text_of_runs(runs)}), which begin anew",
-            file=sys.stderr,
-        )
-    if done:
-        print(
-            f"{study.config}: {len(done)} of {len(study)} runs {'is' if len(done) == 1 else 'are'}"
-            f" in {result_dir} ({text_of_runs(done)}) and left out",
-            file=sys.stderr,
-        )
-    return left
-
-
-def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
-    """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
-    from gradysim.results.files import has_written
-
-    files = files_for_omnetpp(scenario, options)
-    return (
-        has_written(scenario, options.mode, options.directory, files_beside_result(scenario, options))
-        and _have_labels(files, scenario, options.mode)
-        and _has_vectors(files, scenario, options)
-    )
-
-
-def _have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
-    """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
-    from gradysim.results.omnetpp import lasting_attributes, storable
-    from gradysim.results.omnetpp_reader import run_attributes
-
-    expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
-    found = [run_attributes(file) for file in files]
-    return all(
-        expected.items() <= attributes.items() and attributes["runID"] == found[0]["runID"]
-        for attributes in found
-    )
-
-
-def _has_vectors(files: Sequence[Path], scenario: "Scenario", options: RunOptions) -> bool:
-    """Whether the last of the files has vectors of all nodes that are asked for."""
-    from gradysim.results.omnetpp_reader import recorded_modules
-
-    expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, options)}
-    return not expected or expected <= recorded_modules(files[-1])

@@ -79,21 +79,24 @@ class RunProgress:
         self._task = self._bar.add_task(title, total=total, reached="", speed="")
 
     def __enter__(self) -> Self:
-        self._bar.start()
+        with suppress(OSError):  # a terminal that has gone is no reason to stop, here and below
+            self._bar.start()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._bar.stop()
+        with suppress(OSError):
+            self._bar.stop()
 
     def update(self, sim_time_s: float) -> None:
         """Show that the run has reached `sim_time_s` seconds of simulated time."""
-        self._bar.update(
-            self._task,
-            completed=sim_time_s,
-            reached=f"{sim_time_s:,.0f}{self._limit} s",
-            speed=text_of_speed(self._bar.tasks[0].speed),
-            refresh=True,
-        )
+        with suppress(OSError):
+            self._bar.update(
+                self._task,
+                completed=sim_time_s,
+                reached=f"{sim_time_s:,.0f}{self._limit} s",
+                speed=text_of_speed(self._bar.tasks[0].speed),
+                refresh=True,
+            )
 
 
 def text_of_speed(speed: float | None) -> str:

@@ -5,19 +5,30 @@ import os
 import sys
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import chdir, nullcontext, redirect_stdout, suppress
+from contextlib import AbstractContextManager, chdir, nullcontext, redirect_stdout, suppress
 from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK, abandon_output, report_crashes, say_mistake
+from gradysim.cli.earlier_results import check_other_settings, is_done, is_of_other_settings, left_to_do
+from gradysim.cli.errors import (
+    FAILED,
+    INTERRUPTED,
+    LOCKED,
+    MISTAKE,
+    OK,
+    OVER_MEMORY,
+    abandon_output,
+    report_crashes,
+    say_mistake,
+)
+from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import FileArgument, RunOptions
 from gradysim.cli.output import (
     check_file_names,
     check_may_be_written_to,
     check_sqlite,
-    left_to_do,
     make_result_dir,
     write_files,
 )
@@ -65,15 +76,18 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             What `submit` gets cannot be pickled.
     """
     from gradysim.cli.execution import check_names, execute, report, simulator
+    from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.progress import waiting
-    from gradysim.cli.runner import ForkExecutor, StopOnInterrupt
+    from gradysim.cli.runner import ForkExecutor
     from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.results.run_lock import RunLockedError, remove_left_over_files
     from gradysim.scenario.errors import ConfigError, ErrorCollector
 
     gc.freeze()  # modules are not among the open files, which the runner looks for
     bar = not options.quiet and not options.as_json
     try:
         check_jobs(options.jobs)
+        memory_bytes = checked_limit(options.memory)
         check_sqlite(options)
         if options.writes_files:
             make_result_dir(options.directory)
@@ -91,6 +105,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
                 left = left_to_do(study, options)
                 if not left:
                     return OK
+            check_other_settings(study, options)
             if options.writes_files:
                 check_may_be_written_to(options.directory)
             with waiting(f"checking {options.config}", shown=bar):
@@ -105,36 +120,68 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
 
     def carry_out(place: int) -> "Reported":
         gc.enable()
+        name = f"{study.config} run {study.numbers[place]}"
         try:
-            with redirect_stdout(sys.stderr) if options.as_json else nullcontext(), chdir("."):
-                scenario = study[place]
-                outcome = execute(build, scenario, interrupt, terminal)
-            if place == left[0]:
-                tell(outcome.findings)
-            write = partial(write_files, scenario, options=options)
-            return report(outcome, write, options, begin_of_line(scenario) if has_lines else None)
+            with lock_of(study, place, options):
+                with redirect_stdout(sys.stderr) if options.as_json else nullcontext(), chdir("."):
+                    scenario = study[place]
+                    if options.resume and is_done(scenario, options):
+                        print(f"{name}: another process has done it; left out", file=sys.stderr)
+                        return OK, None
+                    if is_of_other_settings(scenario, options):
+                        print(
+                            f"{name}: another process has done it with other settings; left out",
+                            file=sys.stderr,
+                        )
+                        return MISTAKE, None
+                    outcome = execute(build, scenario, interrupt, terminal, memory_bytes)
+                if place == left[0]:
+                    tell(outcome.findings)
+                write = partial(write_files, scenario, options=options)
+                line = begin_of_line(scenario) if has_lines else None
+                code, output_error = report(outcome, write, options, line)
+        except RunLockedError as locked:
+            print(f"{name}: {locked}; left out", file=sys.stderr)
+            return LOCKED, None
         except KeyboardInterrupt:  # while it was built
             return INTERRUPTED, None
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake), None
+        if memory_bytes is not None and isinstance(outcome.failure, MemoryError):
+            print(f"{name}: it needs more than --memory {options.memory}", file=sys.stderr)
+            return OVER_MEMORY, output_error
+        return code, output_error
 
     has_lines = len(study) > 1 and not options.details
     begin_of_line = line_of_runs(study)
     report_crashes()
     terminal = error_terminal() if bar and options.jobs == 1 and not options.trace else None
     import_what_runs_use(options)
+    if options.is_writer:
+        remove_left_over_files(options.directory)
     with StopOnInterrupt() as interrupt:
         workers = ForkExecutor(options.jobs, interrupt) if executor is None else nullcontext(executor)
         with workers as chosen:
             code = run_all(study, left, carry_out, chosen)
-    if (
-        code == OK
-        and has_lines
-        and not (options.as_json or options.quiet)
-        and (options.writes_files or options.pcap)
-    ):
+        if options.is_writer:
+            remove_left_over_files(options.directory)
+    if code == INTERRUPTED:
+        code = interrupt.exit_code
+    if code == OK and has_lines and options.is_writer and not (options.as_json or options.quiet):
         print(f"files in {options.directory}")
     return code
+
+
+def lock_of(study: "Study", place: int, options: RunOptions) -> AbstractContextManager[None]:
+    """Return the lock of a run, if it writes files. Its `with` statement raises RunLockedError."""
+    from gradysim.results.files import run_file as file_of
+    from gradysim.results.run_lock import run_locked
+
+    if not options.is_writer:
+        return nullcontext()
+    return run_locked(
+        options.directory, file_of(Path(), study.config, study.numbers[place], options.mode).name
+    )
 
 
 def line_of_runs(study: "Study") -> "Callable[[Scenario], str]":
@@ -224,13 +271,18 @@ def run_all(study: "Study", left: Sequence[int], carry_out: "CarryOut", executor
     except KeyboardInterrupt:  # the third one
         cancel()
     complete = len(codes) == len(left) and not any(codes.values())
-    if output_error is not None and not (complete and isinstance(output_error, BrokenPipeError)):
-        print(f"standard output: {output_error.strerror}", file=sys.stderr)
-    if not complete:
-        _print_unfinished(study, left, codes)
+    with suppress(OSError):  # an error output that takes no more
+        if output_error is not None and not (complete and isinstance(output_error, BrokenPipeError)):
+            print(f"standard output: {output_error.strerror}", file=sys.stderr)
+        if not complete:
+            _print_unfinished(study, left, codes)
     if output_error is not None:
         return OK if complete and isinstance(output_error, BrokenPipeError) else MISTAKE
-    return OK if complete else next((c for c in codes.values() if c not in (OK, INTERRUPTED)), INTERRUPTED)
+    return OK if complete else _exit_code(list(codes.values()), len(left))
+
+
+_OTHERS_GO_ON = {OK, LOCKED, OVER_MEMORY}
+"""Codes of runs that say nothing about the others."""
 
 
 def _may_others_go_on(ended: "Future[Reported]") -> bool:
@@ -239,7 +291,18 @@ def _may_others_go_on(ended: "Future[Reported]") -> bool:
     error = ended.exception()
     if error is not None:
         return isinstance(error, WorkerError) and error.exit_code is not None
-    return ended.result() == (OK, None)
+    code, output_error = ended.result()
+    return code in _OTHERS_GO_ON and output_error is None
+
+
+def _exit_code(codes: Sequence[int], run_count: int) -> int:
+    """Return the exit code of runs that are not all OK: the first failure, then what stopped the others."""
+    failed = [code for code in codes if code not in (*_OTHERS_GO_ON, INTERRUPTED)]
+    if failed:
+        return failed[0]
+    if INTERRUPTED in codes or len(codes) < run_count:
+        return INTERRUPTED
+    return OVER_MEMORY if OVER_MEMORY in codes else LOCKED
 
 
 def _shown(future: "Future[Reported]", name: str) -> "Reported":
@@ -254,7 +317,8 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
         told = f"{_SHOW_CURSOR if sys.stderr.isatty() else ''}{name}: {error}\n"
     printed = future.printed if isinstance(future, RunFuture) else ()
     output, error_output = [text.decode("utf-8", errors="replace") for text in printed] or ("", "")
-    print(error_output + told, end="", file=sys.stderr, flush=True)
+    with suppress(OSError):  # it takes no more, but the others have to be waited for
+        print(error_output + told, end="", file=sys.stderr, flush=True)
     try:
         print(output, end="", flush=True)
     except OSError as error:
@@ -272,17 +336,16 @@ def check_jobs(jobs: int) -> None:
         raise ConfigError(f"--jobs {jobs}: this system cannot fork a process; expected --jobs 1")
 
 
+_ENDED = {INTERRUPTED: "was interrupted", LOCKED: "was left out"}
+
+
 def _print_unfinished(study: "Study", left: Sequence[int], codes: Mapping[int, int]) -> None:
     """Say on the error output which of several runs are missing; `codes` are those of the runs that began."""
     if len(left) > 1:
         numbers = [study.numbers[place] for place in left]
         done = [number for number in numbers if codes.get(number) == OK]
         missing = [number for number in numbers if number not in codes]
-        ended = {
-            number: "was interrupted" if code == INTERRUPTED else "failed"
-            for number, code in sorted(codes.items())
-            if code != OK
-        }
+        ended = {number: _ENDED.get(code, "failed") for number, code in sorted(codes.items()) if code != OK}
         print(text_of_unfinished(study.config, done, ended, missing), file=sys.stderr)
 
 

@@ -1,10 +1,6 @@
 """Executor of runs: each one in a fresh fork of this process, so that no run sees what another one left.
 
 A forked process has the engine, the scenario and the protocols loaded, so nothing has to be passed to it.
-
-Ctrl-C is a request to stop: the first press sets a flag, the second one raises KeyboardInterrupt. A run stops
-between two of its slices and keeps its results. A second press leaves a callback that never returns. While
-worker processes carry out the runs, a third press kills them.
 """
 
 import contextlib
@@ -19,12 +15,14 @@ import sys
 import threading
 import traceback
 from collections import deque
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
+from functools import partial
 from tempfile import TemporaryFile
-from types import FrameType
-from typing import IO, Any, NoReturn, ParamSpec, Self, TextIO, TypeVar
+from typing import IO, Any, NoReturn, ParamSpec, TextIO, TypeVar
+
+from gradysim.cli.interrupt import WATCHED, StopOnInterrupt
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -35,80 +33,6 @@ _PR_SET_PDEATHSIG = 1
 """Of prctl(2): the signal that the kernel sends to a process when its parent dies."""
 
 _prctl = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
-
-FORWARDED = signal.SIGUSR1 if hasattr(signal, "SIGUSR1") else signal.SIGINT
-"""What the command sends its workers when Ctrl-C is pressed.
-
-It differs from SIGINT, which a terminal sends to the command and to its workers: a worker that gets both
-must count one press.
-"""
-
-_ERROR_OUTPUT = 2  # the file descriptor
-
-
-class StopOnInterrupt:
-    """While inside the `with` block, SIGINT sets the flag that `should_stop()` reads, and says so.
-
-    Outside the main thread, where Python allows no signal handlers, the flag is never set.
-
-    Attributes:
-        workers: Ids of the processes that each press is passed on to.
-    """
-
-    def __init__(self) -> None:
-        self.workers: Collection[int] = ()
-        self._presses = {signal.SIGINT: 0, FORWARDED: 0}
-        self._in_worker = False
-        self._at_once = False
-
-    def should_stop(self) -> bool:
-        """Return whether Ctrl-C was pressed."""
-        return max(self._presses.values()) > 0
-
-    def become_worker(self) -> None:
-        """Handle the presses as a process that was forked from the command, which has the other end."""
-        self.workers = ()
-        self._in_worker = True
-        signal.signal(signal.SIGINT, self._on_signal)
-        signal.signal(FORWARDED, self._on_signal)
-
-    @contextlib.contextmanager
-    def at_once(self) -> Iterator[None]:
-        """While inside, the first press raises, too: what is only being built has no results to keep."""
-        if self.should_stop():
-            raise KeyboardInterrupt
-        self._at_once = True
-        try:
-            yield
-        finally:
-            self._at_once = False
-
-    def __enter__(self) -> Self:
-        self._in_main_thread = threading.current_thread() is threading.main_thread()
-        if self._in_main_thread:
-            self._previous = signal.signal(signal.SIGINT, self._on_signal)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._in_main_thread:
-            signal.signal(signal.SIGINT, self._previous)
-
-    def _on_signal(self, number: int, _frame: FrameType | None) -> None:
-        before = max(self._presses.values())
-        self._presses[signal.Signals(number)] += 1
-        presses = max(self._presses.values())
-        if presses == before:  # the terminal or the command has told of this press already
-            return
-        for worker in self.workers:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(worker, FORWARDED)
-        if self._at_once or presses > (2 if self.workers else 1):
-            if not self._in_worker:
-                signal.signal(signal.SIGINT, signal.SIG_IGN)  # or one more would interrupt the end
-            raise KeyboardInterrupt
-        if presses == 1 and not self._in_worker:
-            with contextlib.suppress(OSError):  # not by sys.stderr, which may be in the middle of a line
-                os.write(_ERROR_OUTPUT, b"\nstopping after this step; Ctrl-C once more stops at once\n")
 
 
 class WorkerError(Exception):
@@ -224,7 +148,7 @@ class ForkExecutor(Executor):
                 printed = tuple(
                     files.enter_context(TemporaryFile()) for _ in range(2 if self._captures else 0)
                 )
-                with _blocked(signal.SIGINT, FORWARDED):  # until the worker can handle them
+                with _blocked(*WATCHED):  # until the worker can handle them
                     parent, pid = os.getpid(), os.fork()
                     if pid == 0:
                         self._work(_Worker(future, ours, printed), call, parent)
@@ -241,12 +165,14 @@ class ForkExecutor(Executor):
         code = 1
         try:
             _end_with(parent)
-            self._interrupt.become_worker()
+            ident = threading.get_ident()
+            os.register_at_fork(after_in_child=partial(_end_with_worker, os.getpid(), ident))
             if worker.printed:
                 _redirect(*worker.printed)
-            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT, FORWARDED])
+            self._interrupt.become_worker()
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, WATCHED)
             value = call()
-            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, FORWARDED])
+            signal.pthread_sigmask(signal.SIG_BLOCK, WATCHED)
             for file in (sys.stdout, sys.stderr, *self._files, *_open_files()):
                 _flush(file)
             pickle.dump(value, worker.returned)
@@ -322,6 +248,16 @@ def _end_with(parent: int) -> None:
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
         if os.getppid() != parent:  # it has died already
             os._exit(1)
+
+
+def _end_with_worker(worker: int, thread: int) -> None:
+    """Let a process that a callback forked be killed when the worker ends. Linux only.
+
+    If it returns from the callback, it goes on with the run, and may wait for threads that it does not have.
+    The kernel sends the signal when the forking thread ends, so threads of the user are not concerned.
+    """
+    if _prctl is not None and os.getppid() == worker and threading.get_ident() == thread:
+        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 @contextlib.contextmanager

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure, say_mistake
+from gradysim.cli.errors import FAILED, OK, print_failure, say_mistake
+from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import Mode, ViewOptions
 from gradysim.cli.runs import check
 
@@ -70,17 +71,19 @@ def show_live(file: Path, options: ViewOptions) -> int:
 
     (scenario,) = check(file, options.config, str(options.run), options.settings, options.seed)
     live = LiveView(options.port)
-    try:
-        run = _built(scenario, options.mode, live)
-        _open(live.address, options)
-        live.wait_for_viewer()
-        code = _executed(run)
-        print("The run has ended; close the page or press Ctrl-C to end the view.", file=sys.stderr)
-        _wait_for_the_last(live)
-    except KeyboardInterrupt:
-        return INTERRUPTED
-    finally:
-        live.stop()
+    with StopOnInterrupt() as interrupt:
+        try:
+            with interrupt.at_once():
+                run = _built(scenario, options.mode, live)
+                _open(live.address, options)
+                live.wait_for_viewer()
+                code = _executed(run)
+                print("The run has ended; close the page or press Ctrl-C to end the view.", file=sys.stderr)
+                _wait_for_the_last(live)
+        except KeyboardInterrupt:
+            return interrupt.exit_code
+        finally:
+            live.stop()
     return code
 
 

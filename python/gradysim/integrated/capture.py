@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
+from gradysim.results.durable import finished_name
 from gradysim.results.recorder import checked_ids
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.scenario import Scenario, nodes_named
@@ -60,10 +61,18 @@ def checked_captures(captures: Mapping[int, str | Path], scenario: Scenario) -> 
 def files_of_interfaces(scenario: Scenario, files: Mapping[int, Path]) -> dict[tuple[int, int], Path]:
     """Return {(id of a node, index of its interface): file}: that of wlan[1] is FILE-wlan1.pcap."""
     return {
-        (node_id, index): file.with_name(f"{file.stem}-wlan{index}{file.suffix}") if index else file
+        (node_id, index): _file_of_interface(file, index)
         for node_id, file in files.items()
         for index in range(len(scenario.nodes[node_id].wlan))
     }
+
+
+def _file_of_interface(file: Path, index: int) -> Path:
+    if not index:
+        return file
+    finished = file.with_name(finished_name(file.name) or file.name)
+    end = file.name.removeprefix(finished.name)
+    return file.with_name(f"{finished.stem}-wlan{index}{finished.suffix}{end}")
 
 
 def start_captures(network: "Network", scenario: Scenario, files: Mapping[int, Path]) -> None:

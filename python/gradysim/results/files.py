@@ -47,19 +47,29 @@ def files_changed_since(
     with the outcomes at the nodes `fates_at`, by their ids.
     """
     result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
+    if (
+        not _has_settings_of(scenario, result)
+        or result.get("interrupted") is not False
+        or not _has_fates_at(fates_at, result.get("nodes"))
+    ):
+        return None
+    return _changed(result.get("file_hashes"), scenario.file_hashes)
+
+
+def has_other_settings(scenario: Scenario, mode: Mode, directory: Path) -> bool:
+    """Return whether `directory` has a result of the run with other settings or another seed."""
+    result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
+    return bool(result) and not _has_settings_of(scenario, result)
+
+
+def _has_settings_of(scenario: Scenario, result: Mapping[str, Any]) -> bool:
     expected = {
-        "interrupted": False,
         "seed": scenario.seed,
         "settings_hash": scenario.settings_hash,
         "repetition": scenario.repetition,  # another `repeat` changes the run numbers
         "iterations": plain_iterations(scenario.iterations),
     }
-    if not (
-        expected.items() <= {name: result.get(name) for name in expected}.items()
-        and _has_fates_at(fates_at, result.get("nodes"))
-    ):
-        return None
-    return _changed(result.get("file_hashes"), scenario.file_hashes)
+    return expected.items() <= {name: result.get(name) for name in expected}.items()
 
 
 def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable[Path]) -> bool:

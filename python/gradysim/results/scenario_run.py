@@ -226,7 +226,7 @@ def run_in_chunks(
     """Call `advance(max_events)` until it returns True, which says that the run is complete.
 
     `progress(now())` is called about ten times per second, and once at the end. `should_stop()` is called
-    between chunks. Returns whether the run was completed; False when `should_stop` ended it.
+    after each chunk. Returns whether the run was completed; False when `should_stop` ended it.
     """
     max_events = FIRST_CHUNK
     last_report = perf_counter()
@@ -236,7 +236,7 @@ def run_in_chunks(
         complete = advance(max_events)
         end = perf_counter()
         max_events = next_chunk(max_events, end - start)
-        stopped = not complete and should_stop is not None and should_stop()
+        stopped = should_stop is not None and should_stop() and not complete
         if progress is not None and (complete or stopped or end - last_report >= REPORT_INTERVAL_S):
             last_report = end
             progress(now())

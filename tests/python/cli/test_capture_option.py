@@ -91,7 +91,7 @@ def test_a_resumed_run_is_repeated_for_a_capture_of_another_run(
 ) -> None:
     arguments = ("-r", "0", "--result-dir", "results", "--quiet", "--resume")
     gradysim_run(*arguments)
-    gradysim_run("-r", "0", "--pcap", "uavs[0]", "--quiet", "--set", "sim-time-limit=1s")
+    gradysim_run("-r", "0", "--pcap", "uavs[0]", "--quiet", "--set", "sim-time-limit=1s", "--replace")
     (capture,) = (tmp_path / "results").glob("*.pcap")
     of_the_other = capture.read_bytes()
     assert gradysim_run(*arguments, "--pcap", "uavs[0]").stderr == ""

@@ -6,7 +6,7 @@ import pytest
 from rich.console import Console
 
 from gradysim.cli.execution import execute
-from gradysim.cli.runner import StopOnInterrupt
+from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.results.result import RunResult
 from gradysim.scenario.errors import ConfigError

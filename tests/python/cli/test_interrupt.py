@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from gradysim.cli.runner import FORWARDED, StopOnInterrupt
+from gradysim.cli.interrupt import FORWARDED, StopOnInterrupt
 
 
 def test_nothing_was_pressed():
@@ -88,7 +88,7 @@ def test_a_worker_counts_one_press_that_terminal_and_command_tell_of_once():
             signal.raise_signal(signal.SIGINT)
             signal.raise_signal(FORWARDED)
             assert interrupt.should_stop()
-            with pytest.raises(KeyboardInterrupt):
+            with pytest.raises(KeyboardInterrupt), interrupt.executing():
                 signal.raise_signal(FORWARDED)
             signal.raise_signal(signal.SIGINT)  # of the same, second press
     finally:

@@ -45,7 +45,7 @@ def test_a_quantity_that_is_not_there(gradysim):
 def test_results_of_an_earlier_study_are_warned_of(gradysim):
     arguments = ("run", "test.ini", "--mode", "prototype", "--result-dir", "out", "--quiet")
     gradysim(*arguments)
-    gradysim(*arguments, "-r", "0", "--set", "sim-time-limit=3.5s")
+    gradysim(*arguments, "-r", "0", "--set", "sim-time-limit=3.5s", "--replace")
     done = gradysim("means", "out")
     assert done.returncode == 0
     assert done.stderr.startswith("out: warning: General-#0 and General-#1 ")

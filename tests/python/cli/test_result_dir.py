@@ -47,7 +47,7 @@ def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatc
     ],
 )
 def test_a_configuration_with_too_long_a_name_is_told_before_the_runs(folder, gradysim, mode, option):
-    suffixes = {"--result-dir": f".{mode}.json.1234567", "--pcap": "-uavs[1].pcap"}
+    suffixes = {"--result-dir": f".{mode}.json.1234567", "--pcap": "-uavs[1].pcap.1234567"}
     suffix = suffixes.get(option, f".{mode}.sca.1234567")
     fits = 255 - len(f"-#2{suffix}")
     values = {"--result-dir": ["results"], "--scalars": []}.get(option, ["all"])

@@ -9,7 +9,8 @@ from concurrent.futures import CancelledError
 
 import pytest
 
-from gradysim.cli.runner import ForkExecutor, StopOnInterrupt, WorkerError
+from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.runner import ForkExecutor, WorkerError
 
 
 @pytest.fixture(params=[1, 3])

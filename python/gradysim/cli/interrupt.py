@@ -1,0 +1,177 @@
+"""Ctrl-C, SIGTERM and SIGHUP during runs.
+
+Ctrl-C is a request to stop: the first press sets a flag, the second one raises KeyboardInterrupt. A run stops
+between two of its slices and keeps its results. A second press leaves a callback that never returns. While
+worker processes carry out the runs, a third press kills them. SIGTERM and SIGHUP do the same. Their sender
+does not send them again, so the next presses come by themselves.
+"""
+
+import contextlib
+import os
+import signal
+import threading
+from collections import Counter
+from collections.abc import Collection, Iterator
+from types import FrameType
+from typing import Any, Self
+
+from gradysim.cli.errors import INTERRUPTED, OK
+
+FORWARDED = signal.SIGUSR1 if hasattr(signal, "SIGUSR1") else signal.SIGINT
+"""What the command sends its workers when Ctrl-C is pressed.
+
+It differs from SIGINT, which a terminal sends to the command and to its workers: a worker that gets both
+must count one press.
+"""
+
+STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+"""Signals that ask a command to stop."""
+
+WATCHED = (*STOPPING, FORWARDED)
+
+_GRACE_S = {1: 0.3, 2: 20.0}
+"""{presses: wall time in seconds until the next one comes by itself, after SIGTERM and SIGHUP}.
+
+A callback that returns does so within the first time. The second one is for a worker that writes large files.
+"""
+
+_REPLIES: dict[int, bytes] = {signal.SIGINT: b"\nstopping after this step; Ctrl-C once more stops at once\n"}
+_REPLY = b"\nstopping after this step\n"
+
+_OUTPUT, _ERROR_OUTPUT = 1, 2  # file descriptors
+
+
+class StopOnInterrupt:
+    """While inside the `with` block, SIGINT, SIGTERM and SIGHUP set the flag that `should_stop()` reads.
+
+    A press is any of these signals, once or from several senders. SIGTERM and SIGHUP stay ignored if they are
+    when the block is entered, as by `nohup`. Outside the main thread, where Python allows no signal handlers,
+    the flag is never set.
+
+    Attributes:
+        workers: Ids of the processes that each press is passed on to.
+        exit_code: Of a command that was stopped: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
+    """
+
+    def __init__(self) -> None:
+        self.workers: Collection[int] = ()
+        self.exit_code = INTERRUPTED
+        self._presses: Counter[int] = Counter()
+        self._pid = os.getpid()
+        self._in_worker = False
+        self._is_executing = False
+        self._at_once = False
+        self._has_timer = False
+        self._previous: dict[signal.Signals, Any] = {}
+        self._terminals: list[int] = []
+
+    def should_stop(self) -> bool:
+        """Return whether there was a press. A process that a callback forked ends here."""
+        self._end_if_forked()
+        return self._count() > 0
+
+    def become_worker(self) -> None:
+        """Handle the presses as a process that was forked from the command, which has the other end."""
+        self.workers = ()
+        self._in_worker = True
+        self._pid = os.getpid()
+        self._terminals = _terminals()
+        signal.signal(signal.SIGINT, self._on_signal)
+        signal.signal(FORWARDED, self._on_signal)
+
+    @contextlib.contextmanager
+    def at_once(self) -> Iterator[None]:
+        """While inside, the first press raises, too: what is only being built has no results to keep."""
+        if self.should_stop():
+            raise KeyboardInterrupt
+        self._at_once = True
+        try:
+            yield
+        finally:
+            self._at_once = False
+
+    @contextlib.contextmanager
+    def executing(self) -> Iterator[None]:
+        """While inside, the second press raises in a worker. Later it does not: results are written."""
+        self._is_executing = True
+        try:
+            yield
+        finally:
+            self._is_executing = False
+            self._end_if_forked()
+
+    def __enter__(self) -> Self:
+        if threading.current_thread() is threading.main_thread():
+            self._terminals = _terminals()
+            for number in STOPPING:
+                if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN:
+                    self._previous[number] = signal.signal(number, self._on_signal)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._has_timer:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+        for number, handler in self._previous.items():
+            signal.signal(number, handler)
+
+    def _count(self) -> int:
+        return max(self._presses.values(), default=0)
+
+    def _end_if_forked(self) -> None:
+        """End a process that a protocol forked in a callback and that goes on: its parent does the run."""
+        if os.getpid() != self._pid:
+            os._exit(OK)
+
+    def _on_signal(self, number: int, _frame: FrameType | None) -> None:
+        before = self._count()
+        self._presses[number] += 1
+        self._leave_dead_terminals()
+        if self._count() > before:  # otherwise another sender has reported this press already
+            self._press(number, before + 1)
+
+    def _press(self, number: int, presses: int) -> None:
+        if presses == 1:
+            self.exit_code = 128 + number
+        raises = self._raises_at(presses)
+        if raises and not self._in_worker:
+            for each in self._previous:
+                signal.signal(each, signal.SIG_IGN)  # or one more would interrupt the end
+        for worker in self.workers:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(worker, FORWARDED)
+        if raises:
+            raise KeyboardInterrupt
+        if not self._in_worker:
+            if number != signal.SIGINT:
+                self._press_again_after(_GRACE_S.get(presses, 0.0))
+            if presses == 1:
+                with contextlib.suppress(OSError):  # not by sys.stderr, which may be in the middle of a line
+                    os.write(_ERROR_OUTPUT, _REPLIES.get(number, _REPLY))
+
+    def _raises_at(self, presses: int) -> bool:
+        if self._at_once:
+            return True
+        if self._in_worker:
+            return self._is_executing and presses > 1
+        return presses > (2 if self.workers else 1)
+
+    def _press_again_after(self, duration_s: float) -> None:
+        """Let SIGALRM be the next press, after a wall time in seconds."""
+        handler = signal.signal(signal.SIGALRM, self._on_alarm)
+        self._previous.setdefault(signal.SIGALRM, handler)
+        self._has_timer = True
+        signal.setitimer(signal.ITIMER_REAL, duration_s)
+
+    def _on_alarm(self, number: int, frame: FrameType | None) -> None:
+        self._presses[number] = self._count()
+        self._on_signal(number, frame)
+
+    def _leave_dead_terminals(self) -> None:
+        """Let nothing more be written to a terminal that was closed: an error would end the command."""
+        for descriptor in self._terminals:
+            if not os.isatty(descriptor):
+                os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)
+
+
+def _terminals() -> list[int]:
+    return [descriptor for descriptor in (_OUTPUT, _ERROR_OUTPUT) if os.isatty(descriptor)]

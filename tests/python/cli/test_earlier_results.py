@@ -1,0 +1,208 @@
+"""`gradysim run` into a directory that has results: none is replaced by less, or by another one unasked."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from gradysim.cli.earlier_results import check_other_settings
+from gradysim.cli.options import RunOptions
+from gradysim.cli.runs import check
+from gradysim.results.run_lock import LOCK_FILE
+from python.cli.command import both_modes, environment, objects
+
+RUN = ("run", "test.ini", "--mode", "prototype", "--quiet")
+OTHER_LIMIT = ("--set", "sim-time-limit=2s")
+
+
+def content(directory):
+    return {path.name: path.read_bytes() for path in directory.iterdir()}
+
+
+@pytest.fixture
+def out(gradysim, folder):
+    """A directory with the results of three runs."""
+    gradysim(*RUN, "--result-dir", "out")
+    return folder / "out"
+
+
+@pytest.mark.parametrize(
+    "other", [OTHER_LIMIT, ("--seed", "7"), ("--set", "repeat=4", "--set", "seed-set=5")]
+)
+def test_results_of_other_settings_are_refused_before_anything_runs(gradysim, out, other):
+    before = content(out)
+    done = gradysim(*RUN, "--result-dir", "out", "--json", *other)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.splitlines()[-1].startswith("--result-dir out: ")
+    for part in (" 3 of ", "(0..2)", "--resume", "--replace"):
+        assert part in done.stderr
+    assert content(out) == before
+
+
+@pytest.mark.parametrize("files", [("--scalars",), ("--vectors", "all"), ("--replay", "all")])
+def test_other_files_do_not_join_results_of_other_settings(gradysim, out, files):
+    out.rename(out.with_name("results"))
+    done = gradysim(*RUN, *OTHER_LIMIT, *files)
+    assert done.returncode == 2
+    assert {path.suffix for path in out.with_name("results").iterdir()} == {".json"}
+
+
+def test_runs_that_write_nothing_are_not_refused(gradysim, out):
+    out.rename(out.with_name("results"))
+    assert gradysim(*RUN, *OTHER_LIMIT).returncode == 0
+
+
+@pytest.mark.parametrize("option", ["--replace", "--resume"])
+def test_they_are_replaced_on_request(gradysim, out, option):
+    assert gradysim(*RUN, "--result-dir", "out", *OTHER_LIMIT, option).returncode == 0
+    assert {json.loads(text)["sim_time_s"] for text in content(out).values()} == {2}
+
+
+def test_a_second_run_with_the_same_settings_replaces_the_first(gradysim, out):
+    before = content(out)
+    assert gradysim(*RUN, "--result-dir", "out").returncode == 0
+    assert content(out).keys() == before.keys()
+    assert content(out) != before  # they have other wall times
+
+
+def test_ten_thousand_runs_are_looked_for_without_reading_them(folder, monkeypatch):
+    study = check(folder / "test.ini", "General", None, ["repeat = 10000"])
+    made = []
+    monkeypatch.setattr(type(study), "__getitem__", lambda _, place: made.append(place))
+    check_other_settings(study, RunOptions(result_dir=folder / "out"))
+    assert made == []
+
+
+PROTOCOLS = """
+import os
+import time
+from protocol import Talker
+
+class StopsInTheMiddle(Talker):
+    def handle_timer(self, timer):
+        if os.path.exists("stop") and self.provider.current_time() > 5:
+            os.remove("stop")
+            STOP
+        super().handle_timer(timer)
+
+class Waits(Talker):
+    def initialize(self):
+        super().initialize()
+        if self.provider.get_id() == 0:
+            with open("began", "a") as file:
+                print(self.provider.run_name, file=file)
+            open("pipe").close()
+"""
+
+ALL_FILES = ("--result-dir", "out", "--scalars", "--vectors", "all", "--replay", "all")
+
+
+@both_modes
+@pytest.mark.parametrize(
+    ("stop", "code"),
+    [
+        ('raise RuntimeError("spoilt")', 1),
+        ("os.kill(os.getppid(), 2); time.sleep(0.2)", 130),
+        ("os.kill(os.getppid(), 15); time.sleep(0.2)", 143),
+        ("os._exit(3)", 1),
+        ("os.kill(os.getpid(), 9)", 1),
+    ],
+)
+def test_an_incomplete_result_never_replaces_a_complete_one(gradysim, folder, mode, stop, code):
+    (folder / "stops.py").write_text(PROTOCOLS.replace("STOP", stop))
+    name = (
+        "--set",
+        '*.uavs[*].protocol.class="stops.py:StopsInTheMiddle"',
+        "--set",
+        "sim-time-limit=300s",
+    )
+    files = (*ALL_FILES, *(["--pcap", "uavs[0]"] if mode == "integrated" else []))
+    command = ("run", "test.ini", "--mode", mode, "--quiet", "-r", "0", *name, *files)
+    assert gradysim(*command).returncode == 0
+    before = content(folder / "out")
+    (folder / "stop").touch()
+    done = gradysim(*command)
+    assert done.returncode == code
+    assert content(folder / "out") == before
+    assert "1 of 1 runs" in gradysim(*command, "--resume").stderr
+
+
+def test_an_incomplete_result_replaces_an_incomplete_one(gradysim, folder):
+    (folder / "stops.py").write_text(PROTOCOLS.replace("STOP", 'raise RuntimeError("spoilt")'))
+    (folder / "stop").touch()
+    command = (*RUN, "-r", "0", *ALL_FILES, "--set", '*.uavs[*].protocol.class="stops.py:StopsInTheMiddle"')
+    gradysim(*command)
+    before = content(folder / "out")
+    (folder / "stop").touch()
+    gradysim(*command)
+    after = content(folder / "out")
+    assert after.keys() == before.keys()
+    assert after["General-#0.prototype.json"] != before["General-#0.prototype.json"]
+
+
+@pytest.fixture
+def other_command(folder):
+    """A command that computes run 0, and waits in it until the pipe is opened for writing."""
+    (folder / "stops.py").write_text(PROTOCOLS)
+    os.mkfifo(folder / "pipe")
+    with subprocess.Popen(
+        [sys.executable, "-m", "gradysim", *RUN, "-r", "0", *WAITING],
+        cwd=folder,
+        env=environment(),
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        while not (folder / "began").exists():
+            assert process.poll() is None
+            time.sleep(0.01)
+        yield process
+        process.kill()
+
+
+WAITING = ("--set", '*.uavs[*].protocol.class="stops.py:Waits"', "--result-dir", "out")
+
+
+def let_it_go_on(folder):
+    (folder / "pipe").open("w").close()
+
+
+def test_a_run_that_another_process_computes_is_left_out(gradysim, folder, other_command):
+    done = gradysim(*RUN, "-r", "0", "--json", *WAITING)
+    assert (done.returncode, done.stdout) == (3, "")
+    (worker,) = children(other_command.pid)
+    assert f"General run 0: process {worker} " in done.stderr
+    assert (folder / "began").read_text() == "General-#0.prototype\n"
+    let_it_go_on(folder)
+    assert other_command.wait(20) == 0
+    assert [path.name for path in (folder / "out").iterdir()] == ["General-#0.prototype.json"]
+
+
+def children(pid):
+    with open(f"/proc/{pid}/task/{pid}/children") as file:
+        return [int(number) for number in file.read().split()]
+
+
+def test_the_others_are_done(gradysim, folder, other_command):
+    quick = ("--set", '*.uavs[*].protocol.class="protocol.py:Talker"', "--result-dir", "out")
+    done = gradysim(*RUN, "--json", *quick)
+    assert done.returncode == 3
+    assert [run["run"] for run in objects(done.stdout)] == [1, 2]
+    assert done.stderr.splitlines()[-1] == "General: run 0 was left out, 2 of 3 runs are done (1..2)"
+
+
+def test_a_lock_ends_with_a_killed_process_and_so_do_its_files(gradysim, folder, other_command):
+    left_over = folder / "out" / f"General-#0.prototype.json.{children(other_command.pid)[0]}"
+    left_over.touch()
+    quick = ("--set", '*.uavs[*].protocol.class="protocol.py:Talker"', "--result-dir", "out")
+    gradysim(*RUN, "-r", "1", *quick)
+    assert left_over.exists()
+    assert (folder / "out" / LOCK_FILE).exists()
+    other_command.send_signal(signal.SIGKILL)
+    other_command.wait()
+    while gradysim(*RUN, "-r", "0", *quick).returncode == 3:  # the kernel is about to kill its worker
+        time.sleep(0.01)
+    assert sorted(content(folder / "out")) == ["General-#0.prototype.json", "General-#1.prototype.json"]

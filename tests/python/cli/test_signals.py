@@ -1,0 +1,222 @@
+"""What SIGTERM, SIGHUP and SIGKILL do to a command and to the processes that carry out its runs."""
+
+import contextlib
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from gradysim.replay.file import read_parts
+from python.cli.command import both_modes, environment, objects
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
+
+ENDS_WITHIN_S = 1.0
+
+PROTOCOLS = """
+import os
+import time
+from protocol import Talker
+
+class Ready(Talker):
+    def initialize(self):
+        super().initialize()
+        if self.provider.get_id() == 0:
+            with open("ready", "ab") as file:
+                file.write(b"x")
+
+class Spins(Ready):
+    def handle_timer(self, timer):
+        while True:
+            pass
+
+class Sleeps(Ready):
+    def handle_timer(self, timer):
+        time.sleep(1000)
+"""
+
+Begin = Callable[..., subprocess.Popen[str]]
+
+
+@pytest.fixture
+def begin(folder: Path) -> Iterator[Begin]:
+    """`begin(protocol, runs, *arguments)`: the command once these runs have begun, in its own session."""
+    (folder / "signals.py").write_text(PROTOCOLS)
+    begun = []
+
+    def begin(protocol: str, runs: int, *arguments: str, **options: object) -> subprocess.Popen[str]:
+        name = f'*.uavs[*].protocol.class="signals.py:{protocol}"'
+        process = subprocess.Popen(
+            [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", "--set", name, *arguments],
+            **{
+                "cwd": folder,
+                "env": environment(),
+                "stdout": subprocess.PIPE,
+                "stderr": subprocess.PIPE,
+                "text": True,
+                "start_new_session": True,
+                **options,
+            },
+        )
+        begun.append(process)
+        ready = folder / "ready"
+        wait_until(lambda: ready.exists() and ready.stat().st_size >= runs)
+        assert process.poll() is None
+        return process
+
+    yield begin
+    for process in begun:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+def wait_until(condition: Callable[[], bool], seconds: float = 30.0) -> float:
+    """Return the time that it took."""
+    began = time.monotonic()
+    while not condition():
+        assert time.monotonic() - began < seconds
+        time.sleep(0.005)
+    return time.monotonic() - began
+
+
+def session(leader: int) -> list[int]:
+    """The processes of a session that have not ended."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            with contextlib.suppress(OSError):
+                state, _, _, of_session = (entry / "stat").read_text().rpartition(")")[2].split()[:4]
+                if int(of_session) == leader and state != "Z":
+                    found.append(int(entry.name))
+    return found
+
+
+@pytest.mark.parametrize("protocol", ["Spins", "Sleeps"])
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+def test_no_process_outlives_the_command(begin, protocol, number):
+    process = begin(protocol, 2, "--mode", "prototype", "--jobs", "2", "--quiet")
+    assert len(session(process.pid)) == 3
+    process.send_signal(number)
+    wait_until(lambda: not session(process.pid), ENDS_WITHIN_S)
+    process.communicate()
+    assert process.returncode == (-9 if number == signal.SIGKILL else 128 + number)
+
+
+@both_modes
+@pytest.mark.parametrize("jobs", ["1", "2"])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_what_was_computed_is_kept(begin, folder, mode, jobs, number):
+    capture = ["--pcap", "uavs[0]"] if mode == "integrated" else []
+    files = ("--result-dir", "out", "--scalars", "--vectors", "uavs", "--replay", "all", *capture)
+    process = begin("Ready", int(jobs), "--mode", mode, "--jobs", jobs, "--json", *files)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 128 + number
+    assert [(run["run"], run["interrupted"]) for run in objects(out)] == [(i, True) for i in range(int(jobs))]
+    last = err.splitlines()[-1]
+    assert last.startswith("Endless: run 0 was interrupted, ")
+    assert "not begun" in last
+    result = json.loads((folder / f"out/Endless-#0.{mode}.json").read_text())
+    suffixes = {".sca", ".vec", ".html", *([".pcap"] if capture else [])}
+    assert {Path(name).suffix for name in result["output_hashes"]} == suffixes
+    _, _, end = read_parts(folder / f"out/Endless-#0.{mode}.html")
+    assert end == {"time_s": result["sim_time_s"], "complete": False}
+
+
+def test_a_callback_that_does_not_return_costs_no_results(begin, folder):
+    process = begin("Spins", 2, "--mode", "prototype", "--jobs", "2", "--json", "--result-dir", "out")
+    process.terminate()
+    out, err = process.communicate(timeout=20)
+    assert (process.returncode, len(objects(out))) == (143, 2)
+    assert "in handle_timer of node 0 (Spins 0)" in err
+    assert len(list((folder / "out").iterdir())) == 2
+
+
+def test_signals_to_the_whole_group_at_once_are_one_press(begin):
+    process = begin("Ready", 2, "--mode", "prototype", "--jobs", "2", "--json")
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        os.killpg(process.pid, number)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode in (143, 129)  # that of the one that comes first
+    assert [run["interrupted"] for run in objects(out)] == [True, True]
+    assert "Traceback" not in err
+
+
+def test_a_hangup_that_is_ignored_stays_ignored(begin):
+    process = begin("Ready", 1, "--mode", "prototype", "--json", preexec_fn=ignore_hangup)
+    os.killpg(process.pid, signal.SIGHUP)
+    ignored = int(status(process.pid)["SigIgn"], 16)
+    assert ignored & 1 << signal.SIGHUP - 1
+    process.terminate()
+    out, _ = process.communicate(timeout=20)
+    assert (process.returncode, len(objects(out))) == (143, 1)
+
+
+def ignore_hangup() -> None:
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+
+def status(pid: int) -> dict[str, str]:
+    """What the kernel says of a process."""
+    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    return {name: value.strip() for name, _, value in (line.partition(":") for line in lines)}
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_terminal_that_is_closed_costs_no_results(begin, folder, jobs):
+    ours, theirs = pty.openpty()
+    process = begin(
+        "Ready",
+        int(jobs),
+        *("--mode", "prototype", "--jobs", jobs, "--result-dir", "out"),
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+        start_new_session=False,
+        preexec_fn=control_terminal,
+        env={**environment(), "TERM": "xterm"},
+    )
+    os.close(theirs)
+    os.close(ours)
+    assert process.wait(20) == 129
+    assert not session(process.pid)
+    files = sorted((folder / "out").iterdir())
+    assert [file.name for file in files] == [f"Endless-#{run}.prototype.json" for run in range(int(jobs))]
+    assert all(json.loads(file.read_text())["interrupted"] for file in files)
+
+
+def control_terminal() -> None:
+    """Be the leader of a session whose terminal is standard input."""
+    os.setsid()
+    import fcntl
+    import termios
+
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_view_ends_in_order(folder, number):
+    (folder / "signals.py").write_text(PROTOCOLS)
+    name = '*.uavs[*].protocol.class="signals.py:Ready"'
+    command = ["view", "test.ini", "--mode", "prototype", "--no-browser", "--set", name]
+    with subprocess.Popen(
+        [sys.executable, "-m", "gradysim", *command],
+        cwd=folder,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout.readline().startswith("http://127.0.0.1:")
+        process.send_signal(number)
+        _, err = process.communicate(timeout=20)
+    assert process.returncode == 128 + number
+    assert "Traceback" not in err
