@@ -24,7 +24,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads fuzz torture lint lint-python lint-cpp format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -41,6 +41,9 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 
 test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel; some: ONLY='FILE -k NAME'.
 	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=auto --dist=loadfile)
+
+coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and the share of lines that they reach; takes long.
+	$(BIN)/python -m pytest --numprocesses=auto --dist=loadfile --cov --cov-report=term:skip-covered
 
 test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays, in Chromium.
 	$(BIN)/python -m pytest tests/viewer
