@@ -116,6 +116,14 @@ def files_of_the_run_itself(scenario: "Scenario", options: RunOptions) -> list[P
     return [*capture_files_of(scenario, options), *replays]
 
 
+def files_under_way(scenario: "Scenario", options: RunOptions) -> list[Path]:
+    """Return all names of files that may be written while the run goes on."""
+    from gradysim.results.durable import unfinished_file
+
+    files = files_of_the_run_itself(scenario, options)
+    return [*files, *map(unfinished_file, files)]
+
+
 def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
     """Return the file of scalars and that of vectors, as far as they are asked for, in this order."""
     suffixes = [*([".sca"] if options.scalars else []), *([".vec"] if options.vectors else [])]

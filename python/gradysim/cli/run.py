@@ -29,6 +29,7 @@ from gradysim.cli.output import (
     check_file_names,
     check_may_be_written_to,
     check_sqlite,
+    files_under_way,
     make_result_dir,
     write_files,
 )
@@ -78,7 +79,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     from gradysim.cli.execution import check_names, execute, report, simulator
     from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.progress import waiting
-    from gradysim.cli.runner import ForkExecutor
+    from gradysim.cli.runner import ForkExecutor, keep_from_forks
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.results.run_lock import RunLockedError, remove_left_over_files
     from gradysim.scenario.errors import ConfigError, ErrorCollector
@@ -134,6 +135,8 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
                             file=sys.stderr,
                         )
                         return MISTAKE, None
+                    if executor is None and hasattr(os, "fork"):
+                        keep_from_forks(files_under_way(scenario, options))
                     outcome = execute(build, scenario, interrupt, terminal, memory_bytes)
                 if place == left[0]:
                     tell(outcome.findings)

@@ -15,10 +15,11 @@ import sys
 import threading
 import traceback
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO, Any, NoReturn, ParamSpec, TextIO, TypeVar
 
@@ -258,6 +259,23 @@ def _end_with_worker(worker: int, thread: int) -> None:
     """
     if _prctl is not None and os.getppid() == worker and threading.get_ident() == thread:
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def keep_from_forks(files: Iterable[Path]) -> None:
+    """Let processes that callbacks fork from now on write nothing to these files. Linux only.
+
+    They inherit the descriptors and what is buffered: both processes would write it.
+    """
+    names = {os.path.realpath(file) for file in files}
+    os.register_at_fork(after_in_child=partial(_leave_files, names))
+
+
+def _leave_files(names: Collection[str]) -> None:
+    with contextlib.suppress(OSError):  # no /proc
+        for descriptor in os.listdir("/proc/self/fd"):
+            with contextlib.suppress(OSError):  # that of the directory itself, which is closed
+                if os.readlink(f"/proc/self/fd/{descriptor}") in names:
+                    os.dup2(os.open(os.devnull, os.O_WRONLY), int(descriptor))
 
 
 @contextlib.contextmanager
