@@ -41,7 +41,7 @@ from gradysim.scenario.sweep import (
     variables_in,
     with_labels,
 )
-from gradysim.scenario.unknown_keys import check_option
+from gradysim.scenario.unknown_keys import NoSuchNodeError, check_option
 
 _CHECKED_IN_FULL = 100
 """Networks of a study that are read and built before its first run, all combinations of values."""
@@ -113,12 +113,13 @@ class Study(Sequence[Scenario]):
         ini = read_ini(file)
         self._sections = tuple(search_order(ini, config))
         self._source = source = self._sections[0].source
-        lines = entries_in_order(read_overrides(file, overrides, names.overrides), self._sections)
+        written = lines = entries_in_order(read_overrides(file, overrides, names.overrides), self._sections)
         errors = ErrorCollector()
         for entry in lines:
             if is_option(entry):
                 with errors.collecting():
                     check_option(entry)
+        self._network = Scenario.network  # the default
         try:
             self._network = network_name(lines)
             lines, variables = name_iterations(lines)
@@ -126,8 +127,9 @@ class Study(Sequence[Scenario]):
             self._runs = numbered_runs(self._options, variables, config, runs, source, names.runs)
             if self._seed is not None and self._runs:
                 check_seeds_of_runs(self._seed, self._runs.numbers[-1], names.seed)
-        except ConfigError as error:  # without runs there is nothing else to check
+        except ConfigError as error:
             errors.add(error)
+            errors.errors += self._errors_of_others(written, errors.errors, file.parent)
             raise errors.combined() from None
         self._lines = tuple(lines)
         read = [line for line in lines if not is_ignored(line)]
@@ -147,6 +149,35 @@ class Study(Sequence[Scenario]):
         if len(self._runs) == self._runs.run_count and len(self._checked) < _MOST_CHECKED:
             self._networks.check_lines_of_other_runs()
             self._unread = self._networks.unread(variables)
+
+    def _errors_of_others(
+        self, lines: Sequence[Entry], known: Sequence[ConfigError], folder: Path
+    ) -> list[ConfigError]:
+        """Return what is wrong with the values of lines without an error, as if the others were not there.
+
+        For want of the others nodes may be missing: what says so is left out.
+        """
+        wrong = {error.source for error in known}
+        others = [line for line in lines if line.source not in wrong]
+        found = ErrorCollector()
+        has_runs = False
+        with found.collecting():
+            entries, variables = name_iterations(others)
+            self._options = options_in_force(entries)
+            (run,) = numbered_runs(self._options, variables, self.config, [0], self._source, "")
+            values, has_runs = self._variables(run, None), True
+            with found.collecting():
+                self._settings(values)
+            Networks(entries, folder, "", self._source).check((), values, 0)
+        of_lines = {line.source for line in others}
+        more = [
+            error
+            for error in found.errors
+            if error.source in of_lines and not isinstance(error, NoSuchNodeError)
+        ]
+        if more and not has_runs:
+            more += self._errors_of_others(lines, [*known, *more], folder)
+        return more
 
     def _check(self, errors: ErrorCollector) -> None:
         failed: set[tuple[str, ...]] = set()

@@ -246,6 +246,23 @@ def test_all_errors_are_reported_at_once(folder: Any) -> None:
     assert [each.suggestion for each in error.errors][-2:] == ["sim-time-limit", "MasslessMobility"]
 
 
+def test_errors_of_iterations_and_options_do_not_hide_those_of_values(folder: Any) -> None:
+    error = folder.mistake(
+        "*.uavs[*].mobility.speed = ${v=1..}mps\n"
+        "repeat = -1\n"
+        "*.uavs[*].mobility.initialX = 3s\n"
+        "vector-record-interval = 3x\n"
+        "**.radio.transmitter.powr = 1mW\n"
+    )
+    assert isinstance(error, ConfigErrors)
+    assert [each.line for each in error.errors] == [6, 7, 8, 9, 10]
+
+
+def test_lines_about_nodes_that_an_error_leaves_out_are_not_reported(folder: Any) -> None:
+    error = folder.mistake("*.numScouts = ${n=1..}\n*.scouts[*].mobility.speed = 3mps\n")
+    assert (type(error), error.line) == (ConfigError, 6)
+
+
 def test_each_line_is_reported_once_for_all_nodes_and_runs(folder: Any) -> None:
     folder.load()
     folder.ini.write_text(
