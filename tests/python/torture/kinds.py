@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
-from python.torture import clients, scenarios
+from python.torture import clients, faults, kills, scenarios, signals
 
 Once = Callable[[Random, Path], int]
 """Does harm in an empty folder, and returns how often. An exception says what was lost."""
@@ -12,4 +12,7 @@ Once = Callable[[Random, Path], int]
 KINDS: dict[str, Once] = {
     "random scenarios, run twice": scenarios.once,
     "hostile clients": clients.once,
+    "kills": kills.once,
+    "signals": signals.once,
+    "faults of the disk": faults.once,
 }
