@@ -13,8 +13,13 @@ from typing import Self
 
 _LONGEST_VALUE = 200
 """Characters of a value in a message. The corners of an outline would fill a screen."""
-_LONG_WORD = re.compile(r"\S{1000,}")
-"""A value in a message, such as a number of a thousand digits. Names and paths are shorter."""
+_LONGEST_MESSAGE = 1000
+"""Characters of an error with its place."""
+_LONG_QUOTE = re.compile(rf"(?<=`)[^`]{{{_LONGEST_VALUE + 1},}}(?=`)|\S{{1000,}}")
+"""A part of a file in a message, or a number of a thousand digits. Names and paths are shorter."""
+
+_MOST_ERRORS = 100
+"""Errors after which reading stops."""
 
 _SHORTEST_PART = 4
 """Characters of a name that is looked for inside of longer names."""
@@ -57,7 +62,7 @@ class Source:
 
     def __str__(self) -> str:
         if self.is_override:
-            return f"{self.option} {self.key}={shortened(self.value)}"
+            return f"{self.option} {shortened(self.key)}={shortened(self.value)}"
         return f"{self.file}:{self.line}" if self.line else str(self.file)
 
 
@@ -90,8 +95,8 @@ class ConfigError(ValueError):
         self.expected = expected
         self.suggestion = suggestion
         self.hint = hint
-        text = _composed(problem, expected, suggestion, hint)
-        self.message = _LONG_WORD.sub(lambda word: shortened(word[0]), text)
+        room = _LONGEST_MESSAGE - len(f"{source}: " if source else "")
+        self.message = _composed_within(room, [problem, expected, suggestion, hint])
         super().__init__(self.message, source)
         self.source = source
         self.file: Path | None = source.file if source else None
@@ -105,7 +110,7 @@ class ConfigError(ValueError):
     ) -> Self:
         """Return an error of the value at `source`; the message shows key and value."""
         if source.key and not source.is_override:
-            problem = f"{source.key} = {shortened(source.value)}: {problem}"
+            problem = f"{shortened(source.key)} = {shortened(source.value)}: {problem}"
         return cls(problem, source, expected=expected, suggestion=suggestion, hint=hint)
 
     def __str__(self) -> str:
@@ -168,8 +173,11 @@ class ErrorCollector:
         self.errors: list[ConfigError] = []
 
     def add(self, error: ConfigError) -> None:
-        """Add a mistake, or several."""
-        self.errors += error.errors if isinstance(error, ConfigErrors) else [error]
+        """Add a mistake, or several. Raises ConfigErrors if there are too many: reading stops."""
+        several = error.errors if isinstance(error, ConfigErrors) else [error]
+        self.errors += [each for each in several if each not in self.errors]
+        if len(self.errors) >= _MOST_ERRORS:
+            raise ConfigErrors(self.errors)
 
     def collecting(self) -> Self:
         """Return a context manager that adds the ConfigError that ends its block."""
@@ -232,6 +240,17 @@ class BadValue(ValueError):  # noqa: N818 - becomes a ConfigError where the plac
 def _composed(problem: str, expected: str, suggestion: str, hint: str) -> str:
     text = f"{problem}; expected {expected}" if expected else problem
     return text + (f"; did you mean `{suggestion}`?" if suggestion else "") + hint
+
+
+def _composed_within(room: int, parts: Iterable[str]) -> str:
+    """Return the text of an error in `room` characters, if that is enough for the beginning of each part."""
+    parts = [_LONG_QUOTE.sub(lambda quote: shortened(quote[0]), part) for part in parts]
+    while (excess := len(_composed(*parts)) - room) > 0:
+        longest = max(parts, key=len)
+        if len(longest) <= _LONGEST_VALUE:
+            break
+        parts[parts.index(longest)] = f"{longest[: max(len(longest) - excess, _LONGEST_VALUE) - 1]}…"
+    return _composed(*parts)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,9 @@ Value = Quantity | str | bool
 QUOTED = r'"(?:[^"\\]|\\.)*"'
 """Regular expression, for re.DOTALL, of a string in quotes. A backslash escapes the next character."""
 
+_LONGEST_MATCHED = 10_000
+"""Characters of a string that `=~` compares with a pattern. The time grows with both lengths."""
+
 _ONE_STRING = re.compile(QUOTED, re.DOTALL)
 _ESCAPED = re.compile(r"\\(.)", re.DOTALL)
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r"}
@@ -94,6 +97,8 @@ def _comparison(compare: Callable[[Any, Any], bool]) -> Callable[[Value, Value],
 
 def _matches(left: Value, right: Value) -> Value:
     if isinstance(left, str) and isinstance(right, str):
+        if len(left) > _LONGEST_MATCHED:
+            raise BadValue(f"`=~` is for strings of at most {_LONGEST_MATCHED} characters, not {len(left)}")
         return compile_pattern(right).matches(left)
     raise BadValue("`=~` is for a string and a pattern, both in quotes")
 

@@ -21,7 +21,15 @@ from pathlib import Path
 from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
-from gradysim.scenario.errors import ConfigError, ErrorCollector, Source, did_you_mean, nearest, nearest_file
+from gradysim.scenario.errors import (
+    BadValue,
+    ConfigError,
+    ErrorCollector,
+    Source,
+    did_you_mean,
+    nearest,
+    nearest_file,
+)
 from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
 from gradysim.scenario.lookup import Lookup, SettingReader
 from gradysim.scenario.obstacles import (
@@ -33,6 +41,7 @@ from gradysim.scenario.obstacles import (
     misplaced_ring,
     read_setting,
 )
+from gradysim.scenario.regular_files import check_regular
 
 _IF_IN_METERS = (
     "if they are x and y of the scene in meters, expected"
@@ -74,9 +83,12 @@ def read_obstacle_files(
     path, source = str(setting.value), setting.source
     file = source.file.parent / path
     try:
+        check_regular(file, path)
         content = _parse(file)
         features = _features(content)
         place = _placing(content, reference)
+    except BadValue as error:
+        raise error.at(source) from error
     except _BadGeojsonError as error:
         raise ConfigError.at(source, f"{path}: {error}") from error
     errors = ErrorCollector()

@@ -11,18 +11,34 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from gradysim.scenario.errors import OF_SCRIPT, ConfigError, ErrorCollector, Source, nearest, nearest_file
+from gradysim.scenario.errors import (
+    OF_SCRIPT,
+    BadValue,
+    ConfigError,
+    ErrorCollector,
+    Source,
+    nearest,
+    nearest_file,
+    shortened,
+)
+from gradysim.scenario.regular_files import check_regular
 
 GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
-
-_LIKE_AN_ENTRY = re.compile(r"""[^\s"'=]*[.-][^\s"'=]*\s*=(?!=)""")
-"""The start of an indented line that looks like an entry: a key with a dot or a hyphen."""
 
 _HEADING = re.compile(r"\[\s*(?:Config\s+)?([^\s\[\]]+)\s*\]")
 
 _DEEPEST = 100
 """Limit for nested includes and for chains of sections; Python's stack has such a limit, too."""
+
+_MOST_BYTES = 64 * 2**20
+"""Of a file with all that it includes."""
+
+_MOST_INCLUDES = 1000
+"""Files that a file includes. Two files that each include two others, and so on, would be too many."""
+
+_NOT_TEXT = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
+"""Control characters that no text has. UTF-16 has the first one."""
 
 
 @dataclass(frozen=True)
@@ -86,8 +102,12 @@ def read_overrides(file: Path, overrides: Iterable[str], option: str = OF_SCRIPT
         key, equals, text = (part.strip() for part in override.partition("="))
         source = Source(file, 0, key, text, option)
         with errors.collecting():
+            if any("\ud800" <= character <= "\udfff" for character in override):
+                written = shortened(ascii(override))
+                raise ConfigError(f"{option} {written}: it is not UTF-8", expected="KEY=VALUE in UTF-8")
             if not (key and equals and text):
-                raise ConfigError(f"{option} {override}: expected KEY=VALUE, such as `sim-time-limit=10s`")
+                problem = f"{option} {shortened(override)}"
+                raise ConfigError(f"{problem}: expected KEY=VALUE, such as `sim-time-limit=10s`")
             _refuse_variables(key, source)
             entries.append(Entry(key, text, source))
     errors.raise_all()
@@ -108,11 +128,12 @@ class _Reader:
     def __init__(self, file: Path) -> None:
         self.ini = IniFile(file, {GENERAL: Section(GENERAL, Source(file, 0))})
         self.errors = ErrorCollector()
+        self._bytes = self._files = 0
 
     def read(self, file: Path, section: str, asked_by: Source | None, including: tuple[Path, ...]) -> None:
         """Read one file into `section`, up to its first heading."""
         headings: dict[str, int] = {}
-        text = _text_of(file, asked_by)  # before `resolve`, which fails for names that no file can have
+        text = self._text_of(file, asked_by)  # before `resolve`, which fails for names that no file can have
         resolved = file.resolve()
         if resolved in including:
             raise ConfigError(f"{file} includes itself", asked_by, expected="another file")
@@ -123,7 +144,7 @@ class _Reader:
             with self.errors.collecting():
                 if line.startswith("["):
                     section = self._open_section(line, source, headings)
-                elif match := re.match(r"include\s+(?!=)(.*)", line):
+                elif match := re.match(r"include\s++(?!=)(.*)", line):
                     included = file.parent / match.group(1).strip().strip('"')
                     self.read(included, section, source, (*including, resolved))
                 else:
@@ -132,15 +153,16 @@ class _Reader:
     def _open_section(self, line: str, source: Source, headings: dict[str, int]) -> str:
         match = _HEADING.fullmatch(line)
         if not match or line.split() == ["[Config", "General]"]:
-            raise ConfigError(f"`{line}` is not a heading", source, expected="[General] or [Config NAME]")
+            problem = f"`{shortened(line)}` is not a heading"
+            raise ConfigError(problem, source, expected="[General] or [Config NAME]")
         name = match.group(1)
         if {"/", "\\"} & set(name):
             raise ConfigError(
-                f"`{name}` cannot be part of a file name", source, expected="no `/` and no `\\`"
+                f"`{shortened(name)}` cannot be part of a file name", source, expected="no `/` and no `\\`"
             )
         if name in headings:
             raise ConfigError(
-                f"section `{name}` is already at line {headings[name]}",
+                f"section `{shortened(name)}` is already at line {headings[name]}",
                 source,
                 expected="each section once in a file",
             )
@@ -150,19 +172,39 @@ class _Reader:
             section.source = source
         return name
 
+    def _text_of(self, file: Path, asked_by: Source | None) -> str:
+        self._files += 1
+        if self._files > _MOST_INCLUDES:
+            expected = f"at most {_MOST_INCLUDES} included files"
+            raise ConfigError(f"{self.ini.file} includes more files", asked_by, expected=expected)
+        data = _bytes_of(file, asked_by, _MOST_BYTES + 1 - self._bytes)
+        self._bytes += len(data)
+        if self._bytes > _MOST_BYTES:
+            problem = f"{self.ini.file} has more than {_MOST_BYTES >> 20} MiB with all that it includes"
+            raise ConfigError(problem, asked_by or Source(file, 0), expected="less")
+        return _decoded(file, data)
 
-def _text_of(file: Path, asked_by: Source | None) -> str:
+
+def _bytes_of(file: Path, asked_by: Source | None, most: int) -> bytes:
     try:
-        data = file.read_bytes()
+        check_regular(file)
+        with file.open("rb") as opened:
+            return opened.read(most)
+    except BadValue as error:
+        raise ConfigError(error.problem, asked_by or Source(file, 0), expected=error.expected) from error
     except OSError as error:
         reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
         raise ConfigError(
             f"{file}: {reason}", asked_by, expected="an .ini file", suggestion=nearest_file(file, (".ini",))
         ) from error
-    zero = data.find(b"\0")  # in UTF-16, for example
-    if zero >= 0:
-        line = data.count(b"\n", 0, zero) + 1
-        raise ConfigError("this line has a zero byte", Source(file, line), expected="UTF-8")
+
+
+def _decoded(file: Path, data: bytes) -> str:
+    if found := _NOT_TEXT.search(data):
+        line, byte = data.count(b"\n", 0, found.start()) + 1, data[found.start()]
+        raise ConfigError(
+            f"this line has the byte 0x{byte:02x}, which no text has", Source(file, line), expected="UTF-8"
+        )
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -194,12 +236,19 @@ def _check_continuation(line: str, current: tuple[int, str] | None, source: Sour
         raise ConfigError(
             "an indented line continues the entry above it, and there is none", source, expected="column 1"
         )
-    if _LIKE_AN_ENTRY.match(line.strip()):
+    if _looks_like_an_entry(line.strip()):
         raise ConfigError(
             f"an indented line continues the entry above it, at line {current[0]}",
             source,
             expected="a new entry in column 1",
         )
+
+
+def _looks_like_an_entry(line: str) -> bool:
+    """Return whether an indented line begins like an entry: with a key that has a dot or a hyphen."""
+    key, equals, value = line.partition("=")
+    is_key = not {" ", "\t", '"', "'"} & set(key.rstrip()) and bool({".", "-"} & set(key))
+    return is_key and bool(equals) and not value.startswith("=")
 
 
 def _joined_lines(text: str) -> Iterator[tuple[int, str]]:
@@ -240,16 +289,17 @@ def _without_comment(line: str, source: Source) -> str:
 def _entry(line: str, source: Source) -> Entry:
     key, equals, text = (part.strip() for part in line.partition("="))
     if not equals or not key:
-        raise ConfigError(f"`{line}` is not an entry", source, expected="`key = value`")
+        raise ConfigError(f"`{shortened(line)}` is not an entry", source, expected="`key = value`")
     if not text:
-        raise ConfigError(f"`{key}` has no value", source, expected=f"`{key} = value`")
+        name = shortened(key)
+        raise ConfigError(f"`{name}` has no value", source, expected=f"`{name} = value`")
     _refuse_variables(key, source)
     return Entry(key, text, Source(source.file, source.line, key, text.replace("\n", " ")))
 
 
 def _refuse_variables(key: str, source: Source) -> None:
     if "${" in key:
-        raise ConfigError(f"`{key}` has a variable", source, expected="`${...}` in values only")
+        raise ConfigError(f"`{shortened(key)}` has a variable", source, expected="`${...}` in values only")
 
 
 _MAX_NAMES = 20

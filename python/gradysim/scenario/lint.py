@@ -267,7 +267,7 @@ _ENDS_OF_TIMES = ("interval", "timeout", "period", "delay", "duration")
 _NAMES_OF_TIMES = ("jitter", "spread", "offset")
 """Names of times, unless another word stands before them."""
 
-_METERS_IN_A_LIST = re.compile(r"[\d.]\s*m\b|[,.][^{}]*\}\s*m\b", re.ASCII)
+_METERS_IN_A_LIST = re.compile(r"[\d.]\s*m\b|\{[^{},.]*[,.][^{}]*\}\s*m\b", re.ASCII)
 """`${5m, 10m}`, `${5, 10}m` and `${5..10}m`, but not `${runnumber}m`."""
 
 

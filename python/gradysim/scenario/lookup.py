@@ -18,6 +18,7 @@ from gradysim.scenario.functions import Value, text_of
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.parameter_types import ParameterType, Scalar
 from gradysim.scenario.patterns import Pattern, PatternIndex, compile_pattern
+from gradysim.scenario.regular_files import check_regular
 from gradysim.scenario.schema import (
     IGNORED_BEGINNINGS,
     IGNORED_ENDS,
@@ -369,7 +370,11 @@ def read_scalar(
     try:
         written = _value_of(entry, kind, parameter)
         value = kind.convert(written)
-        return str(entry.source.file.parent / str(value)) if kind.is_file and value else value
+        if not kind.is_file or not value:
+            return value
+        file = entry.source.file.parent / str(value)
+        check_regular(file, str(value))
+        return str(file)
     except BadValue as error:
         is_of_one_run = "${" in entry.source.value and "${" not in entry.text
         this = f"that is {entry.text}: " if is_of_one_run else ""

@@ -10,9 +10,10 @@ r"""Patterns of keys, matched against full paths such as `Network.uavs[3].mobili
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
+from itertools import groupby
 from operator import itemgetter
 from typing import Generic, TypeVar
 
@@ -23,8 +24,10 @@ _NUMBER_RANGE = re.compile(r"(?:\[(\d*)\.\.(\d*)\])|(?:\{(\d*)\.\.(\d*)\})", re.
 _MOST_DIGITS = 18
 """Of the ends of a range. The regular expression grows with their square, and no node has such an index."""
 
-_MOST_WILDCARDS = 4
-"""Of a pattern that one regular expression matches. Its time may grow with this power of the length."""
+LONGEST_PATTERN = 1000
+"""Characters of a pattern."""
+
+_STARS = ("*", "**")
 
 
 @dataclass(frozen=True)
@@ -55,11 +58,17 @@ class Pattern:
         return None if None in characters else "".join(character or "" for character in characters)
 
     @cached_property
-    def _regex(self) -> re.Pattern[str] | None:
-        """The regular expression; None for a pattern that might backtrack for too long."""
-        if sum(token.text in ("*", "**") for token in self.tokens) > _MOST_WILDCARDS:
-            return None
-        return re.compile("".join(token.regex for token in self.tokens), re.DOTALL)
+    def _steps(self) -> list[str | re.Pattern[str]]:
+        """What is matched one after the other: `*`, `**`, and an expression for all between two of these.
+
+        A single wildcard is a part of one expression, which is ten times faster.
+        """
+        if sum(token.text in _STARS for token in self.tokens) < 2:
+            return [_compiled("".join(token.regex for token in self.tokens) + r"\Z")]
+        steps: list[str | re.Pattern[str]] = []
+        for text, tokens in groupby(self.tokens, lambda token: token.text if token.text in _STARS else ""):
+            steps.append(text or _compiled("".join(token.regex for token in tokens)))
+        return steps
 
     @cached_property
     def tail(self) -> "Pattern | None":
@@ -74,12 +83,10 @@ class Pattern:
         return Pattern(tuple(tokens))
 
     def matches(self, path: str) -> bool:
-        """Whether the whole of `path` matches."""
+        """Whether the whole of `path` matches. Takes steps in proportion to the product of both lengths."""
         if self.literal is not None:  # compiling a regular expression takes longer than reading the line
             return path == self.literal
-        if self._regex is not None:
-            return self._regex.fullmatch(path) is not None
-        return len(path) in _ends_of_matches(self.tokens, path)
+        return len(path) in _ends_of_matches(self._steps, path)
 
     def literal_prefix(self) -> str:
         """The text that everything that matches begins with."""
@@ -146,23 +153,27 @@ class Pattern:
         return [Pattern(tuple(part)) for part in parts]
 
 
-def _ends_of_matches(tokens: Iterable[Token], path: str) -> set[int]:
-    """Where matches that start at 0 end. Takes time in proportion to the product of both lengths."""
-    ends = {0}
-    for token in tokens:
-        if token.text == "**":
-            ends = set(range(min(ends), len(path) + 1)) if ends else ends
-        elif token.text == "*":
-            reached: set[int] = set()
-            for end in sorted(ends):
-                if end not in reached:
-                    dot = path.find(".", end)
-                    reached.update(range(end, (len(path) if dot < 0 else dot) + 1))
-            ends = reached
+def _ends_of_matches(steps: Iterable[str | re.Pattern[str]], path: str) -> Collection[int]:
+    """Return where matches that start at 0 end."""
+    ends: Collection[int] = (0,)
+    for step in steps:
+        if not ends:
+            return ends
+        if isinstance(step, str):
+            ends = range(min(ends), len(path) + 1) if step == "**" else _ends_of_star(ends, path)
         else:
-            element = _compiled(token.regex)
-            ends = {match.end() for end in ends if (match := element.match(path, end))}
+            ends = [match.end() for end in ends if (match := step.match(path, end))]
     return ends
+
+
+def _ends_of_star(ends: Collection[int], path: str) -> list[int]:
+    """Return where matches of `*` end that start at `ends`."""
+    reached: list[int] = []
+    for end in sorted(ends):
+        if not reached or end > reached[-1]:
+            dot = path.find(".", end)
+            reached += range(end, (len(path) if dot < 0 else dot) + 1)
+    return reached
 
 
 @cache
@@ -175,8 +186,11 @@ def compile_pattern(text: str) -> Pattern:
     """Compile the text of a key.
 
     Raises:
-        BadValue: A brace is not closed, a range is empty, or a backslash stands at the end.
+        BadValue: A brace is not closed, a range is empty, a backslash stands at the end, or it is too long.
     """
+    if len(text) > LONGEST_PATTERN:
+        expected = f"at most {LONGEST_PATTERN}"
+        raise BadValue(f"the pattern `{text:.20}…` has {len(text)} characters", expected=expected)
     tokens = []
     position = 0
     while position < len(text):

@@ -19,6 +19,7 @@ from gradysim.protocol.interface import IProtocol, is_protocol_class
 from gradysim.scenario.errors import BadValue, nearest, nearest_file
 from gradysim.scenario.native_protocols import is_native_name
 from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
+from gradysim.scenario.regular_files import check_regular
 
 _REFERENCE = 'a protocol as "file.py:Class" or "package.module:Class"'
 """Expected where a reference leads to no file or module."""
@@ -75,6 +76,7 @@ class ProtocolLoader:
         except OSError as error:
             raise BadValue(f"{file}: {error.strerror}") from error
         if not is_file:
+            check_regular(file)
             meant = nearest_file(file, (".py",), place)
             raise BadValue(f"there is no file {file}", expected=_REFERENCE, suggestion=meant)
         try:

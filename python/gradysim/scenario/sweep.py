@@ -9,6 +9,8 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation, Overflow
+from functools import cached_property
+from itertools import chain
 from pathlib import Path
 
 from gradysim.scenario.distributions import distribution_in
@@ -49,13 +51,19 @@ _SAME_IN_ALL_RUNS = ("configname", "inifile", "network")
 _HIDDEN_IN_HASH = {name: f"${{{name}}}" for name in ("runnumber", REPETITION, "seedset", "inifile")}
 """Placeholders for variables in a settings hash: runs that differ only in these have the same settings."""
 
+MOST_CHARACTERS = 2**24
+"""Of all values of a configuration, and of a value after its variables have been replaced."""
+
+_MOST_VARIABLES = 1000
+"""Of a configuration."""
+
 _MOST_DIGITS = 300
 """Of the numbers of a range, which are written without exponents."""
 
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _DEFINITION = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)", re.ASCII | re.DOTALL)
 _LOCK_STEP = re.compile(r"(.*)!\s*([A-Za-z_]\w*)\s*", re.ASCII | re.DOTALL)
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})(?:\s+step\s+({_NUMBER}))?", re.ASCII)
 _LIKE_A_RANGE = re.compile(r"[-+]?\.?\d[^\"']*\.\.", re.ASCII)
 _VARIABLE = re.compile(r"\$\{([^{}]*)\}")
@@ -77,6 +85,11 @@ class IterationVariable:
     values: tuple[str, ...]
     source: Source
     follows: str = ""
+
+    @cached_property
+    def size(self) -> int:
+        """The characters of all values."""
+        return sum(map(len, self.values))
 
 
 def name_iterations(entries: Iterable[Entry]) -> tuple[list[Entry], list[IterationVariable]]:
@@ -145,10 +158,27 @@ def _define(content: str, entry: Entry, variables: dict[str, IterationVariable])
         raise ConfigError.at(
             entry.source, f"`{name}` has its values at {place} already; expected `${{{name}}}` here"
         )
+    if len(variables) == _MOST_VARIABLES:
+        raise ConfigError.at(entry.source, f"more than {_MOST_VARIABLES} variables; expected fewer")
     name = name or str(sum(variable.isdigit() for variable in variables))
-    values = tuple(value for part in _split(listed) for value in _values(part, entry))
+    room = MOST_CHARACTERS - sum(variable.size for variable in variables.values())
+    every = chain.from_iterable(_values(part, entry) for part in _split(listed))
+    values = tuple(_bounded(every, room, entry))
     variables[name] = IterationVariable(name, values, entry.source, follows)
     return name
+
+
+def _bounded(values: Iterable[str], room: int, entry: Entry) -> Iterator[str]:
+    """Yield values. Raises ConfigError for more than `MAX_VALUES`, and for more than `room` characters."""
+    for count, value in enumerate(values):
+        room -= len(value)
+        if room < 0:
+            problem = f"the values of all `${{...}}` have more than {MOST_CHARACTERS} characters"
+            raise ConfigError.at(entry.source, f"{problem}; expected fewer")
+        if count == MAX_VALUES:
+            problem = f"`${{...}}` has too many values; expected at most {MAX_VALUES}"
+            raise ConfigError.at(entry.source, problem)
+        yield value
 
 
 def _split(listed: str) -> list[str]:
@@ -318,16 +348,22 @@ def free_text(entry: Entry) -> str:
 def substitute(entry: Entry, variables: Mapping[str, str]) -> Entry:
     """Return the entry with its variables replaced by their values, also inside of strings.
 
-    Raises ConfigError for a variable that depends on this entry.
+    Raises ConfigError for a variable that depends on this entry, and if the result is too long.
     """
     if "${" not in entry.text:
         return entry
+    room = MOST_CHARACTERS
 
     def value(match: re.Match[str]) -> str:
+        nonlocal room
         if match[1] not in variables:
             raise ConfigError.at(
                 entry.source, f"`${{{match[1]}}}` follows from this value; expected one that does without it"
             )
+        room -= len(variables[match[1]])
+        if room < 0:
+            problem = f"with its variables replaced it has more than {MOST_CHARACTERS} characters"
+            raise ConfigError.at(entry.source, f"{problem}; expected fewer")
         return variables[match[1]]
 
     return replace(entry, text=_VARIABLE.sub(value, entry.text))

@@ -1,4 +1,5 @@
 import pickle
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from gradysim.scenario.errors import (
     BadValue,
     ConfigError,
     ConfigErrors,
+    ErrorCollector,
     Source,
     did_you_mean,
     is_fully_qualified,
@@ -51,8 +53,8 @@ def test_at_does_not_repeat_an_override() -> None:
 def test_long_values_are_shortened() -> None:
     source = Source(Path("a.ini"), 7, "*.x.points", "1" * 5000)
     assert str(ConfigError.at(source, "out of range")) == f"a.ini:7: *.x.points = {'1' * 100}…: out of range"
-    error = ConfigError(f"that is {'1' * 100_000}: out of range; expected {'a' * 999}", SOURCE)
-    assert str(error) == f"a.ini:7: that is {'1' * 100}… out of range; expected {'a' * 999}"
+    error = ConfigError(f"that is {'1' * 100_000}: out of range; expected {'a' * 799}", SOURCE)
+    assert str(error) == f"a.ini:7: that is {'1' * 100}… out of range; expected {'a' * 799}"
     override = Source(Path("a.ini"), 0, "*.x.points", "1 " * 500, "--set")
     assert str(override) == f"--set *.x.points={'1 ' * 50}…"
 
@@ -247,3 +249,29 @@ def test_a_key_with_a_wildcard_for_a_name_is_not_fully_qualified(key: str) -> No
 )
 def test_indices_do_not_count_as_names(key: str, expected: bool) -> None:
     assert is_fully_qualified(key, "wlan[1].radio.transmitter.power") == expected
+
+
+@pytest.mark.parametrize("part", ["problem", "expected", "suggestion", "hint"])
+def test_no_error_is_longer_than_a_thousand_characters(part: str) -> None:
+    words = {"problem": "wrong", "expected": "right", "suggestion": "left", "hint": "; up"}
+    source = replace(SOURCE, key="k" * 2000, value="v " * 2000)
+    for long in ("x" * 5000, "x " * 5000, "`x ` " * 5000, f"`{'x ' * 5000}`"):
+        arguments = words | {part: long}
+        for error in (
+            ConfigError(arguments.pop("problem"), source, **arguments),
+            ConfigError.at(source, long, **arguments),
+        ):
+            assert len(str(error)) <= 1000
+
+
+def test_reading_stops_at_a_hundred_errors() -> None:
+    errors = ErrorCollector()
+    lines = (ConfigError("wrong", replace(SOURCE, line=line)) for line in range(1, 1000))
+    with pytest.raises(ConfigErrors) as caught:
+        list(map(errors.add, lines))
+    assert [error.line for error in caught.value.errors] == list(range(1, 101))
+    outer = ErrorCollector()
+    outer.errors = caught.value.errors[:60]
+    with pytest.raises(ConfigErrors) as again, outer.collecting():
+        raise caught.value
+    assert len(again.value.errors) == 100

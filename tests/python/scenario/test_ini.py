@@ -1,3 +1,5 @@
+import contextlib
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -368,3 +370,48 @@ def test_abstract_is_not_inherited(write_ini: Write) -> None:
 def test_names_are_those_that_can_be_run(write_ini: Write) -> None:
     assert config_names(read_ini(write_ini("[General]\n[A]\nabstract = true\n[B]\n[C]\n"))) == ["B", "C"]
     assert config_names(read_ini(write_ini("[General]\n"))) == ["General"]
+
+
+@pytest.mark.parametrize("byte", [b"\0", b"\x1b", b"\x07", b"\x7f"])
+def test_a_file_that_is_not_text_is_not_quoted(tmp_path: Path, byte: bytes) -> None:
+    file = tmp_path / "test.ini"
+    file.write_bytes(b"[General]\nsecret" + byte + b"secret = 1\n")
+    with pytest.raises(ConfigError) as caught:
+        read_ini(file)
+    assert (caught.value.line, caught.value.expected) == (2, "UTF-8")
+    assert "secret" not in str(caught.value)
+
+
+def test_of_a_file_that_is_no_scenario_an_error_quotes_little(write_ini: Write) -> None:
+    error = error_of(write_ini("[General]\n" + "secret " * 10_000))
+    assert error.line == 2
+    assert str(error).count("secret") <= 200 / len("secret")
+
+
+def test_an_override_that_is_not_utf_8_is_refused() -> None:
+    with pytest.raises(ConfigError) as caught:
+        read_overrides(Path("a.ini"), ["*.x.label=\udcff"], "--set")
+    str(caught.value).encode()
+    assert caught.value.expected == "KEY=VALUE in UTF-8"
+
+
+def test_includes_may_be_indented_and_keys_may_begin_with_include(write_ini: Write) -> None:
+    ini = read_ini(write_ini("[General]\ninclude   = 3\n"))
+    assert [entry.key for entry in ini.sections["General"].entries] == ["include"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a = 1\n " + "." * 300_000,
+        "a = 1\n ." + " " * 300_000 + ".",
+        "[" + " " * 300_000,
+        "include" + " " * 300_000,
+    ],
+)
+def test_long_lines_take_little_time(write_ini: Write, text: str) -> None:
+    file = write_ini("[General]\n" + text)
+    started_s = time.process_time()
+    with contextlib.suppress(ConfigError):
+        read_ini(file)
+    assert time.process_time() - started_s < 5  # it was minutes

@@ -1,5 +1,6 @@
 """Lint checks: lines that are valid but probably not intended."""
 
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from gradysim.scenario import load_scenarios
 from gradysim.scenario.ini import read_ini, search_order
 from gradysim.scenario.lint import (
     Finding,
+    _unit_other_than_time,
     bands_beside_frequencies,
     by_line,
     doubtful_times,
@@ -475,3 +477,11 @@ def test_a_class_that_makes_one_for_each_node_shares_nothing(folder: Any) -> Non
 def test_a_class_variable_is_shared_on_purpose(folder: Any) -> None:
     code = "def finish(self): self.heard.append(1)"
     assert found_by_run(folder, code, annotation=": ClassVar[list[int]]") == []
+
+
+def test_a_long_list_of_values_takes_little_time() -> None:
+    text = f"${{{', '.join(map(str, range(40_000)))}}}s"
+    started_s = time.process_time()
+    assert _unit_other_than_time(text, "uavs[0].protocol.interval") == ""
+    assert time.process_time() - started_s < 5  # it was minutes
+    assert _unit_other_than_time("${5, 10}m", "uavs[0].protocol.interval") == "m"

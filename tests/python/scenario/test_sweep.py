@@ -1,3 +1,4 @@
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -266,3 +267,30 @@ def test_all_variables_that_are_not_understood_are_reported() -> None:
         with pytest.raises(ConfigErrors) as caught:
             named(*texts)
         assert [error.line for error in caught.value.errors] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    "texts",
+    [
+        ["${1..1000000, 1..1000000}"],
+        [f"${{{'1' * 200}..{'1' * 193}9999999}}"],
+        ["${" + ", ".join(["1" * 100_000] * 200) + "}"],
+        ["${1}" * 1001],
+    ],
+)
+def test_what_variables_stand_for_is_bounded(texts: list[str]) -> None:
+    with pytest.raises(ConfigError) as caught:
+        named(*texts)
+    assert caught.value.line == 1
+
+
+def test_so_is_what_a_value_becomes() -> None:
+    with pytest.raises(ConfigError) as caught:
+        substitute(entry("${a}" * 2000), {"a": "x" * 10_000})
+    assert caught.value.line == 7
+
+
+def test_a_long_number_takes_little_time() -> None:
+    started_s = time.process_time()
+    named(f"${{{'1' * 300_000}x, 2}}")
+    assert time.process_time() - started_s < 5  # it was minutes

@@ -1,0 +1,29 @@
+"""Reads files that a scenario names. Devices and pipes may have no end or no writer: they are refused."""
+
+import stat
+from pathlib import Path
+
+from gradysim.scenario.errors import BadValue
+
+
+def check_regular(file: Path, name: str = "") -> None:
+    """Raise BadValue if something is there that is not a regular file. `name` is what the message calls it.
+
+    OSError and ValueError, of names that no file can have, are left to the reader of the file.
+    """
+    try:
+        mode = file.stat().st_mode
+    except (OSError, ValueError):
+        return
+    if not stat.S_ISREG(mode):
+        kind = next((kind for is_kind, kind in _KINDS.items() if is_kind(mode)), "no regular file")
+        raise BadValue(f"{name or file} is {kind}", expected="a regular file")
+
+
+_KINDS = {
+    stat.S_ISDIR: "a directory",
+    stat.S_ISCHR: "a device",
+    stat.S_ISBLK: "a device",
+    stat.S_ISFIFO: "a pipe",
+    stat.S_ISSOCK: "a socket",
+}
