@@ -32,7 +32,8 @@ so.
   `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that has no effect because of a line above it.
 - A list of values, `${10ms, 50ms}`, makes one run for each (docs/guides/results.md).
 - Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/guides/values.md).
-- A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file.
+- A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file. It is a
+  regular file. A scenario has at most 64 MiB, in at most 1,000 files.
 - Options of OMNeT++ alone are ignored: how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
   `*.visualizer.**`), and what it records where (`result-dir`, `**.vector-recording`). Of `network` only the
   name is used.
