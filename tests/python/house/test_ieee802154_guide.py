@@ -23,7 +23,7 @@ def test_its_ini_lines_are_those_of_the_scenario(guide: str, root: Path) -> None
 
 
 def test_nine_of_ten_messages_go_as_far_as_it_says(guide: str, root: Path) -> None:
-    ((payload_bytes, distance_m),) = re.findall(r"nine of ten messages of (\d+) B (\d+) m far", guide)
+    ((payload_bytes, distance_m),) = re.findall(r"nine of ten messages of (\d+) B arrive over (\d+) m", guide)
     (scenario,) = load_scenarios(
         root / "configs/reference/narrowband.ini",
         "Goodput",
