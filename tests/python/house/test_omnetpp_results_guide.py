@@ -108,7 +108,7 @@ def test_its_tables_have_the_names_that_are_written(shell: Shell, root: Path, fo
 def test_its_columns_are_those_of_rows(shell: Shell, root: Path, folder: Path) -> None:
     shell("gradysim run hello.ini -c Labelled -r 0 --scalars --vectors all --quiet", folder)
     rows = [*read_scalars(folder.glob("results/*.sca")), *read_vectors(folder.glob("results/*.vec"))]
-    table = (root / GUIDE).read_text().partition("| column | what it says |")[2].partition("\n\n")[0]
+    table = (root / GUIDE).read_text().partition("| column | meaning |")[2].partition("\n\n")[0]
     named = {
         name
         for row in re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
