@@ -4,7 +4,7 @@
 // Why. In a large network, the state that one event reads was evicted from the cache by the other
 // nodes since its last use. A cache miss costs as much as a hundred instructions, and a delivered
 // frame had nine of them with 10,000 nodes.
-// docs/decisions/0005-arrivals-only-where-they-can-matter.md has the measurements.
+// docs/performance.md has the measurements.
 //
 // How. Two kinds of events are known well before they run:
 //
