@@ -45,10 +45,11 @@ def check_file(
     findings: list[Finding] = []
     configs = [config] if config is not None else []
     try:
-        with errors.collecting(), contextlib.redirect_stdout(sys.stderr):  # protocols may print
+        # Protocols may print. After many errors, reading stops by ConfigErrors.
+        with contextlib.suppress(ConfigErrors), errors.collecting(), contextlib.redirect_stdout(sys.stderr):
             configs = configs or config_names(read_ini(file))
             for name in configs:
-                findings += _checked(file, name, mode, settings, errors)
+                findings += check_config(file, name, mode, settings, errors)
     except (CompiledPartMissingError, OSError) as mistake:
         return say_mistake(mistake)
     found = ConfigErrors(errors.errors).errors if errors.errors else []
@@ -64,7 +65,7 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
 
 
-def _checked(
+def check_config(
     file: "Path", config: str, mode: Mode, settings: "Sequence[str]", errors: "ErrorCollector"
 ) -> "list[Finding]":
     """Check one configuration. Returns the lint findings; `errors` takes the errors."""
