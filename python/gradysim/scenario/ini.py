@@ -187,7 +187,7 @@ class _Reader:
 
 def _bytes_of(file: Path, asked_by: Source | None, most: int) -> bytes:
     try:
-        check_regular(file)
+        check_regular(file, str(file) if asked_by else "it")
         with file.open("rb") as opened:
             return opened.read(most)
     except BadValue as error:

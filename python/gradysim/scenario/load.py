@@ -263,6 +263,8 @@ class Study(Sequence[Scenario]):
         """Return the seeds of all runs; `errors` takes what is wrong with those of the file."""
         entry, numbers = self._options.get("seed-set"), self._runs.numbers
         of_file: Sequence[int] = numbers
+        if entry is not None and entry.text == "${runnumber}":  # the default
+            entry = None
         if entry is not None and not depends_on_run(entry):
             with errors.collecting():
                 of_file = [seed_of_file(entry, {})] * len(numbers)
