@@ -1,7 +1,8 @@
 // Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
-// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, screenshot, color}, or
-// {file, beside} for a page with two replays, of which the first one gets a key. `url` instead of `file`, the time
-// `after` which to look, and `pause`, are for a run that goes on. Writes one object to standard output.
+// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, screenshot, color}, or
+// {file, beside} for a page with two replays, of which the first one gets a key. `values` are expressions.
+// `url` instead of `file`, the time `after` which to look, and `pause`, are for a run that goes on. Writes one object
+// to standard output.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
@@ -54,18 +55,35 @@ async function look() {
     return took;
   }, asked.seeks ?? []);
   if (asked.fill) await page.getByRole("combobox", { name: "Filter of frames" }).fill(asked.fill);
-  for (const key of asked.keys ?? []) await page.keyboard.press(key);
-  if (asked.until)
-    await page.waitForFunction(
-      (text) => decodeURIComponent(location.hash).includes(text) || document.body.innerText.includes(text),
-      asked.until,
-    );
+  for (const key of asked.keys ?? []) await act(key);
+  if (asked.until) await shows(asked.until);
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   said.address = decodeURIComponent(await page.evaluate(() => location.hash));
   said.text = await page.evaluate(() => document.body.innerText);
+  said.values = await page.evaluate(
+    (values) => Object.fromEntries(Object.entries(values).map(([name, code]) => [name, eval(code)])),
+    asked.values ?? {},
+  );
   said.scrolls_sideways = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  said.picture = (await page.locator("canvas.scene").screenshot()).toString("base64");
   const picture = await page.screenshot(asked.screenshot ? { path: asked.screenshot } : {});
   Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0]]));
+}
+
+/** Press a key, or `{click: selector}`, `{choose: name of a node}`, `{until: text}`. */
+async function act(key) {
+  if (key.click) await page.locator(key.click).click();
+  else if (key.choose) await page.getByRole("combobox", { name: "Node" }).selectOption(key.choose);
+  else if (key.until) await shows(key.until);
+  else await page.keyboard.press(key);
+}
+
+/** Wait until the page or its address has a text. */
+async function shows(text) {
+  await page.waitForFunction(
+    (wanted) => decodeURIComponent(location.hash).includes(wanted) || document.body.innerText.includes(wanted),
+    text,
+  );
 }
 
 /** Pause, wait until the time stands still, note the state then, and play again. */

@@ -28,6 +28,13 @@ def zigzag(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def reports(tmp_path_factory):
+    """The replay of a run in which all vehicles fly together."""
+    file = ROOT / "python/gradysim/cli/templates/scenario.ini"
+    return record(tmp_path_factory.mktemp("replay") / "reports.html", file, "Jittered", "15s")
+
+
+@pytest.fixture(scope="session")
 def town(tmp_path_factory):
     """The replay of a run with obstacles."""
     return record(tmp_path_factory.mktemp("replay") / "town.html", "town/town.ini", "Concrete", "1s")

@@ -1,6 +1,7 @@
 """What the page shows of a replay, in a browser."""
 
 import json
+import re
 import subprocess
 import sys
 import threading
@@ -20,6 +21,7 @@ from gradysim.simulator.handler.visualization import VisualizationConfiguration,
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 from gradysim.viewer.page import page
 from python.quiet_protocol import Quiet
+from viewer.conftest import record
 
 ROOT = Path(__file__).parents[2]
 INTERFERENCE = [0xC1, 0x12, 0x1F]
@@ -32,14 +34,34 @@ def state(replay, time_s):
     """What `gradysim.state` of the page says, from the tables."""
     began = [start <= time_s * 1e9 for start in replay.table("frames")["time_ns"]]
     outcomes = Counter(reception.outcome for reception in replay.receptions() if began[reception.frame])
+    outcomes["below_sensitivity"] = sum(
+        count for count, has in zip(replay.table("frames")["unnoticed"], began, strict=True) if has
+    )
     positions = [list(place) for place in replay.positions(time_s)]
-    return {"time_s": time_s, "positions": positions, "frames": sum(began), "outcomes": dict(outcomes)}
+    return {"time_s": time_s, "positions": positions, "frames": sum(began), "outcomes": dict(+outcomes)}
 
 
 def test_states_equal_those_of_the_reader(zigzag, browser):
     replay, random = read_replay(zigzag), Random(1)
     times = [0, 60, replay.end_s, *(random.uniform(0, replay.end_s) for _ in range(20))]
     assert browser(zigzag, times=times)["states"] == [state(replay, time_s) for time_s in times]
+
+
+def test_a_node_says_what_it_did_not_notice(zigzag, browser):
+    replay, station, time_s = read_replay(zigzag), 7, 200.5
+    assert replay.run["nodes"][station]["name"] == "groundStation"
+    noticed = {reception.frame for reception in replay.receptions() if reception.receiver == station}
+    table = replay.table("frames")
+    unnoticed = [
+        frame
+        for frame, (sender, start_ns) in enumerate(zip(table["node"], table["time_ns"], strict=True))
+        if start_ns <= time_s * 1e9 and sender != station and frame not in noticed
+    ]
+    address = f"#t={time_s}&node=groundStation&filter=at:groundStation outcome:Below sensitivity"
+    said = browser(zigzag, address=address, keys=["ArrowLeft"], until=f"&frame={unnoticed[-1]}&")
+    assert re.search(rf"below sensitivity\s+{len(unnoticed):,} · ", said["text"])
+    assert re.search(r"\d others did not notice it \(below sensitivity\)", said["text"])
+    assert re.search(r"distance\s+groundStation\s+below sensitivity\s", said["text"])
 
 
 @pytest.mark.parametrize("dark", [False, True])
@@ -53,7 +75,7 @@ def test_it_is_quiet_and_not_blank(town, browser, dark):
 def test_losses_at_the_ground_station_are_red(zigzag, browser):
     near = browser(zigzag, address="#t=1.1&node=groundStation&follow=1", color=RECEIVER_TRANSMITTING)
     assert near["near_pixels"] > 100
-    assert "receiver was transmitting" in near["text"]
+    assert "receiver transmitting" in near["text"]
     far = browser(zigzag, address="#t=1.1&filter=kind:ack", color=RECEIVER_TRANSMITTING)
     assert far["near_pixels"] < near["near_pixels"]
 
@@ -86,6 +108,74 @@ def test_the_next_loss_says_who_interfered(zigzag, browser):
 
 def test_a_wrong_filter_says_so(zigzag, browser):
     browser(zigzag, fill="colour:red", until='"colour" is not a key')
+
+
+def test_an_outcome_that_does_not_exist_is_answered_with_those_that_do(zigzag, browser):
+    said = browser(zigzag, fill="outcome:busy", until='"busy" is not an outcome')
+    (names,) = re.findall(r"is not an outcome; expected (.*)", said["text"])
+    assert len(set(names.split(", "))) == names.count(", ") + 1
+    assert "lost" in names
+    assert "out_of_range" not in names
+
+
+@pytest.mark.parametrize("text", ["outcome:Receiver locked", "node:uavs", "at:uavs[1]", "groundst"])
+def test_the_filter_takes_what_the_page_shows(zigzag, browser, text):
+    browser(zigzag, address=f"#t=0&filter={text}", keys=["ArrowRight"], until="&frame=")
+
+
+def test_a_filter_that_nothing_fits_says_so(zigzag, browser):
+    browser(zigzag, fill="kind:rts", until="No frame of the run fits.")
+
+
+def test_the_space_bar_plays_and_pauses_wherever_the_focus_is(zigzag, browser):
+    toggle = [" ", {"until": "Pause"}, " ", {"until": "Play"}]
+    names = "document.querySelector('button[title^=\"Show the names\"]').ariaPressed"
+    keys = [{"click": ".frames button >> nth=2"}, {"until": "&frame=2"}, *toggle]
+    keys += [{"choose": "uavs[1]"}, *toggle, {"click": "button:text-is('Names')"}, *toggle]
+    keys += ["Home", "ArrowRight", {"until": "&frame=0"}]
+    assert browser(zigzag, keys=keys, values={"names": names})["values"] == {"names": "false"}
+
+
+def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
+    replay = read_replay(reports)
+    frames = replay.table("frames")
+    noticed = {frame for frame, receiver, _ in replay.receptions() if receiver == 0}
+    begun = [frame for frame, start_ns in enumerate(frames["time_ns"]) if start_ns > 10e9]
+    first, second = [frame for frame in begun if frames["node"][frame] == 0 or frame in noticed][:2]
+    steps = [".", {"until": f"&frame={first}"}, ".", {"until": f"&frame={second}"}]
+    follows = {"follows": "document.querySelector('button[title^=Follow]').ariaPressed"}
+    said = browser(reports, keys=["n", "PageDown", "f", "t", *steps, "a"], values=follows)
+    assert said["values"] == {"follows": "false"}
+    # The same view, in which no line was drawn before the view changed.
+    begun = sum(start_ns <= frames["time_ns"][second] for start_ns in frames["time_ns"])
+    row = second - max(0, begun - 30)
+    time_s = frames["time_ns"][second] / 1e9
+    away = ["PageUp", {"until": f"#t={int(time_s - 10)}"}, "PageDown", {"until": f"#t={int(time_s)}"}]
+    choose = [{"click": f".frames button >> nth={row}"}, {"until": f"&frame={second}"}]
+    fresh = browser(reports, address=f"#t={time_s}&node=0", keys=["t", "a", *away, *choose])
+    assert fresh["picture"] == said["picture"]
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 640), (1280, 800), (1400, 850)])
+def test_the_reason_of_a_loss_is_in_view(zigzag, browser, width, height):
+    inside = """(() => {
+      const isIn = (inner, outer) => {
+        const [a, b] = [inner, outer].map((element) => element.getBoundingClientRect());
+        return a.top >= b.top - 1 && a.bottom <= b.bottom + 1;
+      };
+      const [details, list] = [".details", ".frames"].map((name) => document.querySelector(name));
+      return [isIn(details.querySelectorAll("tbody tr")[1], details),
+              isIn(list.querySelector("[aria-pressed=true]"), list)];
+    })()"""
+    address = "#t=0&filter=outcome:interference"
+    keys = ["Shift+ArrowRight", {"until": "&frame="}]
+    said = browser(zigzag, address=address, width=width, height=height, keys=keys, values={"inside": inside})
+    assert said["values"]["inside"] == [True, True]
+
+
+def test_frames_in_the_air_at_the_end_say_so(browser, tmp_path):
+    short = record(tmp_path / "short.html", "zigzag.ini", "ZigZag5Synchronised", "1.00001s")
+    assert "in the air at the end" in browser(short, address="#t=1")["text"]
 
 
 def test_a_run_that_was_killed_opens(zigzag, browser, tmp_path):

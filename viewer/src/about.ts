@@ -12,7 +12,8 @@ export function subtitleOf(replay: Replay): string {
   const { config, description, iterations, mode, seed, file, nodes } = replay.run;
   if (!config) return `${nodes.length} nodes`;
   const values = Object.entries(iterations).map(([name, value]) => `${name} = ${value}`);
-  const parts = [description, ...values, `${mode} mode`, `seed ${seed}`, `${nodes.length} nodes`, file];
+  // What does not fit is cut off: the description, which is long and known.
+  const parts = [`${mode} mode`, `seed ${seed}`, ...values, `${nodes.length} nodes`, file, description];
   return parts.filter(Boolean).join(" · ");
 }
 

@@ -2,7 +2,8 @@
 
 import { Vector3 } from "three";
 import { outcomeColor, outcomeDash, rgb, styleColor } from "./colors";
-import { Filter, senderOf } from "./filter";
+import { Filter } from "./filter";
+import { senderOf } from "./frame_text";
 import { Instances } from "./instances";
 import { Look } from "./look";
 import { Reception } from "./receptions";

@@ -7,8 +7,9 @@ import { SLANT } from "./camera";
 import { Clock } from "./clock";
 import { Actions, Controls } from "./controls";
 import { make } from "./dom";
-import { Filter, parseFilter, senderOf } from "./filter";
+import { Filter, parseFilter } from "./filter";
 import { FrameDetails } from "./frame_details";
+import { senderOf } from "./frame_text";
 import { FrameList } from "./frames";
 import { Inspector } from "./inspector";
 import { keysDialog, listenToKeys } from "./keys";
@@ -40,6 +41,7 @@ export class App implements Actions {
   private readonly dialogs: { run: HTMLDialogElement; keys: HTMLDialogElement };
   private readonly neighbors: Neighbors;
   private readonly warning = make("p", { class: "mistake" });
+  private readonly side = make("aside");
   private filter: Filter;
   private isDirty = true;
   private areTextsOld = true;
@@ -135,6 +137,7 @@ export class App implements Actions {
   }
 
   showAll(): void {
+    this.store.set({ isFollowing: false });
     this.scene.fit(this.replay.positions(this.clock.timeNs));
     this.redraw();
   }
@@ -187,6 +190,10 @@ export class App implements Actions {
 
   private layOut(canvas: HTMLCanvasElement, labels: HTMLCanvasElement): void {
     document.body.classList.toggle("no-frames", !this.replay.hasFrames);
+    this.side.append(
+      this.inspector.element,
+      make("section", { class: "of-frames", "aria-label": "Frames" }, this.chosen.element, ...this.list.elements),
+    );
     document.title = `${titleOf(this.replay)} – gradysim replay`;
     document.body.append(
       make(
@@ -198,12 +205,7 @@ export class App implements Actions {
         this.controls.tools,
       ),
       make("main", { class: "stage" }, canvas, labels),
-      make(
-        "aside",
-        {},
-        this.inspector.element,
-        make("section", { class: "of-frames", "aria-label": "Frames" }, this.chosen.element, ...this.list.elements),
-      ),
+      this.side,
       make("footer", {}, this.controls.bar, this.timeline.element),
       this.dialogs.run,
       this.dialogs.keys,
@@ -228,7 +230,11 @@ export class App implements Actions {
     if ("node" in changed && this.store.now.node === null && this.store.now.isFollowing)
       this.store.set({ isFollowing: false });
     if (changed.isFollowing && this.store.now.node === null) this.chooseNode(1);
-    if ("frame" in changed) void this.chosen.read(this.store.now.frame).then(() => this.redraw());
+    if ("frame" in changed || "node" in changed) {
+      const { frame, node } = this.store.now;
+      this.side.classList.toggle("with-frame", frame !== null);
+      void this.chosen.read(frame, node).then(() => this.redraw());
+    }
     this.redraw();
   }
 

@@ -64,7 +64,7 @@ export class Charts {
         cursor: { y: false, points: { show: false }, drag: { x: true, y: false, setScale: true } },
         axes: [
           { ...axis, size: 20, gap: 2, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
-          { ...axis, size: 44, gap: 2 },
+          { ...axis, size: 44, gap: 2, splits: extremes, values: (_, values) => values.map(shortText) },
         ],
         series: [
           {},
@@ -85,6 +85,20 @@ export class Charts {
     });
     return plot;
   }
+}
+
+/** The smallest and the largest value shown: a chart has no room for more. */
+function extremes(plot: uPlot, _axis: number, low: number, high: number): number[] {
+  let [least, most] = [Infinity, -Infinity];
+  for (const value of plot.data[1] as (number | null)[]) {
+    if (value === null || value < low || value > high) continue;
+    [least, most] = [Math.min(least, value), Math.max(most, value)];
+  }
+  return least < most ? [least, most] : least === most ? [least] : [];
+}
+
+function shortText(value: number): string {
+  return value.toLocaleString("en-US", { notation: "compact", maximumSignificantDigits: 4 });
 }
 
 /** The last value holds until the end. */

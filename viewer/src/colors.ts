@@ -5,19 +5,19 @@ export const isDark = window.matchMedia("(prefers-color-scheme: dark)");
 type Pair = readonly [light: string, dark: string];
 
 /** `dash`: length of the dashes of a lost one, in pixels. Red and orange: other frames were in the way. */
-const OUTCOMES: Record<string, { words: string; color: Pair; dash: number }> = {
-  delivered: { words: "delivered", color: ["#5f86ad", "#7fa3c7"], dash: 0 },
-  below_sensitivity: { words: "below sensitivity", color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
-  in_air: { words: "still in the air", color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
-  out_of_range: { words: "out of range", color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
-  interference: { words: "lost to interference", color: ["#c1121f", "#ff4d5e"], dash: 8 },
-  receiver_transmitting: { words: "receiver was transmitting", color: ["#d9480f", "#ff7a4d"], dash: 5 },
-  receiver_locked: { words: "receiver was busy", color: ["#7a3fb0", "#b795f0"], dash: 5 },
-  captured: { words: "given up for a stronger frame", color: ["#7a4a12", "#c9975a"], dash: 5 },
-  noise: { words: "lost to noise", color: ["#b39200", "#f0d03c"], dash: 2.5 },
-  preamble_undetected: { words: "preamble not detected", color: ["#007a59", "#00b386"], dash: 2.5 },
-  header_error: { words: "header not decoded", color: ["#1a8fd1", "#56b4e9"], dash: 2.5 },
-  lost: { words: "lost by chance", color: ["#b39200", "#f0d03c"], dash: 2.5 },
+const OUTCOMES: Record<string, { color: Pair; dash: number }> = {
+  delivered: { color: ["#5f86ad", "#7fa3c7"], dash: 0 },
+  below_sensitivity: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  in_air: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  out_of_range: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  interference: { color: ["#c1121f", "#ff4d5e"], dash: 8 },
+  receiver_transmitting: { color: ["#d9480f", "#ff7a4d"], dash: 5 },
+  receiver_locked: { color: ["#7a3fb0", "#b795f0"], dash: 5 },
+  captured: { color: ["#7a4a12", "#c9975a"], dash: 5 },
+  noise: { color: ["#b39200", "#f0d03c"], dash: 2.5 },
+  preamble_undetected: { color: ["#007a59", "#00b386"], dash: 2.5 },
+  header_error: { color: ["#1a8fd1", "#56b4e9"], dash: 2.5 },
+  lost: { color: ["#b39200", "#f0d03c"], dash: 2.5 },
 };
 
 const GROUPS: Pair[] = [
@@ -40,8 +40,9 @@ export function outcomeDash(name: string): number {
   return OUTCOMES[name]?.dash ?? 4;
 }
 
+/** "receiver locked": the words of the summary of a run. */
 export function outcomeWords(name: string): string {
-  return OUTCOMES[name]?.words ?? name.replaceAll("_", " ");
+  return name.replaceAll("_", " ");
 }
 
 export function groupColor(group: number): string {

@@ -53,6 +53,7 @@ export interface Header {
   strings: string[];
   density: { bin_ns: number; frames: number[]; lost: number[] };
   outcomes: { node: number[]; outcome: number[]; count: number[] };
+  sent: Record<"node" | "destination" | "frames" | "receptions" | "unnoticed", number[]>;
   tables: Record<string, { rows: number }>;
 }
 

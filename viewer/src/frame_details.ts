@@ -3,9 +3,9 @@
 import { Interferer } from "./air";
 import { outcomeColor, outcomeWords } from "./colors";
 import { button, distanceText, durationText, make, timeText } from "./dom";
-import { senderOf } from "./filter";
 import { NO_POWER, Table } from "./format";
-import { causeText, destinationText } from "./frames";
+import { causeText, destinationText, senderOf } from "./frame_text";
+import { Reception } from "./receptions";
 import { Frame, Replay, startOf } from "./replay";
 
 interface Loss {
@@ -18,23 +18,27 @@ export class FrameDetails {
   readonly element = make("div", { class: "details" });
   interferers: Interferer[] = [];
   private frame: Frame | null = null;
+  private node: number | null = null;
 
   constructor(
     private readonly replay: Replay,
     private readonly close: () => void,
   ) {}
 
-  /** Show a frame; null: none. */
-  async read(frame: Frame | null): Promise<void> {
-    this.frame = frame;
-    this.interferers = [];
-    this.element.replaceChildren();
+  /** Show a frame (null: none), what became of it at the chosen node first. */
+  async read(frame: Frame | null, node: number | null): Promise<void> {
+    if (frame !== this.frame) {
+      this.interferers = [];
+      this.element.replaceChildren();
+    }
+    [this.frame, this.node] = [frame, node];
     if (frame === null) return;
     const losses = await readLosses(frame);
-    if (this.frame !== frame) return;
+    if (this.frame !== frame || this.node !== node) return;
+    this.interferers = [];
     for (const [receiver, loss] of losses)
       for (const node of loss.interferers) this.interferers.push({ node, receiver });
-    this.element.replaceChildren(...describe(this.replay, frame, losses, this.close));
+    this.element.replaceChildren(...describe(this.replay, frame, node, losses, this.close));
   }
 }
 
@@ -60,6 +64,7 @@ async function readLosses({ chunk, row }: Frame): Promise<Map<number, Loss>> {
 function describe(
   replay: Replay,
   frame: Frame,
+  chosen: number | null,
   losses: ReadonlyMap<number, Loss>,
   close: () => void,
 ): HTMLElement[] {
@@ -69,31 +74,33 @@ function describe(
   const facts = [
     `${kind}, ${causeText(replay, frame)}`,
     `at ${Number(timeText(startOf(frame), 9))} s for ${durationText(table.duration_ns[frame.row])}`,
-    `${table.bytes[frame.row]} bytes at ${(table.bitrate_bps[frame.row] / 1e6).toLocaleString("en-US")} Mbit/s`,
+    `${table.bytes[frame.row]} bytes${bitrateText(table.bitrate_bps[frame.row])}`,
   ];
-  const receptions = frame.chunk.frames
-    .receptions(frame.row)
+  const noticed = frame.chunk.frames.receptions(frame.row);
+  if (chosen !== null && replay.isUnnoticedAt(chosen, frame))
+    noticed.push({ receiver: chosen, outcome: replay.unnoticed });
+  // The chosen node first, then losses of which more is known, then other losses.
+  const rank = ({ receiver, outcome }: Reception): number =>
+    receiver === chosen ? 3 : losses.has(receiver) ? 2 : Number(replay.isLost[outcome]);
+  const receptions = noticed
     .map((reception) => ({ ...reception, distance: distance(replay, frame, reception.receiver) }))
-    .sort((a, b) => Number(replay.isLost[b.outcome]) - Number(replay.isLost[a.outcome]) || a.distance - b.distance);
+    .sort((a, b) => rank(b) - rank(a) || a.distance - b.distance);
   const body = make("tbody");
   for (const { receiver, outcome, distance: meters } of receptions) {
     const name = replay.run.outcomes[outcome];
     const loss = losses.get(receiver);
     const words = make("span", { class: replay.isLost[outcome] ? "badge lost" : "badge" }, outcomeWords(name));
     words.style.setProperty("--color", outcomeColor(name));
+    const cells = [[replay.nameOf(receiver)], [words], [distanceText(meters)]];
+    body.append(make("tr", {}, ...cells.map((cell) => make("td", {}, ...cell))));
     const by = loss?.interferers.map(
       (other) => `${replay.nameOf(other)} (${distanceText(between(replay, frame, other, receiver))})`,
     );
     const others = by?.length ? `with ${by.join(", ")}${strengthText(loss?.interference)}` : "";
-    const cells = [
-      [replay.nameOf(receiver)],
-      [words, make("div", { class: "muted" }, others)],
-      [distanceText(meters)],
-      [strengthText(loss?.power).replace(": ", "")],
-    ];
-    body.append(make("tr", {}, ...cells.map((cell) => make("td", {}, ...cell))));
+    const reason = [`power${strengthText(loss?.power)}`, others].filter((part) => part && part !== "power").join(", ");
+    if (reason) body.append(make("tr", {}, make("td", { class: "muted", colspan: "3" }, reason)));
   }
-  const heads = ["at", "outcome", "distance", "power"].map((head) => make("th", {}, head));
+  const heads = ["at", "outcome", "distance"].map((head) => make("th", {}, head));
   const unnoticed = table.unnoticed[frame.row];
   return [
     make(
@@ -103,8 +110,9 @@ function describe(
       make("span", { class: "end" }, button("✕", "Close (Esc)", close)),
     ),
     make("p", { class: "message" }, facts.join(" · ")),
+    ...(replay.isInAir(frame) ? [make("p", { class: "message" }, "In the air at the end.")] : []),
+    ...(unnoticed ? [make("p", { class: "message" }, unnoticedText(replay, unnoticed))] : []),
     make("table", {}, make("thead", {}, make("tr", {}, ...heads)), body),
-    make("p", { class: "message" }, unnoticed ? `${unnoticed} more nodes did not notice it.` : ""),
   ];
 }
 
@@ -127,6 +135,16 @@ function distance(replay: Replay, frame: Frame, receiver: number): number {
 function between(replay: Replay, frame: Frame, a: number, b: number): number {
   const [from, to] = [replay.position(a, frame), replay.position(b, frame)];
   return Math.hypot(from[0] - to[0], from[1] - to[1], from[2] - to[2]);
+}
+
+function unnoticedText(replay: Replay, count: number): string {
+  const words = outcomeWords(replay.run.outcomes[replay.unnoticed]);
+  return `${count} ${count === 1 ? "other" : "others"} did not notice it (${words}).`;
+}
+
+/** Prototype mode has no bit rates. */
+function bitrateText(bitrateBps: number): string {
+  return bitrateBps ? ` at ${(bitrateBps / 1e6).toLocaleString("en-US")} Mbit/s` : "";
 }
 
 /** ": -83.8 dBm"; "" if it is not known. */

@@ -2,8 +2,8 @@
 
 import { outcomeColor, outcomeWords } from "./colors";
 import { make, timeText } from "./dom";
-import { Filter, KEYS, senderOf } from "./filter";
-import { BROADCAST } from "./format";
+import { Filter, KEYS } from "./filter";
+import { causeText, destinationText, senderOf } from "./frame_text";
 import { Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";
@@ -11,6 +11,15 @@ import { Store } from "./state";
 const BEFORE = 30;
 const AFTER = 15;
 const ROW_PX = 24;
+
+/** Whether a frame of the whole run fits, as far as that is known. */
+interface Search {
+  filter: Filter;
+  /** How many chunks were searched. */
+  chunks: number;
+  hasFound: boolean;
+  isReading: boolean;
+}
 
 export class FrameList {
   readonly field = make("input", {
@@ -28,6 +37,7 @@ export class FrameList {
   private readonly note = make("p", { class: "message" });
   private readonly list = make("div", { class: "list frames" });
   private shown: Frame[] = [];
+  private search: Search | null = null;
 
   constructor(
     private readonly replay: Replay,
@@ -55,28 +65,82 @@ export class FrameList {
   }
 
   update(timeNs: number, filter: Filter): void {
+    if (!this.replay.hasFrames) return;
     if (this.field.value !== this.store.now.filter && document.activeElement !== this.field)
       this.field.value = this.store.now.filter;
     const before = this.around(timeNs, filter, -1, BEFORE).reverse();
     const after = this.around(timeNs, filter, 1, AFTER);
+    const focused = this.shown[this.placeOfFocus()];
     this.shown = [...before, ...after];
-    setText(this.note, this.shown.length ? "" : "No frame fits near this time. ← and → find the next one.");
+    setText(this.note, this.shown.length ? "" : this.noteOf(filter));
     showRows(this.list, this.shown, frameButton, (element, frame) => this.fill(element, frame, timeNs));
-    // The frame of now is in view, unless the mouse is about to click another one.
-    if (!this.list.matches(":hover"))
-      this.list.scrollTop = before.length * ROW_PX - this.list.clientHeight * 0.6;
+    this.keepFocus(focused);
+    const top = before.length * ROW_PX - this.list.clientHeight * 0.6;
+    // The frame of now is in view; while the mouse is about to click another one, only a chosen one is.
+    if (!this.list.matches(":hover")) this.list.scrollTop = top;
+    else if (this.store.now.frame !== null) {
+      const end = before.length * ROW_PX;
+      this.list.scrollTop = Math.min(Math.max(this.list.scrollTop, end - this.list.clientHeight), end - ROW_PX);
+    }
   }
 
-  /** Frames that fit, from the clock on, as far as chunks are decoded. */
+  private placeOfFocus(): number {
+    return [...this.list.children].indexOf(document.activeElement as Element);
+  }
+
+  /** Rows change under the focus: let it stay at its frame, so that Enter does not choose another one. */
+  private keepFocus(frame: Frame | undefined): void {
+    const old = this.placeOfFocus();
+    if (old < 0 || frame === undefined) return;
+    const place = this.shown.findIndex((other) => isSameFrame(other, frame));
+    if (place === old) return;
+    (document.activeElement as HTMLElement).blur();
+    if (place >= 0) (this.list.children[place] as HTMLElement).focus({ preventScroll: true });
+  }
+
+  /** What to say when no frame fits near. */
+  private noteOf(filter: Filter): string {
+    if (this.search?.filter !== filter) this.search = { filter, chunks: 0, hasFound: false, isReading: false };
+    const { chunks, hasFound } = this.search;
+    if (hasFound) return "No frame fits near this time. ← and → find the next one.";
+    if (chunks < this.replay.chunks.length) void this.readOn();
+    else return filter.isEmpty ? "There are no frames." : "No frame of the run fits.";
+    return "No frame fits near this time.";
+  }
+
+  /** Look for a frame that fits in the chunks that were not searched. */
+  private async readOn(): Promise<void> {
+    const { search, replay } = this;
+    if (search === null || search.isReading) return;
+    search.isReading = true;
+    while (search === this.search && !search.hasFound && search.chunks < replay.chunks.length) {
+      const chunk = await replay.loadChunk(search.chunks);
+      for (let row = 0; row < chunk.frames.count && !search.hasFound; row += 1)
+        search.hasFound = search.filter.passes(chunk, row);
+      search.chunks += 1;
+    }
+    search.isReading = false;
+    this.store.set({}); // say it
+  }
+
+  /**
+   * Frames that fit, from the clock on, as far as chunks are decoded. The chosen frame is the last one before:
+   * others may begin at the same instant.
+   */
   private around(timeNs: number, filter: Filter, step: 1 | -1, most: number): Frame[] {
     const found: Frame[] = [];
+    const { frame } = this.store.now;
     const chunks = step < 0 ? this.replay.chunksBefore(timeNs) : this.replay.chunksAfter(timeNs);
     for (const chunk of chunks) {
       const { frames } = chunk;
-      const until = frames.rowsUntil(timeNs);
+      let until = frames.rowsUntil(timeNs);
+      if (frame !== null) {
+        const later = chunk.index - frame.chunk.index;
+        until = later === 0 ? frame.row + 1 : later < 0 ? frames.count : 0;
+      }
       for (let row = step > 0 ? until : until - 1; row >= 0 && row < frames.count; row += step) {
         if (found.length >= most) return found;
-        if (filter.passes(chunk, row)) found.push({ chunk, row });
+        if (filter.passes(chunk, row) || isSameFrame({ chunk, row }, frame)) found.push({ chunk, row });
       }
     }
     return found;
@@ -90,32 +154,24 @@ export class FrameList {
     setText(who, `${this.replay.nameOf(senderOf(frame))} → ${destinationText(this.replay, frame)}`);
     setText(cause, causeText(this.replay, frame));
     element.title = `${who.textContent}, ${cause.textContent}`;
+    const { unnoticed } = this.replay;
     const counts = new Map<number, number>();
     for (const { outcome } of chunk.frames.receptions(row)) counts.set(outcome, (counts.get(outcome) ?? 0) + 1);
-    const parts = [...counts].sort((a, b) => a[0] - b[0]);
-    showRows(what, parts.length ? parts : [null], () => make("i"), (part, counted) => {
-      const name = counted && this.replay.run.outcomes[counted[0]];
-      setText(part, counted ? String(counted[1]) : table.receptions[row] ? "not recorded" : "unnoticed");
+    const parts: ([number, number] | string)[] = [...counts].sort((a, b) => a[0] - b[0]);
+    if (this.replay.isInAir(frame)) parts.push("in the air at the end");
+    else if (table.receptions[row] && !parts.length) parts.push("not recorded");
+    if (table.unnoticed[row]) parts.push([unnoticed, table.unnoticed[row]]);
+    showRows(what, parts, () => make("i"), (part, counted) => {
+      const name = typeof counted === "string" ? "" : this.replay.run.outcomes[counted[0]];
+      setText(part, typeof counted === "string" ? counted : String(counted[1]));
       part.title = name ? outcomeWords(name) : "";
       part.style.setProperty("--color", name ? outcomeColor(name) : "transparent");
-      part.className = counted === null ? "none" : this.replay.isLost[counted[0]] ? "lost" : "";
+      const isLost = typeof counted !== "string" && this.replay.isLost[counted[0]];
+      part.className = name ? (isLost ? "lost" : "") : "none";
     });
     element.classList.toggle("later", startOf(frame) > timeNs);
     element.setAttribute("aria-pressed", String(isSameFrame(frame, this.store.now.frame)));
   }
-}
-
-export function destinationText(replay: Replay, { chunk, row }: Frame): string {
-  const destination = chunk.frames.table.destination[row];
-  return destination === BROADCAST ? "all" : replay.nameOf(destination);
-}
-
-/** What made a node send the frame: "timer beacon"; of an acknowledgment, its kind. */
-export function causeText(replay: Replay, { chunk, row }: Frame): string {
-  const { table } = chunk.frames;
-  const cause = chunk.strings[table.cause[row]];
-  const kind = replay.run.kinds[table.kind[row]];
-  return (cause || kind) + (table.retry[row] ? ` (retry ${table.retry[row]})` : "");
 }
 
 function frameButton(): HTMLButtonElement {

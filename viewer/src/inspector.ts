@@ -112,20 +112,24 @@ export class Inspector {
 
   private showOutcomes(timeNs: number, node: number | null): void {
     const { outcomes, recorded } = this.replay.run;
-    const { frames, counts } = this.replay.outcomes(timeNs);
+    const tally = this.replay.tally(timeNs);
+    const { counts } = tally;
     const sums = outcomes.map(() => 0);
     for (let place = 0; place < counts.length; place += 1)
       if (node === null || Math.floor(place / outcomes.length) === node)
         sums[place % outcomes.length] += counts[place];
+    const unnoticed = tally.unnoticedAt(node);
+    if (unnoticed !== null && this.replay.unnoticed >= 0) sums[this.replay.unnoticed] = unnoticed;
     const total = sums.reduce((a, b) => a + b, 0);
     const rows = outcomes.map((name, outcome) => ({ name, count: sums[outcome] })).filter((row) => row.count);
     const isMissing = node !== null && recorded !== null && !recorded.includes(node);
     const whose = node === null ? "" : " at this node";
+    const share = unnoticed === null ? ", those not noticed not counted" : "";
     setText(
       this.outcomesNote,
       isMissing
         ? "The receptions of this node were not recorded."
-        : `Frames: ${countText(frames)}. Receptions${whose}: ${countText(total)}.`,
+        : `Frames: ${countText(tally.frames)}. Receptions${whose}: ${countText(total)}${share}.`,
     );
     showRows(
       this.outcomes,

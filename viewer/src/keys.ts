@@ -18,6 +18,7 @@ const KEYS: [keys: string, words: string][] = [
   ["l r", "names, trails"],
   ["/", "filter the frames"],
   ["i ?", "what was run; these keys"],
+  ["Tab Enter", "go to a button, press it"],
   ["Esc", "choose nothing"],
 ];
 
@@ -54,14 +55,20 @@ export function listenToKeys(controls: Controls, actions: Actions, clock: Clock)
     "?": () => actions.showKeys(),
     Escape: () => actions.clearChoice(),
   };
+  const isElsewhere = ({ ctrlKey, altKey, metaKey }: KeyboardEvent): boolean =>
+    ctrlKey || altKey || metaKey || document.querySelector("dialog[open]") !== null;
+  document.addEventListener("keyup", (event) => {
+    // In Firefox this is what keeps the space bar from pressing the button that has the focus.
+    if (event.key !== " " || isElsewhere(event) || (event.target as HTMLElement).matches("input")) return;
+    event.preventDefault();
+  });
   document.addEventListener("keydown", (event) => {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector("dialog[open]")) return;
-    if (target.matches("input, select")) {
+    if (isElsewhere(event)) return;
+    if (target.matches("input")) {
       if (event.key === "Escape") target.blur();
       return;
     }
-    if (event.key === " " && target.matches("button")) return; // It presses the button.
     const action = done[(event.shiftKey && event.key.startsWith("Arrow") ? "Shift " : "") + event.key];
     if (!action) return;
     event.preventDefault();

@@ -17,6 +17,8 @@ export class Frames {
   readonly outcomes: Uint16Array;
   /** How many receptions of a frame were lost. */
   readonly lost: Uint32Array;
+  /** How many receptions of a frame are known. */
+  readonly known: Uint32Array;
 
   private readonly sender: Uint32Array; // of a row
   private readonly ordinal: Uint32Array; // of a row among the frames of its sender
@@ -34,6 +36,7 @@ export class Frames {
     this.count = table.node.length;
     this.outcomes = new Uint16Array(this.count);
     this.lost = new Uint32Array(this.count);
+    this.known = new Uint32Array(this.count);
     this.sender = new Uint32Array(this.count);
     this.ordinal = new Uint32Array(this.count);
     this.since = new Uint32Array(changed.frame.length);
@@ -110,6 +113,7 @@ export class Frames {
     const counts = new Uint32Array(256);
     let mask = 0;
     let lost = 0;
+    let known = 0;
     let place = this.changes.first[sender];
     const end = this.changes.first[sender + 1];
     for (let ordinal = 0; ordinal < this.rows.first[sender + 1] - this.rows.first[sender]; ordinal += 1) {
@@ -125,15 +129,18 @@ export class Frames {
           counts[old] -= 1;
           if (counts[old] === 0 && old < 16) mask &= ~(1 << old);
           if (this.isLost[old]) lost -= 1;
+          if (old !== BELOW_SENSITIVITY) known -= 1;
         }
         last[receiver[change]] = change + 1;
         const now = outcome[change];
         counts[now] += 1;
         if (now < 16) mask |= 1 << now;
         if (this.isLost[now]) lost += 1;
+        if (now !== BELOW_SENSITIVITY) known += 1;
       }
       this.outcomes[row] = mask;
       this.lost[row] = lost;
+      this.known[row] = known;
     }
     for (let change = this.changes.first[sender]; change < end; change += 1)
       last[receiver[this.changes.rows[change]]] = 0;

@@ -5,6 +5,7 @@ import { Legs } from "./legs";
 import { Look, plainLook } from "./look";
 import { Frames } from "./receptions";
 import { Source } from "./source";
+import { Tally } from "./tally";
 
 /** How much is kept decoded; what was used the longest time ago goes first. */
 const KEPT_CHUNKS = 6;
@@ -15,6 +16,7 @@ const LONGEST_FRAME_NS = 2e9;
 
 const PLAIN = plainLook();
 
+const OF_PROTOTYPE = ["delivered", "out_of_range", "lost"];
 const NOT_LOST = ["delivered", "below_sensitivity", "in_air", "out_of_range"];
 
 /** A decoded chunk. */
@@ -67,10 +69,16 @@ export class Replay {
   readonly isLost: readonly boolean[];
   /** Whether the run has frames and events; otherwise only positions and variables. */
   readonly hasFrames: boolean;
+  /** Whether all is recorded at all nodes. */
+  readonly isWhole: boolean;
+  /** Outcomes that a reception of this mode can have, by number. */
+  readonly possible: readonly number[];
+  /** The outcome of a reception that is not noticed. */
+  readonly unnoticed: number;
 
   private readonly decoded = new Map<number, Chunk>(); // the one that was used last is the last one
   private readonly loading = new Map<number, Promise<Chunk>>();
-  private earlier: { chunks: number; frames: number; counts: Float64Array };
+  private earlier: { chunks: number; tally: Tally };
 
   constructor(readonly source: Source) {
     this.run = source.run;
@@ -78,7 +86,13 @@ export class Replay {
     this.nodeCount = Math.max(-1, ...this.run.nodes.map((node) => node.id)) + 1;
     this.isLost = this.run.outcomes.map((name) => !NOT_LOST.includes(name));
     this.hasFrames = this.run.outcomes.length > 0;
-    this.earlier = { chunks: 0, frames: 0, counts: this.noCounts() };
+    const { recorded, outcomes, mode } = this.run;
+    this.isWhole = recorded === null || recorded.length === this.nodes.size;
+    const isOfMode = (name: string): boolean =>
+      mode === "prototype" ? OF_PROTOTYPE.includes(name) : name === "delivered" || !OF_PROTOTYPE.includes(name);
+    this.possible = [...outcomes.keys()].filter((outcome) => isOfMode(outcomes[outcome]));
+    this.unnoticed = outcomes.indexOf(mode === "prototype" ? "out_of_range" : "below_sensitivity");
+    this.earlier = { chunks: 0, tally: this.newTally() };
   }
 
   get chunks(): readonly StoredChunk[] {
@@ -205,20 +219,33 @@ export class Replay {
     return found;
   }
 
-  /** Return how many frames began until a time, and what became of them: see `Frames.addOutcomes`. Needs `load`. */
-  outcomes(timeNs: number): { frames: number; counts: Float64Array } {
+  /** Return what became of the frames that began until a time. Needs `load`. */
+  tally(timeNs: number): Tally {
     const needed = this.neededAt(timeNs);
     this.sumEarlier(needed[0]);
-    let { frames } = this.earlier;
-    const counts = this.earlier.counts.slice();
+    const tally = this.earlier.tally.copy();
     for (const index of needed) {
       const chunk = this.chunk(index);
-      if (chunk === null) continue;
-      const rows = chunk.frames.rowsUntil(timeNs);
-      frames += rows;
-      chunk.frames.addOutcomes(rows, counts, this.run.outcomes.length);
+      if (chunk !== null) tally.addFrames(chunk.frames, chunk.frames.rowsUntil(timeNs));
     }
-    return { frames, counts };
+    return tally;
+  }
+
+  /** Whether the run ended before the frame did. */
+  isInAir({ chunk, row }: Frame): boolean {
+    const { node, receptions } = chunk.frames.table;
+    const { recorded } = this.run;
+    return chunk.frames.known[row] < receptions[row] && (recorded === null || recorded.includes(node[row]));
+  }
+
+  /** Whether a node did not notice a frame, as far as that can be told. */
+  isUnnoticedAt(node: number, { chunk, row }: Frame): boolean {
+    const { frames } = chunk;
+    const { node: sender, destination, receptions, unnoticed } = frames.table;
+    if (node === sender[row] || frames.known[row] !== receptions[row]) return false;
+    const all = receptions[row] + unnoticed[row];
+    const has = all === this.nodes.size - 1 || (all === 1 && destination[row] === node);
+    return has && frames.receptions(row).every(({ receiver }) => receiver !== node);
   }
 
   /**
@@ -247,8 +274,8 @@ export class Replay {
     return null;
   }
 
-  noCounts(): Float64Array {
-    return new Float64Array(this.nodeCount * this.run.outcomes.length);
+  private newTally(): Tally {
+    return new Tally(this.nodes.size, this.nodeCount, this.run.outcomes.length, this.isWhole);
   }
 
   private neededAt(timeNs: number): number[] {
@@ -265,15 +292,9 @@ export class Replay {
 
   /** Sum what the headers of the first `chunks` chunks say. */
   private sumEarlier(chunks: number): void {
-    if (chunks < this.earlier.chunks) this.earlier = { chunks: 0, frames: 0, counts: this.noCounts() };
-    const outcomes = this.run.outcomes.length;
-    for (; this.earlier.chunks < chunks; this.earlier.chunks += 1) {
-      const { header } = this.chunks[this.earlier.chunks];
-      const { node, outcome, count } = header.outcomes;
-      for (let row = 0; row < node.length; row += 1)
-        this.earlier.counts[node[row] * outcomes + outcome[row]] += count[row];
-      this.earlier.frames += header.tables.frames.rows;
-    }
+    if (chunks < this.earlier.chunks) this.earlier = { chunks: 0, tally: this.newTally() };
+    for (; this.earlier.chunks < chunks; this.earlier.chunks += 1)
+      this.earlier.tally.addChunk(this.chunks[this.earlier.chunks].header);
   }
 
   private async decode(index: number): Promise<Chunk> {

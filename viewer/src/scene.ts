@@ -24,6 +24,7 @@ export class Scene {
   private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
   private readonly groups: ReadonlyMap<string, number>;
   private background = "";
+  private isPlaced = false; // whether `origin` is set: what is drawn depends on it
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -80,7 +81,8 @@ export class Scene {
       points.flatMap(([x, y]) => [x, y, Math.min(top_m, 1000)]),
     );
     const all = [...Array.from(values), ...corners];
-    if (this.obstacles.children.length === 0) {
+    if (!this.isPlaced) {
+      this.isPlaced = true;
       new THREE.Box3().setFromArray(all.filter((value) => !Number.isNaN(value))).getCenter(this.origin).setZ(0);
       this.ground.material.uniforms.origin.value.set(this.origin.x, this.origin.y);
       this.addObstacles();

@@ -8,7 +8,7 @@ export interface RunState {
   positions: [number, number, number][];
   /** How many frames began until this time. */
   frames: number;
-  /** What became of them at receivers that noticed them. */
+  /** What became of them at receivers. */
   outcomes: Record<string, number>;
 }
 
@@ -29,13 +29,16 @@ export function scriptInterface(app: App): ScriptInterface {
       const timeNs = timeS * 1e9;
       await replay.load(timeNs);
       const places = replay.positions(timeNs);
-      const { frames, counts } = replay.outcomes(timeNs);
+      const tally = replay.tally(timeNs);
+      const { frames, counts } = tally;
       const names = replay.run.outcomes;
       const outcomes: Record<string, number> = {};
       counts.forEach((count, place) => {
         const name = names[place % names.length];
         if (count) outcomes[name] = (outcomes[name] ?? 0) + count;
       });
+      const unnoticed = tally.unnoticedAt(null);
+      if (unnoticed) outcomes[names[replay.unnoticed]] = unnoticed;
       const ids = [...replay.nodes.keys()].sort((a, b) => a - b);
       const positions = ids.map((id): [number, number, number] => [
         places[id * 3],

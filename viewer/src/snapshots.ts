@@ -144,6 +144,7 @@ class SnapshotSource implements Source {
       strings: [...this.strings.keys()],
       density: { bin_ns: 1, frames: [], lost: [] },
       outcomes: { node: [], outcome: [], count: [] },
+      sent: { node: [], destination: [], frames: [], receptions: [], unnoticed: [] },
       tables: Object.fromEntries(counts),
     };
     this.cutLook ??= copyOf(this.look);

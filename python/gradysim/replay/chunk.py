@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from itertools import accumulate
 from typing import Any, TypeAlias, TypedDict
 
-from gradysim.replay.tables import ARRAY_TYPES, BYTES, TABLES, Column
+from gradysim.replay.tables import ARRAY_TYPES, BROADCAST, BYTES, TABLES, Column
 
 Values: TypeAlias = "array[Any]"
 
@@ -100,6 +100,7 @@ def pack(chunk: RawChunk) -> bytes:
         "strings": list(chunk.strings),
         "density": chunk.density,
         "outcomes": chunk.outcomes,
+        "sent": _sent(chunk),
         "tables": {},
     }
     packed: list[bytes] = []
@@ -115,6 +116,49 @@ def pack(chunk: RawChunk) -> bytes:
         header["tables"][table] = {"rows": rows, "columns": described}
     text = json.dumps(header, separators=(",", ":")).encode()
     return b"".join([struct.pack("<I", len(text)), text, *packed])
+
+
+class Sent(TypedDict):
+    """Sums of the frames of a chunk, a row for each sender.
+
+    Frames that have an outcome at their destination alone have a row for each destination.
+
+    Attributes:
+        node: Id of the sender.
+        destination: Id of the only receiver, or `BROADCAST`.
+        frames: How many it sent.
+        receptions: How many outcomes these have, those included that were not noticed.
+        unnoticed: How many were not noticed.
+    """
+
+    node: Sequence[int]
+    destination: Sequence[int]
+    frames: Sequence[int]
+    receptions: Sequence[int]
+    unnoticed: Sequence[int]
+
+
+def _sent(chunk: RawChunk) -> Sent:
+    columns = {
+        column.name: _numbers(column, chunk.columns["frames"][column.name])
+        for column in TABLES["frames"]
+        if column.name in ("node", "destination", "receptions", "unnoticed")
+    }
+    sums: dict[tuple[int, int], list[int]] = {}
+    for node, destination, noticed, unnoticed in zip(*columns.values(), strict=True):
+        only = destination if noticed + unnoticed == 1 else BROADCAST
+        counts = sums.setdefault((node, only), [0, 0, 0])
+        counts[0] += 1
+        counts[1] += noticed + unnoticed
+        counts[2] += unnoticed
+    frames, receptions, unnoticed_by = ([counts[place] for counts in sums.values()] for place in range(3))
+    return {
+        "node": [node for node, _ in sums],
+        "destination": [destination for _, destination in sums],
+        "frames": frames,
+        "receptions": receptions,
+        "unnoticed": unnoticed_by,
+    }
 
 
 def unpack(data: bytes) -> Chunk:
