@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from gradysim.scenario.ini import config_names, read_ini
+from gradysim.scenario.ini import read_ini
+from gradysim.scenario.sections import config_names
 from verification.finding import Finding
 from verification.nist import success_probability
 from verification.reference_data import Row, rows

@@ -7,10 +7,11 @@ from pathlib import Path
 
 from gradysim.scenario.expressions import ParameterContext, parse_value
 from gradysim.scenario.functions import Value
-from gradysim.scenario.ini import entries_in_order, read_ini, search_order
+from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lookup import is_option
 from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.runs import numbered_runs
+from gradysim.scenario.sections import entries_in_order, search_order
 from gradysim.scenario.sweep import name_iterations, run_variables, substitute, text_of_iterations
 from gradysim.scenario.units import Quantity
 from verification.finding import Finding

@@ -39,7 +39,8 @@ def check_file(
     """Report all errors and warnings of a file, sorted by line."""
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigErrors, ErrorCollector
-    from gradysim.scenario.ini import config_names, read_ini
+    from gradysim.scenario.ini import read_ini
+    from gradysim.scenario.sections import config_names
 
     errors = ErrorCollector()
     findings: list[Finding] = []

@@ -2,12 +2,13 @@
 
 `load_scenarios` reads a file in these steps:
 
-    ini                          the text as sections and entries
-    sweep, runs                  iteration variables, and the runs of all their values
+    ini, sections                the text as sections and entries, and the sections of a configuration
+    sweep, combinations, runs    iteration variables, and the runs of all their values
     lookup, groups               the entries in force and their values, and the groups of nodes
     unknown_keys                 keys that match nothing
     protocols, parameters        the classes of the nodes and their parameters
     nodes, interfaces, obstacles the parts of a Scenario
+    networks, coverage           the networks of runs, and which of them are checked before the first run
     lint                         settings that are valid but probably not intended
 
 `errors` has the exceptions, `schema` and `keys` the keys that a file may have.

@@ -7,14 +7,7 @@ from typing import Any, overload
 
 from gradysim.scenario.coverage import Coverage
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector, Source
-from gradysim.scenario.ini import (
-    Entry,
-    entries_in_order,
-    read_ini,
-    read_overrides,
-    search_order,
-    what_to_run_instead,
-)
+from gradysim.scenario.ini import Entry, read_ini, read_overrides
 from gradysim.scenario.lookup import is_ignored, is_option, network_name, options_in_force, read_scalar
 from gradysim.scenario.networks import Networks
 from gradysim.scenario.runs import (
@@ -29,6 +22,7 @@ from gradysim.scenario.runs import (
 )
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import OPTIONS
+from gradysim.scenario.sections import entries_in_order, search_order, what_to_run_instead
 from gradysim.scenario.sweep import (
     REPETITION,
     depends_on_run,

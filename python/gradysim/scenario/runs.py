@@ -105,7 +105,7 @@ def numbered_runs(
     All runs are the combinations of values that the constraint leaves, each repeated. Repetitions are values
     of one more variable, the innermost one unless `iteration-nesting-order` says otherwise. `source` is the
     place of the configuration, and `name` what messages about `runs` begin with. Raises ConfigError if there
-    are no runs or too many, and what `select_runs` raises.
+    are too few runs or too many, and what `select_runs` raises.
     """
     repetitions = _repetitions(options.get("repeat"), source)
     nested = in_nesting_order([*variables, repetitions], options.get("iteration-nesting-order"))

@@ -131,7 +131,7 @@ def mutant(seed: int) -> tuple[Path, bytes]:
     for _ in range(rng.choice((1, 1, 2, 3, 6))):
         text = rng.choice(_CHANGES)(text, rng) or "\n"
     content = text.encode("utf-8", "surrogatepass")
-    if rng.random() < 0.05:  # bytes that are no text
+    if rng.random() < 0.05:  # bytes that may not be text
         place = rng.randrange(len(content))
         content = content[:place] + bytes([rng.randrange(256)]) + content[place + 1 :]
     return source, content

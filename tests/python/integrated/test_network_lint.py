@@ -8,8 +8,9 @@ import pytest
 from gradysim.integrated.network_lint import Chosen, UnreadLines, lint_networks, unmet_choice
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import Source
-from gradysim.scenario.ini import config_names, read_ini
+from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import Finding
+from gradysim.scenario.sections import config_names
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 EXAMPLES = [

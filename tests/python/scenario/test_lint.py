@@ -9,7 +9,7 @@ import pytest
 
 from gradysim.prototype.run import PrototypeRun
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.ini import read_ini, search_order
+from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import (
     Finding,
     _unit_other_than_time,
@@ -20,6 +20,7 @@ from gradysim.scenario.lint import (
     shadowed_lines,
     unread_variables,
 )
+from gradysim.scenario.sections import search_order
 from python.scenario.conftest import BASE
 
 Write = Callable[..., Path]

@@ -20,7 +20,7 @@ MOST_S = 1.0
 def _no_hang() -> Iterator[None]:
     started_s = time.monotonic()
     yield
-    assert time.monotonic() - started_s < 20 * MOST_S  # a pipe without a writer waits for ever
+    assert time.monotonic() - started_s < 20 * MOST_S  # a pipe without a writer never ends
 
 
 def make_pipe(path: Path) -> str:
