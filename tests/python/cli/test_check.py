@@ -85,3 +85,14 @@ def test_run_reports_all_errors_too(file: Path, capfd: pytest.CaptureFixture[str
     file.write_text(BASE + "**.transmitter.powr = 1mW\n*.uavs[*].mobility.speed = fast\n")
     assert main(["run", str(file)]) == 2
     assert lines_of(capfd.readouterr().err, file) == [4, 5]
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.parametrize("line", ["no entry", "*.uavs[*].mobility.sped = 3mps"])
+def test_of_many_errors_the_first_hundred_are_reported(
+    file: Path, capfd: pytest.CaptureFixture[str], command: str, line: str
+) -> None:
+    lines = (line.replace("=", f"{number}=") for number in range(300))
+    file.write_text(BASE + "".join(f"{each}\n" for each in lines))
+    assert main([command, str(file)]) == 2
+    assert lines_of("".join(capfd.readouterr()), file) == list(range(4, 104))
