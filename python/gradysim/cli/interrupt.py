@@ -29,6 +29,9 @@ STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP
 
 WATCHED = (*STOPPING, FORWARDED)
 
+_ONCE = [number for number in STOPPING if number != signal.SIGINT]
+"""The kernel, the shell and others may send the same one; the presses after it come by themselves."""
+
 _GRACE_S = {1: 0.3, 2: 20.0}
 """{presses: wall time in seconds until the next one comes by itself, after SIGTERM and SIGHUP}.
 
@@ -44,17 +47,17 @@ _OUTPUT, _ERROR_OUTPUT = 1, 2  # file descriptors
 class StopOnInterrupt:
     """While inside the `with` block, SIGINT, SIGTERM and SIGHUP set the flag that `should_stop()` reads.
 
-    A press is any of these signals, once or from several senders. SIGTERM and SIGHUP stay ignored if they are
-    when the block is entered, as by `nohup`. Outside the main thread, where Python allows no signal handlers,
-    the flag is never set.
+    A press is any of these signals, once or from several senders. SIGTERM and SIGHUP count as the first press
+    only. They stay ignored if they are when the block is entered, as by `nohup`. Outside the main thread,
+    where Python allows no signal handlers, the flag is never set.
 
     Attributes:
-        workers: Ids of the processes that each press is passed on to.
+        workers: Ids of the processes that each press is passed on to; None if this process executes the runs.
         exit_code: Of a command that was stopped: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
     """
 
     def __init__(self) -> None:
-        self.workers: Collection[int] = ()
+        self.workers: Collection[int] | None = None
         self.exit_code = INTERRUPTED
         self._presses: Counter[int] = Counter()
         self._pid = os.getpid()
@@ -124,7 +127,7 @@ class StopOnInterrupt:
 
     def _on_signal(self, number: int, _frame: FrameType | None) -> None:
         before = self._count()
-        self._presses[number] += 1
+        self._presses[number] = 1 if number in _ONCE else self._presses[number] + 1
         self._leave_dead_terminals()
         if self._count() > before:  # otherwise another sender has reported this press already
             self._press(number, before + 1)
@@ -136,7 +139,7 @@ class StopOnInterrupt:
         if raises and not self._in_worker:
             for each in self._previous:
                 signal.signal(each, signal.SIG_IGN)  # or one more would interrupt the end
-        for worker in self.workers:
+        for worker in self.workers or ():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(worker, FORWARDED)
         if raises:
@@ -151,9 +154,9 @@ class StopOnInterrupt:
     def _raises_at(self, presses: int) -> bool:
         if self._at_once:
             return True
-        if self._in_worker:
-            return self._is_executing and presses > 1
-        return presses > (2 if self.workers else 1)
+        if self._is_executing:
+            return presses > 1
+        return not self._in_worker and presses > (1 if self.workers is None else 2)
 
     def _press_again_after(self, duration_s: float) -> None:
         """Let SIGALRM be the next press, after a wall time in seconds."""

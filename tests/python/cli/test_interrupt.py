@@ -93,3 +93,27 @@ def test_a_worker_counts_one_press_that_terminal_and_command_tell_of_once():
             signal.raise_signal(signal.SIGINT)  # of the same, second press
     finally:
         signal.signal(FORWARDED, before)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_the_press_after_a_signal_comes_by_itself(number):
+    with StopOnInterrupt() as interrupt:
+        signal.raise_signal(number)
+        signal.raise_signal(number)  # from another sender
+        assert (interrupt.should_stop(), interrupt.exit_code) == (True, 128 + number)
+        assert signal.getitimer(signal.ITIMER_REAL)[0] > 0
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGALRM)
+    assert signal.getitimer(signal.ITIMER_REAL) == (0, 0)
+
+
+def test_a_worker_that_writes_results_is_not_interrupted():
+    before = signal.getsignal(FORWARDED)
+    try:
+        with StopOnInterrupt() as interrupt:
+            interrupt.become_worker()
+            for _ in range(5):
+                signal.raise_signal(FORWARDED)
+            assert interrupt.should_stop()
+    finally:
+        signal.signal(FORWARDED, before)

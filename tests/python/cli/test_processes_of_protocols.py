@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from python.cli.command import both_modes, objects, run_gradysim
+from python.processes import wait_until
 
 FORKS = """
 import os
@@ -82,7 +83,7 @@ def test_a_run_has_one_result_whatever_its_protocol_begins(gradysim, folder, mod
     assert [(run["run"], run["interrupted"]) for run in objects(done.stdout)] == [(0, False), (1, False)]
     pids = (folder / "pids").read_text().split() if (folder / "pids").exists() else []
     assert len(pids) == (0 if protocol == "LeavesAThread" else 2)
-    assert not any(is_running(int(pid)) for pid in pids)
+    wait_until(lambda: not any(is_running(int(pid)) for pid in pids))
     plain = gradysim(*arguments, *capture, "--replay", "all", "--result-dir", "plain", "-r", "0..1")
     assert plain.returncode == 0
     for file in (folder / "plain").glob("*.pcap"):

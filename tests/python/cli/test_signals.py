@@ -26,19 +26,26 @@ import time
 from protocol import Talker
 
 class Ready(Talker):
-    def initialize(self):
-        super().initialize()
-        if self.provider.get_id() == 0:
+    is_ready = False
+
+    def handle_timer(self, timer):
+        if self.provider.get_id() == 0 and not self.is_ready:
+            self.is_ready = True
             with open("ready", "ab") as file:
                 file.write(b"x")
+        super().handle_timer(timer)
+
 
 class Spins(Ready):
     def handle_timer(self, timer):
+        super().handle_timer(timer)
         while True:
             pass
 
+
 class Sleeps(Ready):
     def handle_timer(self, timer):
+        super().handle_timer(timer)
         time.sleep(1000)
 """
 
