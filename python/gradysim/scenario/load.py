@@ -176,10 +176,12 @@ class Study(Sequence[Scenario]):
     def _check(self, errors: ErrorCollector) -> None:
         failed: set[tuple[str, ...]] = set()
         for index in range(len(self._runs)):
-            network = self._coverage.network_of(index)
             is_new = self._coverage.adds_a_value(index)
+            if not is_new and len(self._checked) >= _CHECKED_IN_FULL:
+                continue
+            network = self._coverage.network_of(index)
             is_checked = self._networks.is_checked(network, self.seeds[index])
-            if not is_new and (is_checked or len(self._checked) >= _CHECKED_IN_FULL):
+            if is_checked and not is_new:
                 continue
             run = self._runs[index]
             key = tuple(run.iterations.values())
