@@ -1,5 +1,6 @@
 """`gradysim new`: makes a folder with which to begin."""
 
+import shlex
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
@@ -28,9 +29,9 @@ def make_project(name: Annotated[str, Parameter(help="Of the folder, and of its 
             )
     except OSError as error:
         return say_mistake(error)
-    scenarios = folder / f"{folder.name}.ini"
+    scenarios = shlex.quote(str(folder / f"{folder.name}.ini"))
     print(f"gradysim view {scenarios}                # watch: all reports collide")
     print(f"gradysim view {scenarios} -c Jittered    # with a random wait they arrive")
-    print(f"gradysim run {scenarios} -c Study --jobs 2 --result-dir {folder / 'results'}")
-    print(f"python -m pytest {folder}")
+    print(f"gradysim run {scenarios} -c Study --jobs 2 --result-dir {shlex.quote(str(folder / 'results'))}")
+    print(f"python -m pytest {shlex.quote(str(folder))}")
     return OK

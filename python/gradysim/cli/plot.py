@@ -1,10 +1,16 @@
 """`gradysim plot`: figures of a study."""
 
+import sys
 from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import PlotOptions, ResultsArgument
 from gradysim.cli.study import read_study, warn_of_mixed_runs
+
+if TYPE_CHECKING:
+    from gradysim.results.run_table import Runs
 
 
 def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
@@ -14,7 +20,7 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
 
     try:
         study = read_study(directory)
-        runs = study.where(**_wanted(options.where))
+        runs = _with_variable(directory, study.where(**_wanted(options.where)), options.x)
         files = save_figure(
             options.output,
             runs,
@@ -33,6 +39,23 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
     figure, numbers, origin = files
     print(f"drawn in {figure}; numbers in {numbers}, origin in {origin}")
     return OK
+
+
+def _with_variable(directory: Path, runs: "Runs", variable: str | None) -> "Runs":
+    """Return the runs that have the variable of the x axis, and say how many others there are."""
+    from gradysim.results.run_table import Runs, variables_of
+
+    kept = Runs(run for run in runs if variable in variables_of(run))
+    if not len(kept) or len(kept) == len(runs):
+        return runs  # it is no variable at all, or has a value in each run
+    left_out = len(runs) - len(kept)
+    configs = " ".join(f"config={config}" for config in kept.values("config"))
+    print(
+        f"{directory}: left out {left_out} run{'s' if left_out > 1 else ''} without `{variable}`;"
+        f" expected --where {configs}",
+        file=sys.stderr,
+    )
+    return kept
 
 
 def _wanted(conditions: Iterable[str]) -> dict[str, list[str]]:

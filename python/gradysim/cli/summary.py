@@ -189,7 +189,7 @@ def table_of_kinds(label: str, counts: Counts, delays: Mapping[str, Delays]) -> 
     if any(kind in delays for kind in shown):
         of_kinds = [delays.get(kind) for kind in shown]
         columns["mean delay"] = ["" if each is None else milliseconds(each.mean_s) for each in of_kinds]
-        columns["95\xa0% delay"] = [
+        columns["95th percentile"] = [
             "" if each is None else milliseconds(each.quantile_s(0.95)) for each in of_kinds
         ]
     return WideTable(label, list(shown), columns) if shown else None
@@ -273,7 +273,7 @@ def delay_table(delays: Mapping[str, Delays]) -> Table:
     """Return a row for each kind of message: number of receptions and delays."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("kind", no_wrap=True)
-    for column in ("received", "mean", "median", "95 %", "longest"):
+    for column in ("received", "mean", "median", "95th percentile", "longest"):
         table.add_column(column, justify="right", no_wrap=True)
     for kind, each in delays.items():
         times_s = (each.mean_s, each.quantile_s(0.5), each.quantile_s(0.95), each.max_s)

@@ -44,18 +44,28 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
             return show_replays(files, options)
         if len(files) > 1:
             raise ConfigError(f"{files[1]}: expected one .ini file, or replays (.html) only")
+        if files[0].suffix != ".ini" and files[0].is_file():
+            raise ConfigError(f"{files[0]}: not a replay", expected="an .ini file, or a replay (.html)")
         return show_live(files[0], options)
     except (ConfigError, CompiledPartMissingError, OSError, ValueError) as mistake:
         return say_mistake(mistake)
 
 
 def show_replays(files: tuple[Path, ...], options: ViewOptions) -> int:
-    """Open a replay, or several beside each other. Raises OSError and ValueError for what is none."""
+    """Open a replay, or several beside each other. Raises ConfigError, OSError and ValueError for others."""
     from gradysim.replay.file import read_parts
+    from gradysim.scenario.errors import ConfigError, nearest_file
     from gradysim.viewer.page import page_beside
 
     for file in files:
-        read_parts(file)
+        try:
+            read_parts(file)
+        except FileNotFoundError as error:
+            raise ConfigError(
+                f"{file}: {error.strerror}",
+                expected="a replay",
+                suggestion=nearest_file(file, (".html",), str(file)),
+            ) from error
     if len(files) == 1:
         page = files[0].resolve()
     else:

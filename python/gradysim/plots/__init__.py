@@ -21,8 +21,8 @@ from gradysim.plots.figure import STYLE, check_file, new_figure, write_files
 from gradysim.plots.line import diff_numbers, draw_diff, draw_line, line_numbers
 from gradysim.plots.map import draw_map, map_numbers
 from gradysim.plots.numbers import Numbers
-from gradysim.plots.outcomes import draw_outcomes, outcomes_numbers
-from gradysim.plots.time import draw_time, time_numbers
+from gradysim.plots.outcomes import draw_outcomes, outcome_names, outcomes_numbers
+from gradysim.plots.time import draw_time, time_numbers, vector_names
 from gradysim.results.run_table import Runs
 from gradysim.scenario.errors import ConfigError
 
@@ -90,20 +90,22 @@ class Kind:
         draw: Draws that into axes.
         needs: Arguments that `numbers` must have.
         takes: Its other arguments.
+        names: Returns what `y` may be.
     """
 
     numbers: Callable[..., Numbers]
     draw: Callable[["Axes", Numbers], "Axes"]
     needs: tuple[str, ...]
     takes: tuple[str, ...] = ()
+    names: Callable[[Runs], list[str]] = lambda runs: runs.quantities
 
 
 KINDS: Mapping[str, Kind] = {
     "line": Kind(line_numbers, draw_line, ("x", "y"), ("by",)),
     "diff": Kind(diff_numbers, draw_diff, ("x", "y"), ("by", "baseline")),
     "cdf": Kind(cdf_numbers, draw_cdf, ("y",), ("by",)),
-    "time": Kind(time_numbers, draw_time, ("y",), ("by",)),
-    "outcomes": Kind(outcomes_numbers, draw_outcomes, ("y",), ("x", "by", "omit")),
+    "time": Kind(time_numbers, draw_time, ("y",), ("by",), vector_names),
+    "outcomes": Kind(outcomes_numbers, draw_outcomes, ("y",), ("x", "by", "omit"), outcome_names),
     "map": Kind(map_numbers, draw_map, ()),
 }
 
@@ -137,7 +139,7 @@ def save_figure(
     given = {name: value for name, value in arguments.items() if value is not None and value != ()}
     for name in chosen.needs:
         if name not in given:
-            expected = ", ".join(runs.variables if name == "x" else runs.quantities)
+            expected = ", ".join(runs.variables if name == "x" else chosen.names(runs))
             raise ConfigError(f"--kind {kind} needs --{name}", expected=f"one of {expected}")
     for name in given:
         if name not in (*chosen.needs, *chosen.takes):

@@ -1,6 +1,7 @@
 """Means over the runs of each value of a variable, and differences between runs of the same seed."""
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from gradysim.plots.figure import set_texts, styles_of
@@ -20,6 +21,9 @@ from gradysim.scenario.errors import ConfigError, nearest
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_MOST_TICKS = 12
+"""Values of an axis that are its ticks."""
 
 _WIDTH_OF_CATEGORY = 0.5
 """Of 1, the distance to the next one: the curves stand side by side in it."""
@@ -107,7 +111,20 @@ def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
             places = curve.x
         axes.errorbar(places, curve.columns["mean"], yerr=half_widths, label=curve.label, **style)
     set_texts(axes, numbers)
+    if numbers.categories:
+        axes.set_xlim(-0.5, len(numbers.categories) - 0.5)
+    else:
+        _set_ticks(axes, sorted({float(value) for curve in curves for value in curve.x}))
     return axes
+
+
+def _set_ticks(axes: "Axes", values: Sequence[float]) -> None:
+    """Let the values be the ticks if that leaves room for each, or whole numbers if they are such."""
+    least_gap = min((high - low for low, high in pairwise(values)), default=0)
+    if len(values) <= _MOST_TICKS and least_gap * _MOST_TICKS >= values[-1] - values[0]:
+        axes.set_xticks(values, [f"{value:g}" for value in values])
+    elif all(value.is_integer() for value in values):
+        axes.locator_params(axis="x", integer=True)
 
 
 def draw_diff(axes: "Axes", numbers: Numbers) -> "Axes":

@@ -44,8 +44,7 @@ def outcomes_numbers(
     `y` is `broadcast frames`, `unicast messages` and so on: a kind and a ledger of `fates`. `omit` names
     outcomes to leave out, such as `below sensitivity`: shares are of the others then. Raises ConfigError.
     """
-    names = {f"{kind} {ledger}" for run in runs for ledger, kinds in run.fates.items() for kind in kinds}
-    check_quantity(runs, y, sorted(names))
+    check_quantity(runs, y, outcome_names(runs))
     kind, _, ledger = y.rpartition(" ")
     counts = {id(run): _counts(run, ledger, kind, set(omit)) for run in runs}
     axis = x_axis(runs, x) if x else None
@@ -68,6 +67,12 @@ def outcomes_numbers(
     caption = f"mean shares, {number_of_runs(len(found) for _, found in bars)}"
     categories = [_name_of(values, x) for values, _ in bars]
     return Numbers(curves, x or "", f"share of {y}", caption, categories)
+
+
+def outcome_names(runs: Runs) -> list[str]:
+    """Return the names for `y`: `broadcast frames` and so on."""
+    names = {f"{kind} {ledger}" for run in runs for ledger, kinds in run.fates.items() for kind in kinds}
+    return sorted(names)
 
 
 def draw_outcomes(axes: "Axes", numbers: Numbers) -> "Axes":

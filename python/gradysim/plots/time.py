@@ -36,7 +36,7 @@ def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numb
         if group_of(node) == group:
             found.setdefault(id(run), []).append((times_s, recorded))
     if not found:
-        names = {f"{group_of(node)} {name}": None for _, node, name, *_ in runs.vectors()}
+        names = vector_names(runs)
         raise ConfigError(
             f"no `.vec` file of the runs has `{y}`",
             expected=f"one of {', '.join(names)}" if names else "files of `gradysim run --vectors NODE`",
@@ -62,6 +62,11 @@ def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numb
             counts.append(len(vectors))
     caption = caption_of("mean", counts)
     return Numbers(curves, f"time ({unit})", y, caption)
+
+
+def vector_names(runs: Runs) -> list[str]:
+    """Return the names for `y`: `uavs[*] heard` and so on."""
+    return list(dict.fromkeys(f"{group_of(node)} {name}" for _, node, name, *_ in runs.vectors()))
 
 
 def draw_time(axes: "Axes", numbers: Numbers) -> "Axes":

@@ -1,3 +1,4 @@
+import shlex
 import subprocess
 import sys
 
@@ -35,6 +36,27 @@ def test_jitter_mends_what_the_radio_breaks(project):
 
 def test_every_run_of_its_study_can_be_checked(project):
     assert main(["check", "swarm/swarm.ini", "-c", "Study"]) == 0
+
+
+def test_its_study_is_about_collisions(project):
+    small, large = (
+        run(load_scenarios(project / "swarm.ini", "Study")[number]).fates["frames"]["broadcast"]
+        for number in (0, 15)
+    )
+    assert small["below_sensitivity"] == large["below_sensitivity"] == 0
+    lost = {outcome: count for outcome, count in large.items() if count and outcome != "delivered"}
+    assert set(lost) <= {"interference", "receiver_transmitting", "receiver_locked", "in_air"}
+    assert 0.8 < large["delivered"] / sum(large.values()) < 0.97
+    assert small["delivered"] / sum(small.values()) > 0.97
+
+
+def test_its_commands_can_be_pasted(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "my swarm"]) == 0
+    for line in capsys.readouterr().out.splitlines():
+        folders = [word for word in shlex.split(line, comments=True) if "swarm" in word]
+        assert folders
+        assert all(word.startswith("my swarm") for word in folders)
 
 
 def test_no_folder_is_written_over(project, capsys):

@@ -63,12 +63,22 @@ def test_only_the_runs_that_are_wanted(gradysim, study):
     assert [run["run"] for run in json.loads((study / "f.json").read_text())["runs"]] == [3, 4]
 
 
+def test_runs_without_the_variable_are_left_out(gradysim, study):
+    gradysim("run", "test.ini", "--result-dir", "out", "--quiet")
+    done = gradysim("plot", "out", "--x", "limit", "--y", "events", "-o", "f.svg")
+    assert done.returncode == 0
+    assert done.stderr.startswith("out: left out 3 runs without `limit`; expected --where config=General")
+    assert {row["limit"] for row in rows(study / "f.csv")} == {"3.0", "5.0"}
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
         (("--x", "limt", "--y", "events"), "did you mean `limit`?"),
         (("--x", "limit", "--y", "uavs said"), "did you mean `uavs[*] said`?"),
         (("--x", "limit"), "--kind line needs --y"),
+        (("--kind", "outcomes"), "expected one of broadcast copies, broadcast messages"),
+        (("--kind", "time"), "expected one of uavs[*] said, uavs[*] positionX, "),
         (
             ("--kind", "cdf", "--y", "broadcast messages delay in s", "--log", "x"),
             "--log x: no value on this",

@@ -42,9 +42,16 @@ def test_a_replay_and_two_beside_each_other(folder, capsys):
 
 
 @pytest.mark.parametrize(
-    "files", [["missing.html"], ["missing.ini"], ["test.ini", "test.ini"], ["protocol.html"]]
+    "files", [["missing.html"], ["missing.ini"], ["test.ini", "test.ini"], ["protocol.html"], ["result.json"]]
 )
 def test_what_cannot_be_shown_is_a_mistake(folder, files, capsys):
     (folder / "protocol.html").write_text("<p>")
+    (folder / "result.json").write_text("{}\n")
     assert main(["view", *files, "--no-browser"]) == 2
-    assert capsys.readouterr().err
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_replay_that_does_not_exist_is_answered_with_the_nearest_name(folder, capsys):
+    (folder / "replay.html").write_text("<p>")
+    assert main(["view", "replya.html", "--no-browser"]) == 2
+    assert "did you mean `replay.html`?" in capsys.readouterr().err

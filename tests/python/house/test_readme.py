@@ -130,6 +130,9 @@ def test_the_study_has_the_runs_and_the_files_that_are_told(
     shell(f"{running} --quiet", first_protocol.parent)
     assert (first_protocol.parent / first_file).is_file()
     assert len(list((first_protocol.parent / "results").iterdir())) == 30
+    (figure,) = re.findall(r"`(gradysim plot results .*?)`", readme)
+    shell(figure, first_protocol.parent)
+    assert (first_protocol.parent / "heard.png").is_file()
 
 
 def test_the_commands_of_docker_name_what_there_is(root: Path) -> None:
@@ -160,6 +163,7 @@ def test_each_line_of_its_sh_snippets_is_of_a_kind_that_is_tested_here() -> None
     known = re.compile(
         r"make [a-z-]+ .*|docker .*|gradysim run .* # .*heard = \d+|gradysim runs? .* -c Study .*# .*|"
         r"gradysim (new|view) .* # .*|gradysim run swarm/.* --replay all .*# .*|"
+        r"python -m pytest swarm .*# .*|"
     )
     assert [line for line in lines if not known.fullmatch(line)] == []
 
@@ -173,6 +177,7 @@ def test_the_first_commands_do_what_is_said(tmp_path: Path, shell: Callable[...,
         assert code == 0
     shell(run, tmp_path)
     assert (tmp_path / "results/General-#0.integrated.html").exists()
+    shell(re.findall(r"^(python -m pytest swarm) +# ", README.read_text(), re.MULTILINE)[0], tmp_path)
 
 
 def test_the_first_protocol_can_be_watched(first_protocol: Path) -> None:

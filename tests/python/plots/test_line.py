@@ -36,12 +36,36 @@ def test_what_is_drawn(axes: Axes, study: Runs) -> None:
     assert axes.get_title(loc="right") == "mean, 95 % interval, n = 3 runs"
 
 
+@pytest.mark.parametrize(
+    ("values", "ticks"),
+    [
+        ((2, 5, 10, 20), ["2", "5", "10", "20"]),
+        (("100us", "1ms", "10ms"), ["0.0001", "0.001", "0.01"]),
+    ],
+)
+def test_few_values_are_the_ticks(
+    axes: Axes, tmp_path: Path, values: tuple[object, ...], ticks: list[str]
+) -> None:
+    for run, value in enumerate(values):
+        write_result(tmp_path, run, (1,), iterations={"x": value})
+    plots.line(axes, runs(tmp_path), x="x", y=HEARD)
+    assert [label.get_text() for label in axes.get_xticklabels()] == ticks
+
+
+def test_many_values_have_whole_numbers_as_ticks(axes: Axes, tmp_path: Path) -> None:
+    for run in range(4):
+        write_result(tmp_path, run, (1,), iterations={"x": 1 if run == 0 else 10**run})
+    plots.line(axes, runs(tmp_path), x="x", y=HEARD)
+    assert all(float(place).is_integer() for place in axes.get_xticks())
+
+
 def test_curves_stand_side_by_side_in_categories(axes: Axes, study: Runs) -> None:
     plots.line(axes, study, x="mode", y=HEARD)
     assert [label.get_text() for label in axes.get_xticklabels()] == ["integrated", "prototype"]
     places = [container[0].get_xdata().tolist() for container in axes.containers]
     assert places == [[-0.125, 0.875], [0.125, 1.125]]
     assert axes.containers[0][0].get_linestyle() == "None"
+    assert axes.get_xlim() == (-0.5, 1.5)
 
 
 def test_a_value_that_only_some_runs_have(tmp_path: Path) -> None:

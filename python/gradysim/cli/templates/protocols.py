@@ -30,7 +30,7 @@ class Vehicle(IProtocol):
     def turn(self) -> None:
         """Fly to the other end of the way."""
         x = self.far if self.is_outbound else 0.0
-        self.target = (x, 20.0 * self.provider.get_id(), 30.0)
+        self.target = (x, 10.0 * self.provider.get_id(), 30.0)
         self.provider.send_mobility_command(GotoCoordsMobilityCommand(*self.target))
 
     def plan_report(self) -> None:
