@@ -136,6 +136,14 @@ def test_the_space_bar_plays_and_pauses_wherever_the_focus_is(zigzag, browser):
     assert browser(zigzag, keys=keys, values={"names": names})["values"] == {"names": "false"}
 
 
+def test_enter_chooses_the_frame_that_had_the_focus_though_rows_have_moved(zigzag, browser):
+    starts_ns = read_replay(zigzag).table("frames")["time_ns"]
+    frame = sum(start_ns <= 100e9 for start_ns in starts_ns) - 30 + 5
+    keys = [{"click": ".frames button >> nth=5"}, {"until": f"&frame={frame}"}]
+    keys += ["ArrowRight", {"until": f"&frame={frame + 1}"}, "Enter", {"until": f"&frame={frame}"}]
+    browser(zigzag, address="#t=100", keys=keys)
+
+
 def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
     replay = read_replay(reports)
     frames = replay.table("frames")

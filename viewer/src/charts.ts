@@ -98,6 +98,7 @@ function extremes(plot: uPlot, _axis: number, low: number, high: number): number
 }
 
 function shortText(value: number): string {
+  if (Math.abs(value) < 1e5) return String(Number(value.toPrecision(5)));
   return value.toLocaleString("en-US", { notation: "compact", maximumSignificantDigits: 4 });
 }
 

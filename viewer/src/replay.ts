@@ -71,7 +71,7 @@ export class Replay {
   readonly hasFrames: boolean;
   /** Whether all is recorded at all nodes. */
   readonly isWhole: boolean;
-  /** Outcomes that a reception of this mode can have, by number. */
+  /** Outcomes that a reception of this mode can have before the run ends, by number. */
   readonly possible: readonly number[];
   /** The outcome of a reception that is not noticed. */
   readonly unnoticed: number;
@@ -88,9 +88,10 @@ export class Replay {
     this.hasFrames = this.run.outcomes.length > 0;
     const { recorded, outcomes, mode } = this.run;
     this.isWhole = recorded === null || recorded.length === this.nodes.size;
-    const isOfMode = (name: string): boolean =>
-      mode === "prototype" ? OF_PROTOTYPE.includes(name) : name === "delivered" || !OF_PROTOTYPE.includes(name);
-    this.possible = [...outcomes.keys()].filter((outcome) => isOfMode(outcomes[outcome]));
+    const isOfEngine = (name: string): boolean => !["out_of_range", "lost", "in_air"].includes(name);
+    const isPossible = (name: string): boolean =>
+      mode === "prototype" ? OF_PROTOTYPE.includes(name) : isOfEngine(name);
+    this.possible = [...outcomes.keys()].filter((outcome) => isPossible(outcomes[outcome]));
     this.unnoticed = outcomes.indexOf(mode === "prototype" ? "out_of_range" : "below_sensitivity");
     this.earlier = { chunks: 0, tally: this.newTally() };
   }

@@ -47,7 +47,7 @@ def _with_variable(directory: Path, runs: "Runs", variable: str | None) -> "Runs
 
     kept = Runs(run for run in runs if variable in variables_of(run))
     if not len(kept) or len(kept) == len(runs):
-        return runs  # it is no variable at all, or has a value in each run
+        return runs  # each run has a value, or `variable` is not known
     left_out = len(runs) - len(kept)
     configs = " ".join(f"config={config}" for config in kept.values("config"))
     print(

@@ -119,7 +119,7 @@ def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
 
 
 def _set_ticks(axes: "Axes", values: Sequence[float]) -> None:
-    """Let the values be the ticks if that leaves room for each, or whole numbers if they are such."""
+    """Let the values be the ticks if that leaves room for each, else integers if all are."""
     least_gap = min((high - low for low, high in pairwise(values)), default=0)
     if len(values) <= _MOST_TICKS and least_gap * _MOST_TICKS >= values[-1] - values[0]:
         axes.set_xticks(values, [f"{value:g}" for value in values])

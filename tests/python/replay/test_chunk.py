@@ -1,11 +1,13 @@
+import json
 from array import array
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.replay.chunk import RawChunk, pack, raw, unpack
-from gradysim.replay.tables import ARRAY_TYPES, TABLES, Column
+from gradysim.replay.tables import ARRAY_TYPES, BROADCAST, TABLES, Column
 
 NO_COUNTS = {"bin_ns": 1, "frames": [], "lost": []}, {"node": [], "outcome": [], "count": []}
 
@@ -25,6 +27,28 @@ def test_what_is_packed_comes_back(rows, table):
     assert (chunk.start_ns, chunk.end_ns, chunk.strings) == (5, 7, ["", "é <"])
     for column in TABLES[table]:
         assert chunk.tables[table][column.name] == array(ARRAY_TYPES[column.type], rows)
+
+
+def test_the_header_has_the_sums_of_each_sender():
+    frames = [
+        {"node": 4, "destination": BROADCAST, "receptions": 2, "unnoticed": 1},
+        {"node": 4, "destination": BROADCAST, "receptions": 0, "unnoticed": 3},
+        {"node": 4, "destination": 7, "receptions": 0, "unnoticed": 1},
+    ]
+    empty = chunk_of("events", [])
+    columns = {
+        column.name: raw(column, [frame.get(column.name, 0) for frame in frames])
+        for column in TABLES["frames"]
+    }
+    packed = pack(replace(empty, columns={**empty.columns, "frames": columns}))
+    header, _ = json.JSONDecoder().raw_decode(packed[4:].decode(errors="replace"))
+    assert header["sent"] == {
+        "node": [4, 4],
+        "destination": [BROADCAST, 7],
+        "frames": [2, 1],
+        "receptions": [6, 1],
+        "unnoticed": [4, 1],
+    }
 
 
 def test_a_delta_column_has_differences():
