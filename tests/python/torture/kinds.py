@@ -4,12 +4,13 @@ from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
-from python.torture import clients, faults, kills, scenarios, signals
+from python.torture import clients, faults, kills, mutants, scenarios, signals
 
 Once = Callable[[Random, Path], int]
 """Does harm in an empty folder, and returns how often. An exception says what was lost."""
 
 KINDS: dict[str, Once] = {
+    "mutated .ini files": mutants.once,
     "random scenarios, run twice": scenarios.once,
     "hostile clients": clients.once,
     "kills": kills.once,
