@@ -24,7 +24,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -63,7 +63,7 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUTES=20 long; prints what was lost.
 	cd tests && "$(CURDIR)/$(BIN)/python" -m python.torture $(MINUTES)
 
-lint: lint-python lint-cpp  ## All checks of style, types and layers: Python and C++.
+lint: lint-python lint-cpp lint-files  ## All checks of style, types and layers: Python, C++, files of the repository.
 
 lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
 	ruff check $(python_checked)
@@ -76,6 +76,11 @@ lint-cpp: $(STAMPS)/build $(STAMPS)/lint system-gtest  ## clang-format, clang-ti
 	cmake -S cpp --preset lint --log-level=WARNING \
 	  -DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@$(MAKE) --no-print-directory --jobs=$$(nproc) -f cpp/clang-tidy.mk
+
+lint-files: $(STAMPS)/lint  ## The forms of issues, the citation, the hooks of git.
+	check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+	check-jsonschema --builtin-schema vendor.github-issue-forms .github/ISSUE_TEMPLATE/*.yml
+	pre-commit validate-config
 
 format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
 	ruff check --fix-only --quiet $(python_checked)

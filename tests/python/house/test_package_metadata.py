@@ -38,6 +38,14 @@ def test_the_authors_are_those_of_the_licence(root: Path, project: dict[str, Any
     ]
 
 
+def test_the_citation_names_the_authors_and_the_licence(root: Path, project: dict[str, Any]) -> None:
+    citation = (root / "CITATION.cff").read_text()
+    assert re.findall(r"^authors:\n((?:  .+\n)+)", citation, re.MULTILINE) == [
+        f"  - name: {author['name']}\n" for author in project["project"]["authors"]
+    ]
+    assert f"\nlicense: {project['project']['license']}\n" in citation
+
+
 def test_the_source_distribution_leaves_out_what_git_ignores(
     root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
