@@ -3,13 +3,19 @@
 from typing import Any
 
 __version__: str
-"""Version of the installed package."""
+"""Version of the installed package, with its commit if it is not a release.
+
+An editable installation adds `editable`, since its sources may have changed after that commit.
+"""
 
 
 def __getattr__(name: str) -> Any:
     """Look up `__version__` on first use, since importlib.metadata is slow to import."""
     if name == "__version__":
-        from importlib.metadata import version
+        from importlib.metadata import distribution
 
-        return version("gradysim")
+        installed = distribution("gradysim")
+        if '"editable": true' not in (installed.read_text("direct_url.json") or ""):
+            return installed.version
+        return installed.version + (".editable" if "+" in installed.version else "+editable")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -41,11 +41,11 @@ if TYPE_CHECKING:
 
 def installed_version() -> str:
     """Return the version of the installed package."""
-    from importlib import metadata
+    import gradysim
 
     try:
-        return metadata.version("gradysim")
-    except metadata.PackageNotFoundError:
+        return gradysim.__version__
+    except ModuleNotFoundError:
         return "unknown (gradysim is not installed)"
 
 

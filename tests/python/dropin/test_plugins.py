@@ -1,12 +1,10 @@
 """What users rely on, and where the published package was wrong: plugins."""
 
-from importlib.metadata import version
 from typing import Any, cast
 from unittest.mock import MagicMock
 
 import pytest
 
-import gradysim
 from gradysim.protocol.interface import IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
@@ -183,7 +181,3 @@ def test_the_leader_broadcasts_with_a_mock() -> None:
     assert len(provider.sent) == 1
     assert [name for name, _ in provider.timers] == ["FollowMobilityPlugin__leader_broadcast_timer"] * 2
     assert all(0 < time_s < 0.06 for _, time_s in provider.timers)
-
-
-def test_the_package_has_a_version() -> None:
-    assert gradysim.__version__ == version("gradysim")

@@ -17,10 +17,6 @@ def project(root: Path) -> dict[str, Any]:
         return tomllib.load(file)
 
 
-def test_the_version_satisfies_what_users_require(project: dict[str, Any]) -> None:
-    assert project["project"]["version"] == "1.0.0.dev0"
-
-
 def test_the_changelog_opens_with_what_is_unreleased(root: Path) -> None:
     headings = re.findall(r"^## (.+)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)
     assert headings[0] == "Unreleased (1.0.0)"
