@@ -77,9 +77,11 @@ lint-cpp: $(STAMPS)/build $(STAMPS)/lint system-gtest  ## clang-format, clang-ti
 	  -DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@$(MAKE) --no-print-directory --jobs=$$(nproc) -f cpp/clang-tidy.mk
 
-lint-files: $(STAMPS)/lint  ## The forms of issues, the citation, the hooks of git.
+lint-files: $(STAMPS)/lint  ## Workflows, the forms of issues, the citation, the hooks of git.
 	check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	check-jsonschema --builtin-schema vendor.github-issue-forms .github/ISSUE_TEMPLATE/*.yml
+	check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	zizmor --offline --quiet --no-progress .github/workflows
 	pre-commit validate-config
 
 format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
