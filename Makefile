@@ -24,7 +24,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -104,11 +104,14 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 	build/bench/netsim_layers 10000
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
 
+docs: build $(STAMPS)/docs  ## Build the documentation site, build/site, and check its links.
+	$(BIN)/python -m sphinx -q -W --keep-going -j auto docs build/site
+
 viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer/page.html, from viewer/.
 	cd viewer && npm run --silent check && npm run --silent build
 
-figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of docs/guides/plots.md.
-	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/guides/plots.md | sh -e
+figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of docs/how-to/plot-a-study.md.
+	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/how-to/plot-a-study.md | sh -e
 	cp results/line.png results/diff.png results/outcomes.png results/cdf.png results/time.png results/map.png docs/pictures/plots
 
 pictures: figures $(node_packages) system-chromium  ## Draw the pictures of the README and the guides again.
@@ -179,7 +182,7 @@ $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
 
 # Which packages, and which version of each: [dependency-groups] of pyproject.toml.
-$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint: pyproject.toml | $(VENV)/bin/python
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/docs: pyproject.toml | $(VENV)/bin/python
 	@mkdir -p $(STAMPS)
 	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
 	$(BIN)/pip install --quiet --group $(@F)

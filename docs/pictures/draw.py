@@ -87,7 +87,7 @@ def is_listening(port: int) -> bool:
 
 def draw_viewer(folder: Path) -> None:
     """Draw what the guide of handlers shows in the browser."""
-    guide = (ROOT / "docs/guides/handlers.md").read_text()
+    guide = (ROOT / "docs/how-to/use-handlers.md").read_text()
     climber, *programs = re.findall(r"^```python\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
     (ini,) = re.findall(r"^```ini\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
     (folder / "climber.py").write_text(climber)

@@ -1,7 +1,7 @@
 """The steps in which the paper's authors made ZigZag: what each of them changes, in both modes.
 
 `python examples/paper/steps.py` takes the smallest size, `python examples/paper/steps.py ZigZag15` another
-one. docs/guides/paper.md says what is to be seen.
+one. docs/how-to/repeat-the-paper.md says what is to be seen.
 """
 
 import sys

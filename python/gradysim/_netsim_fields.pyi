@@ -142,10 +142,10 @@ class RadioFields:
     """How noise becomes lost frames."""
     ber_table_file: str
     """CSV file of packet success over SNIR, relative to the .ini file; the format is this project's own
-    (docs/guides/receivers.md)."""
+    (docs/how-to/choose-a-receiver.md)."""
     snir_mode: str
     """What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of
-    the frame, without the preamble (docs/guides/receivers.md)."""
+    the frame, without the preamble (docs/how-to/choose-a-receiver.md)."""
     noise_figure: float
     """Noise that the receiver adds."""
     preamble_detection: str
@@ -196,7 +196,7 @@ class MediumFields:
     temperature_k: float
     """Temperature around the receiver."""
     path_loss: str
-    """How power falls with distance, and how it fades; docs/guides/propagation.md."""
+    """How power falls with distance, and how it fades; docs/how-to/choose-a-propagation-model.md."""
     alpha: float
     """Exponent of the distance."""
     system_loss: float

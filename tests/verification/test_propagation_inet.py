@@ -1,7 +1,7 @@
 """What arrives of a frame, against INET: path loss with a ground, antennas, obstacles, fading.
 
 INET's figures are signal to noise ratios of frames, as gains; nothing about the first three is random. Known
-differences (docs/guides/propagation.md) are held, too: a cosine antenna falls twice as fast here, in
+differences (docs/how-to/choose-a-propagation-model.md) are held, too: a cosine antenna falls twice as fast here, in
 decibels, and INET multiplies powers with what Rayleigh's model has for amplitudes.
 """
 

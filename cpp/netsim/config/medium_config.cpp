@@ -43,7 +43,7 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(MediumConfig, temperature_k), "backgroundNoise.temperature", quantity("K").at_least(0),
      "temperature around the receiver", with_thermal_noise},
     {NETSIM_FIELD(MediumConfig, path_loss), "pathLoss.typename", one_of(path_loss_names),
-     "How power falls with distance, and how it fades; docs/guides/propagation.md"},
+     "How power falls with distance, and how it fades; docs/how-to/choose-a-propagation-model.md"},
     {NETSIM_FIELD(MediumConfig, alpha), "pathLoss.alpha", number().above(0), "exponent of the distance",
      with_power_law},
     {NETSIM_FIELD(MediumConfig, system_loss), "pathLoss.systemLoss", ratio().at_least(1),

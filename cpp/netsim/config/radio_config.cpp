@@ -41,12 +41,12 @@ constexpr Field fields[] = {
      "How noise becomes lost frames"},
     {NETSIM_FIELD(RadioConfig, ber_table_file), "receiver.errorModel.berTableFile", file_name(),
      "CSV file of packet success over SNIR, relative to the .ini file; the format is this project's own"
-     " (docs/guides/receivers.md)",
+     " (docs/how-to/choose-a-receiver.md)",
      with_ber_table, true},
     {NETSIM_FIELD(RadioConfig, snir_mode), "receiver.errorModel.snirMode", one_of(snir_mode_names),
      "What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of the "
      "frame,"
-     " without the preamble (docs/guides/receivers.md)"},
+     " without the preamble (docs/how-to/choose-a-receiver.md)"},
     {NETSIM_FIELD(RadioConfig, noise_figure), "receiver.noiseFigure", ratio().at_least(1),
      "noise that the receiver adds", with_thermal_noise},
     {NETSIM_FIELD(RadioConfig, preamble_detection), "receiver.preambleDetection.typename",

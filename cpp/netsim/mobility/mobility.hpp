@@ -2,7 +2,7 @@
 // by protocols.
 //
 // A model turns commands into legs of a Trajectory. make_mobility chooses models by name. To add
-// one, see docs/guides/extending.md.
+// one, see docs/contributing/change-the-simulator.md.
 #pragma once
 
 #include <memory>

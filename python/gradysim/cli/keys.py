@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from gradysim.scenario.key_list import KeySection
 
-_PATTERN = "Part of a key, of its values or of its meaning; or a key with *."
+_PATTERN = "Part of a key, of its values or of its meaning; or a pattern such as `*.power`."
 
 
 _INDENT = 4
@@ -30,8 +30,8 @@ so.
 - Values may have other units of the same dimension: a power in `mW` or `dBm`, a time in `ms` or `h`.
 - If two lines match, the first one is in force. Write `*.uavs[0].mobility.speed` above
   `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that has no effect because of a line above it.
-- A list of values, `${10ms, 50ms}`, makes one run for each (docs/guides/results.md).
-- Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/guides/values.md).
+- A list of values, `${10ms, 50ms}`, makes one run for each (docs/how-to/read-results.md).
+- Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/reference/values.md).
 - A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file. It is a
   regular file. A scenario has at most 64 MiB, in at most 1,000 files.
 - Options of OMNeT++ alone are ignored: how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
@@ -102,7 +102,7 @@ def plain_text(sections: "Iterable[KeySection]") -> str:
 
 
 def markdown_page(sections: "Iterable[KeySection]") -> str:
-    """Return the page docs/guides/keys.md."""
+    """Return the page docs/reference/keys.md."""
     parts = [INTRODUCTION]
     for section in sections:
         lines = [f"| {' | '.join(HEADINGS)} |", "|---|---|---|---|"]

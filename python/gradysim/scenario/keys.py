@@ -140,12 +140,12 @@ MOBILITY_KEYS: tuple[Key, ...] = (
             STATIC_GRID,
             ARDUPILOT,
             otherwise="protocols move their nodes here, with plugins for waypoints, random trips and more"
-            " (docs/guides/plugins.md)",
+            " (docs/how-to/use-plugins.md)",
         ),
         "How the node moves. MasslessMobility: as its protocol says (missions, random waypoints: "
-        "docs/guides/plugins.md). StationaryMobility: not at all. StaticGridMobility: not at "
+        "docs/how-to/use-plugins.md). StationaryMobility: not at all. StaticGridMobility: not at "
         "all, and it starts in a grid. ArdupilotMobility: as its protocol says, flown by a real "
-        "autopilot (docs/guides/ardupilot.md)",
+        "autopilot (docs/how-to/fly-with-ardupilot.md)",
         f'"{MASSLESS}"',
     ),
     _start(
@@ -239,7 +239,7 @@ CHANNEL_NUMBER = replace(
     kind=channel_by_default(),
     meaning="Channel of the band (another way to set centerFrequency). 802.11: counted from 0, up to 13 in"
     " the 2.4 GHz"
-    " band, which is the default; other bands are counted as in INET (docs/guides/interfaces.md). 802.15.4:"
+    " band, which is the default; other bands are counted as in INET (docs/how-to/use-several-radios.md). 802.15.4:"
     " number of"
     " the standard, 11 (2405 MHz) to 26 (2480 MHz)",
 )

@@ -66,7 +66,7 @@ def test_who_changes_the_mode_learns_of_the_ranges_elsewhere_too(root: Path) -> 
     told = re.findall(r"broadcasts of the real radio (\d+ m)", README.read_text())
     transmission_range = COMMUNICATION_MEDIUM_KEYS[0].meaning
     assert re.findall(r"reach (\d+ m) by default", transmission_range) == told
-    migration = (root / "docs/migration.md").read_text()
+    migration = (root / "docs/how-to/migrate-from-0.8.md").read_text()
     assert re.findall(r"its broadcasts reach (\d+ m), and those of the prototype 60 m", migration) == told
 
 

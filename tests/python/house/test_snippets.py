@@ -11,13 +11,13 @@ import pytest
 
 _ROOT = Path(__file__).parents[3]
 
-SAVED_AS = {"docs/guides/handlers.md": "climber"}
+SAVED_AS = {"docs/how-to/use-handlers.md": "climber"}
 """Documents whose first snippet is a file of its own, which the others import."""
 
-NEEDS_AN_AUTOPILOT = {"docs/guides/ardupilot.md"}
+NEEDS_AN_AUTOPILOT = {"docs/how-to/fly-with-ardupilot.md"}
 """Documents whose main program flies an autopilot: here only what it defines is run.
 
-tests/python/house/test_ardupilot_guide.py flies it with a toy, tests/python/sitl/test_real_autopilot.py shows
+tests/python/house/test_fly_with_ardupilot.py flies it with a toy, tests/python/sitl/test_real_autopilot.py shows
 that real ones fly.
 """
 

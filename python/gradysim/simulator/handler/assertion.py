@@ -1,6 +1,6 @@
 """Checks of a simulation while it runs: what must always be true, and what must be so at least once.
 
-A decorator turns a predicate into a case, and an `AssertionHandler` evaluates its cases after each event:
+A decorator turns a predicate into a case, and an `AssertionHandler` evaluates its cases after each event::
 
     @assert_always_true_for_protocol(Drone, "below the ceiling")
     def below_the_ceiling(node: Node[Drone]) -> bool:

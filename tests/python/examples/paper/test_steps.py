@@ -1,4 +1,4 @@
-"""The script that runs the steps, and what docs/guides/paper.md shows of it."""
+"""The script that runs the steps, and what docs/how-to/repeat-the-paper.md shows of it."""
 
 import re
 from pathlib import Path

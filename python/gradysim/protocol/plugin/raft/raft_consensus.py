@@ -24,15 +24,13 @@ class RaftConsensusPlugin:
 
     Create it in `initialize` or later, set the members with `set_known_nodes` and call `start`. The node that
     is elected leader can propose values. All nodes see them once they are committed. Messages and timers of
-    the plugin do not reach the protocol.
+    the plugin do not reach the protocol::
 
-    ```python
-    def initialize(self) -> None:
-        config = RaftConfig().add_consensus_variable("target", int).set_raft_mode(RaftMode.CLASSIC)
-        self.consensus = RaftConsensusPlugin(config, self)
-        self.consensus.set_known_nodes(range(5))
-        self.consensus.start()
-    ```
+        def initialize(self) -> None:
+            config = RaftConfig().add_consensus_variable("target", int).set_raft_mode(RaftMode.CLASSIC)
+            self.consensus = RaftConsensusPlugin(config, self)
+            self.consensus.set_known_nodes(range(5))
+            self.consensus.start()
     """
 
     def __init__(self, config: RaftConfig, protocol: IProtocol) -> None:

@@ -11,14 +11,14 @@ from typing import Any, NamedTuple
 class RaftState(Enum):
     """Role of a node.
 
-    ```
-               election timeout,                 majority of votes
-               enough answers to discovery
-    FOLLOWER ────────────────────────▶ CANDIDATE ─────────────────▶ LEADER
-        ▲                                  │                          │
-        └── leader or higher term seen, ◀──┴──────────────────────────┘
-            election lost, quorum lost
-    ```
+    ::
+
+                   election timeout,                 majority of votes
+                   enough answers to discovery
+        FOLLOWER ────────────────────────▶ CANDIDATE ─────────────────▶ LEADER
+            ▲                                  │                          │
+            └── leader or higher term seen, ◀──┴──────────────────────────┘
+                election lost, quorum lost
     """
 
     FOLLOWER = auto()
@@ -243,13 +243,11 @@ def next_own_term(current_term: int, node_id: int) -> int:
     Each term belongs to one node. The Raft paper numbers terms 1, 2, 3, … and relies on overlapping
     majorities to have one leader in each. Here majorities need not overlap: nodes may know different members,
     and in fault-tolerant mode both sides of a partition have a majority. So row r holds one term of each of
-    the nodes 0 to r:
+    the nodes 0 to r::
 
-    ```
-    row 0: 1 (node 0)
-    row 1: 2 (node 0)  3 (node 1)
-    row 2: 4 (node 0)  5 (node 1)  6 (node 2)
-    ```
+        row 0: 1 (node 0)
+        row 1: 2 (node 0)  3 (node 1)
+        row 2: 4 (node 0)  5 (node 1)  6 (node 2)
 
     The number of nodes need not be known, and terms stay small. Ballot numbers in Paxos are owned by
     proposers in the same way.

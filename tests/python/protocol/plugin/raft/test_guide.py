@@ -1,4 +1,4 @@
-"""What docs/guides/raft.md shows is what happens."""
+"""What docs/how-to/agree-with-raft.md shows is what happens."""
 
 import importlib
 import re
@@ -9,7 +9,7 @@ import pytest
 
 from gradysim.scenario import load_scenarios
 
-GUIDE = Path(__file__).parents[5] / "docs/guides/raft.md"
+GUIDE = Path(__file__).parents[5] / "docs/how-to/agree-with-raft.md"
 
 
 @pytest.fixture

@@ -1,0 +1,36 @@
+"""The documentation site: `make docs` builds it with Sphinx, from Markdown and docstrings."""
+
+from importlib import metadata
+
+project = "gradysim"
+author = "The gradysim authors"
+copyright = "The gradysim authors, MIT license"
+release = metadata.version("gradysim")
+version = release
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton", "cyclopts.ext.sphinx"]
+root_doc = "index"
+exclude_patterns = ["pictures/*.py"]
+default_role = "py:obj"
+
+# Markdown: links to headings as on GitHub.
+myst_heading_anchors = 4
+myst_enable_extensions = ["attrs_inline"]
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_class_signature = "separated"
+autodoc_default_options = {"members": True, "show-inheritance": True}
+napoleon_google_docstring = True
+napoleon_numpy_docstring = False
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 90
+
+html_theme = "furo"
+html_title = f"gradysim {release}"
+html_theme_options = {"light_css_variables": {"color-brand-primary": "#0072b2", "color-brand-content": "#0072b2"}}
+html_show_sourcelink = False
+html_copy_source = False
+
+# Tables of error rates are shown as csv, which the highlighter does not know.
+suppress_warnings = ["misc.highlighting_failure"]

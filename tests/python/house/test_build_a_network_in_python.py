@@ -1,0 +1,54 @@
+"""What docs/how-to/build-a-network-in-python.md shows is what happens."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+PAGE = "docs/how-to/build-a-network-in-python.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+
+
+@pytest.fixture
+def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder with the page's files, as a reader would save them; it is the working directory."""
+    for language, name in [("ini", "radios.ini"), ("python", "network.py")]:
+        (block,) = code_blocks(PAGE, language)
+        (tmp_path / name).write_text(block)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def network(folder: Path, imported: Callable[[Path], Any]) -> Any:
+    """The page's script, imported."""
+    return imported(folder / "network.py")
+
+
+def test_its_call_gives_what_the_page_says(network: Any, root: Path) -> None:
+    (call,) = re.findall(
+        r"^`(in_both_modes\(.*\))` returns two results", (root / PAGE).read_text(), re.MULTILINE
+    )
+    results = eval(call, vars(network))
+    assert [result.mode for result in results] == ["prototype", "integrated"]
+    for result in results:
+        assert [node.tracked_variables["heard"] for node in result.nodes] == [0, 5, 0]
+
+
+def test_classes_that_a_function_makes_run_in_both_modes(network: Any) -> None:
+    class Farther(network.Listener):  # type: ignore[name-defined, misc]
+        """One that a function makes."""
+
+    for result in network.in_both_modes([(network.Greeter, (0, 0, 0)), (Farther, (40, 0, 10))]):
+        assert [node.protocol for node in result.nodes] == ["Greeter", "Farther"]
+        assert [node.tracked_variables["heard"] for node in result.nodes] == [0, 5]
+        assert result.nodes[1].position == (40, 0, 10)
+
+
+def test_its_types_hold(folder: Path, type_errors: Callable[[Path], str]) -> None:
+    assert type_errors(folder / "network.py") == ""

@@ -1,0 +1,31 @@
+"""What docs/how-to/choose-a-receiver.md shows is understood, file and lines."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+import gradysim.integrated.run
+from gradysim.integrated.network_lint import lint_networks
+from gradysim.scenario import load_scenarios
+
+
+@pytest.fixture
+def guide(root: Path) -> str:
+    return (root / "docs/how-to/choose-a-receiver.md").read_text(encoding="utf-8")
+
+
+def test_its_lines_and_its_table_run(root: Path, guide: str, tmp_path: Path) -> None:
+    ((lines,), (table,)) = (
+        re.findall(rf"^```{kind}\n(.*?)^```", guide, re.MULTILINE | re.DOTALL) for kind in ("ini", "csv")
+    )
+    (tmp_path / "rates.csv").write_text(table)
+    file = tmp_path / "all.ini"
+    file.write_text(f"[General]\n{lines}\ninclude {root}/configs/reference/jittered.ini\n")
+    (scenario,) = load_scenarios(file, overrides=["sim-time-limit = 2.1s"])
+    assert not lint_networks([scenario])
+    fates = gradysim.integrated.run.run(scenario).fates["frames"]["broadcast"]
+    assert fates["delivered"] > 0
+    assert fates["preamble_undetected"] > 0

@@ -1,0 +1,38 @@
+"""What docs/how-to/use-ieee802154.md shows is in the scenario that it names, and its figures are the engine's."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
+
+
+@pytest.fixture
+def guide(root: Path) -> str:
+    return (root / "docs/how-to/use-ieee802154.md").read_text(encoding="utf-8")
+
+
+def test_its_ini_lines_are_those_of_the_scenario(guide: str, root: Path) -> None:
+    (block,) = re.findall(r"^```ini\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
+    scenario = (root / "configs/sensor_field.ini").read_text(encoding="utf-8").splitlines()
+    assert [line for line in block.splitlines() if line not in scenario] == []
+
+
+def test_nine_of_ten_messages_go_as_far_as_it_says(guide: str, root: Path) -> None:
+    ((payload_bytes, distance_m),) = re.findall(r"nine of ten messages of (\d+) B arrive over (\d+) m", guide)
+    (scenario,) = load_scenarios(
+        root / "configs/reference/narrowband.ini",
+        "Goodput",
+        overrides=[
+            f"*.senders[*].protocol.payload_bytes = {payload_bytes}",
+            f"*.sink.mobility.initialX = {distance_m}m",
+            "**.wlan[*].radio.receiver.snirThreshold = -8dB",
+            "**.wlan[*].mac.useMACAcks = false",
+        ],
+    )
+    frames = run(scenario).fates["frames"]["unicast"]
+    assert frames["delivered"] / (frames["delivered"] + frames["noise"]) == pytest.approx(0.9, abs=0.02)
