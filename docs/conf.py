@@ -8,7 +8,13 @@ copyright = "The gradysim authors, MIT license"
 release = metadata.version("gradysim")
 version = release
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton", "cyclopts.ext.sphinx"]
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_copybutton",
+    "cyclopts.ext.sphinx",
+]
 root_doc = "index"
 exclude_patterns = ["pictures/*.py"]
 default_role = "py:obj"
@@ -28,7 +34,6 @@ python_maximum_signature_line_length = 90
 
 html_theme = "furo"
 html_title = f"gradysim {release}"
-html_theme_options = {"light_css_variables": {"color-brand-primary": "#0072b2", "color-brand-content": "#0072b2"}}
 html_show_sourcelink = False
 html_copy_source = False
 

@@ -1,8 +1,8 @@
 """What arrives of a frame, against INET: path loss with a ground, antennas, obstacles, fading.
 
 INET's figures are signal to noise ratios of frames, as gains; nothing about the first three is random. Known
-differences (docs/how-to/choose-a-propagation-model.md) are held, too: a cosine antenna falls twice as fast here, in
-decibels, and INET multiplies powers with what Rayleigh's model has for amplitudes.
+differences are held, too (docs/how-to/choose-a-propagation-model.md): a cosine antenna falls twice as fast
+here, in decibels, and INET multiplies powers with what Rayleigh's model has for amplitudes.
 """
 
 from collections.abc import Callable

@@ -1,7 +1,7 @@
 """Declares the numbers of a run: each field of a result once, for all outputs that show it.
 
 A field of `RunResult` or `NodeResult` is annotated with a `Quantity`. The JSON object, the scalars of `.sca`
-files, the summary, `gradysim means` and the reference table of docs/how-to/read-results.md follow from it.
+files, the summary, `gradysim means` and the reference table of docs/reference/results.md follow from it.
 """
 
 import dataclasses

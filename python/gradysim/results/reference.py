@@ -1,4 +1,4 @@
-"""Writes the tables of fields in docs/how-to/read-results.md: `python -m gradysim.results.reference FILE`."""
+"""Writes the tables of fields in docs/reference/results.md: `python -m gradysim.results.reference FILE`."""
 
 import re
 import sys

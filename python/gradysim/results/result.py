@@ -89,8 +89,8 @@ class NodeResult:
     frames_by_bitrate: Annotated[
         Mapping[int, int],
         Quantity(
-            "With a [rate control](rate-control.md): unicast frames sent at each bitrate (bits per second),"
-            " with retries.",
+            "With a [rate control](../how-to/adapt-the-bitrate.md): unicast frames sent at each bitrate (bits"
+            " per second), with retries.",
             scalar="`unicast:54Mbps:count`",
             omitted=({},),
             to_json=lambda frames: {str(bitrate): count for bitrate, count in frames.items()},
@@ -133,7 +133,7 @@ class NodeResult:
     vectors: Annotated[
         tuple[Vector, ...] | None,
         Quantity(
-            "With `--vectors`: numbers [over time](omnetpp-results.md#vectors). In scripts only.",
+            "With `--vectors`: numbers [over time](../how-to/use-omnetpp-tools.md#vectors). In scripts only.",
             in_json=False,
         ),
     ] = None
@@ -251,8 +251,8 @@ class RunResult:
         Mapping[str, str],
         Quantity(
             'Hashes of the files that settings name, `{"hello.py": "1d2f…"}`: protocols with what they import'
-            " from their folder, obstacles, error rates, and for [native protocols](native-protocols.md) the"
-            " engine.",
+            " from their folder, obstacles, error rates, and for [native protocols]"
+            "(../how-to/write-a-native-protocol.md) the engine.",
             to_json=dict,
         ),
     ] = field(default_factory=dict)

@@ -238,10 +238,8 @@ CHANNEL_NUMBER = replace(
     path=f"{WLAN}.radio.channelNumber",
     kind=channel_by_default(),
     meaning="Channel of the band (another way to set centerFrequency). 802.11: counted from 0, up to 13 in"
-    " the 2.4 GHz"
-    " band, which is the default; other bands are counted as in INET (docs/how-to/use-several-radios.md). 802.15.4:"
-    " number of"
-    " the standard, 11 (2405 MHz) to 26 (2480 MHz)",
+    " the 2.4 GHz band, which is the default; other bands are counted as in INET"
+    " (docs/how-to/use-several-radios.md). 802.15.4: number of the standard, 11 (2405 MHz) to 26 (2480 MHz)",
 )
 
 OF_802154: dict[Key, Key] = {

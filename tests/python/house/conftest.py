@@ -43,7 +43,7 @@ def project_files(root: Path) -> Callable[..., list[Path]]:
 
 @pytest.fixture(scope="session")
 def code_blocks(root: Path) -> Callable[[str, str], list[str]]:
-    """`code_blocks("docs/how-to/migrate-from-0.8.md", "python")`: all blocks of a language in a document, at least one."""
+    """`code_blocks("docs/how-to/migrate-from-0.8.md", "python")`: the blocks of a language, at least one."""
 
     def blocks(document: str, language: str) -> list[str]:
         text = (root / document).read_text()

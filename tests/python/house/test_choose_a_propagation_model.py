@@ -1,4 +1,4 @@
-"""The lines that docs/how-to/choose-a-propagation-model.md shows are understood, and the engine takes them."""
+"""The engine takes the lines that docs/how-to/choose-a-propagation-model.md shows."""
 
 import re
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The commands and functions of docs/how-to/plot-a-study.md run, and its pictures are what the commands draw."""
+"""The commands of docs/how-to/plot-a-study.md run, and draw its pictures."""
 
 import csv
 import re

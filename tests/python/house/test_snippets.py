@@ -17,8 +17,8 @@ SAVED_AS = {"docs/how-to/use-handlers.md": "climber"}
 NEEDS_AN_AUTOPILOT = {"docs/how-to/fly-with-ardupilot.md"}
 """Documents whose main program flies an autopilot: here only what it defines is run.
 
-tests/python/house/test_fly_with_ardupilot.py flies it with a toy, tests/python/sitl/test_real_autopilot.py shows
-that real ones fly.
+tests/python/house/test_fly_with_ardupilot.py flies it with a toy. tests/python/sitl/test_real_autopilot.py
+flies with real ones.
 """
 
 

@@ -1,4 +1,4 @@
-"""What docs/how-to/use-ieee802154.md shows is in the scenario that it names, and its figures are the engine's."""
+"""The scenario and the engine agree with docs/how-to/use-ieee802154.md."""
 
 import re
 from pathlib import Path

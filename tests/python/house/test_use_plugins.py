@@ -82,7 +82,9 @@ def test_one_of_several_runs_leaves_the_file_that_it_names(guide: Path, root: Pa
     pytest.importorskip("gradysim._netsim")
     from gradysim.integrated.run import run
 
-    (name,) = re.findall(r"`(tracked_variables_Count-#3\S+)`", (root / "docs/how-to/use-plugins.md").read_text())
+    (name,) = re.findall(
+        r"`(tracked_variables_Count-#3\S+)`", (root / "docs/how-to/use-plugins.md").read_text()
+    )
     (scenario,) = load_scenarios(guide / "guide.ini", "Count", "3", overrides=["repeat = 4"])
     run(scenario)
     assert [file.name for file in guide.glob("tracked_variables_*_0.csv")] == [name]

@@ -1,4 +1,4 @@
-"""What docs/how-to/use-several-radios.md shows is in the scenario that it names, and its figures are the engine's."""
+"""The scenario and the engine agree with docs/how-to/use-several-radios.md."""
 
 import re
 from pathlib import Path
