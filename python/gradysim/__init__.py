@@ -2,6 +2,10 @@
 
 from typing import Any
 
+from gradysim import installation
+
+installation.check(__path__)
+
 __version__: str
 """Version of the installed package, with its commit if it is not a release.
 
