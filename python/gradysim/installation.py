@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable
 
 FILE_OF_08 = "simulator/handler/visualization.py"
-"""Every 0.8 has it, and here it is a package. Looking for it takes microseconds, reading metadata milliseconds."""
+"""Every 0.8 has it; here it is a package. A look for it takes microseconds, reading metadata milliseconds."""
 
 
 def check(directories: Iterable[str]) -> None:
