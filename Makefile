@@ -63,7 +63,7 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUTES=20 long; prints what was lost.
 	cd tests && "$(CURDIR)/$(BIN)/python" -m python.torture $(MINUTES)
 
-lint: lint-python lint-cpp lint-files  ## All checks of style, types and layers: Python, C++, files of the repository.
+lint: lint-python lint-cpp lint-files docs  ## All checks of style, types, layers and links: Python, C++, files of the repository, pages.
 
 lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
 	ruff check $(python_checked)
@@ -105,7 +105,7 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed
 
 docs: build $(STAMPS)/docs  ## Build the documentation site, build/site, and check its links.
-	$(BIN)/python -m sphinx -q -W --keep-going -j auto docs build/site
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going docs build/site
 
 viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer/page.html, from viewer/.
 	cd viewer && npm run --silent check && npm run --silent build

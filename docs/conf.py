@@ -16,6 +16,7 @@ extensions = [
     "cyclopts.ext.sphinx",
 ]
 root_doc = "index"
+smartquotes = False  # they turn -- of options into a dash
 exclude_patterns = ["pictures/*.py"]
 default_role = "py:obj"
 
