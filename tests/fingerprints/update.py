@@ -3,8 +3,8 @@
 A fingerprint is a hash of everything that happened on the air and in the protocols. When one changes, a user
 who repeats a run gets other results. So rewriting is legitimate only if that is meant:
 
-- the model or its default values were changed or corrected, and CHANGELOG.md says so under "Changed
-  behaviour" or "Fixed";
+- the model or its default values were changed or corrected, and CHANGELOG.md says so under "Changed" or
+  "Fixed";
 - an example (configs/, examples/) was changed, added or removed;
 - what goes into the fingerprint was changed.
 
