@@ -24,7 +24,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -126,6 +126,12 @@ fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerpr
 
 golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages about mistakes in scenarios.
 	REWRITE_GOLDEN=1 $(BIN)/python -m pytest -q tests/python/scenario/test_messages.py
+
+release: | $(VENV)/bin/python  ## Test, build the wheels and tag a release: VERSION=1.0.0.
+	$(BIN)/python packaging/release.py check "$(VERSION)"
+	$(MAKE) --no-print-directory lint test
+	VCS_VERSIONING_PRETEND_VERSION_FOR_GRADYSIM=$(VERSION) $(MAKE) --no-print-directory wheels
+	$(BIN)/python packaging/release.py tag "$(VERSION)"
 
 clean:  ## Remove what was built; .venv stays.
 	rm -rf build dist $(STAMPS)/editable

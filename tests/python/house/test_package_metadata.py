@@ -17,9 +17,10 @@ def project(root: Path) -> dict[str, Any]:
         return tomllib.load(file)
 
 
-def test_the_changelog_opens_with_what_is_unreleased(root: Path) -> None:
+def test_the_changelog_opens_with_the_next_version(root: Path, project: dict[str, Any]) -> None:
     headings = re.findall(r"^## (.+)$", (root / "CHANGELOG.md").read_text(), re.MULTILINE)
-    assert headings[0] == "Unreleased (1.0.0)"
+    version = project["tool"]["vcs-versioning"]["fallback_version"].removesuffix(".dev0")
+    assert re.fullmatch(rf"Unreleased \({version}\)|{version} \(\d{{4}}-\d\d-\d\d\)", headings[0])
 
 
 def test_the_licence_is_mit(root: Path, project: dict[str, Any]) -> None:

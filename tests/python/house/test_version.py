@@ -12,16 +12,9 @@ from pathlib import Path
 import pytest
 
 import gradysim
+from python.git_command import git
 
 BUILD = "from scikit_build_core.build import build_sdist; print(build_sdist('dist'))"
-
-
-def git(directory: Path, *arguments: str) -> str:
-    author = ("-c", "user.name=test", "-c", "user.email=test@example.org")
-    done = subprocess.run(
-        ["git", *author, *arguments], cwd=directory, check=True, capture_output=True, text=True
-    )
-    return done.stdout.strip()
 
 
 @pytest.fixture
