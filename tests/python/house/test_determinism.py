@@ -1,0 +1,22 @@
+"""What docs/explanation/determinism.md shows is what the commands print."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+PAGE = "docs/explanation/determinism.md"
+
+
+@pytest.mark.parametrize("number", [0, 1])
+def test_the_output_is_the_one_that_is_shown(
+    root: Path,
+    code_blocks: Callable[[str, str], list[str]],
+    shell: Callable[[str, Path], str],
+    number: int,
+) -> None:
+    commands, shown = code_blocks(PAGE, "sh"), code_blocks(PAGE, "text")
+    assert len(commands) == len(shown) == 2
+    assert shell(commands[number], root) == shown[number]
