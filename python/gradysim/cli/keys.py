@@ -30,7 +30,7 @@ so.
 - Values may have other units of the same dimension: a power in `mW` or `dBm`, a time in `ms` or `h`.
 - If two lines match, the first one is in force. Write `*.uavs[0].mobility.speed` above
   `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that has no effect because of a line above it.
-- A list of values, `${10ms, 50ms}`, makes one run for each (docs/how-to/read-results.md).
+- A list of values, `${10ms, 50ms}`, makes one run for each (docs/reference/studies.md).
 - Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/reference/values.md).
 - A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file. It is a
   regular file. A scenario has at most 64 MiB, in at most 1,000 files.

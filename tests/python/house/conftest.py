@@ -92,3 +92,10 @@ def shell(root: Path, tmp_path: Path) -> Callable[[str, Path], str]:
         ).stdout
 
     return run
+
+
+@pytest.fixture
+def swarm(shell: Callable[[str, Path], str], tmp_path: Path) -> Path:
+    """A folder with `swarm`, the project with which several guides begin; it is made by `gradysim new`."""
+    shell("gradysim new swarm", tmp_path)
+    return tmp_path

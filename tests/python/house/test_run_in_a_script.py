@@ -1,0 +1,59 @@
+"""What docs/how-to/run-in-a-script.md shows is what happens."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+import gradysim.integrated.run
+
+GUIDE = "docs/how-to/run-in-a-script.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+
+
+@pytest.fixture
+def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
+    """The functions that it defines."""
+    names: dict[str, Any] = {}
+    exec("\n".join(code_blocks(GUIDE, "python")), names)
+    return names
+
+
+@pytest.fixture
+def file(swarm: Path) -> str:
+    return str(swarm / "swarm/swarm.ini")
+
+
+def test_its_study_yields_the_rows_that_are_shown(
+    code_blocks: CodeBlocks, shown: dict[str, Any], file: str
+) -> None:
+    rows = shown["study"](file, ["0s", "200ms"])
+    assert [str(row) for row in rows] == code_blocks(GUIDE, "text")[0].splitlines()
+
+
+def test_runs_in_parallel_are_those_of_this_process(shown: dict[str, Any], file: str) -> None:
+    scenarios = shown["load_scenarios"](file, overrides=["repeat = 4"])
+    events = [gradysim.integrated.run.run(scenario).events for scenario in scenarios]
+    assert shown["in_parallel"](file) == events
+
+
+def test_an_interrupt_leaves_the_results_so_far(shown: dict[str, Any], file: str) -> None:
+    (line,) = [line for line in Path(file).read_text().splitlines() if "protocols.py:Vehicle" in line]
+    stopped = line.replace("[*]", "[0]").replace("protocols.py:Vehicle", "stopped.py:Stopped")
+    Path(file).write_text(Path(file).read_text().replace(line, f"{stopped}\n{line}"))
+    (Path(file).parent / "stopped.py").write_text(
+        "from protocols import Vehicle\n\n\n"
+        "class Stopped(Vehicle):\n"
+        "    def handle_timer(self, timer):\n"
+        "        if self.reports == 9:\n"
+        "            raise KeyboardInterrupt\n"
+        "        super().handle_timer(timer)\n"
+    )
+    result = shown["partial_result"](file)
+    assert result.interrupted
+    assert result.sim_time_s == 10
+    assert result.nodes[0].tracked_variables["reports"] == 9

@@ -1,0 +1,30 @@
+"""What docs/how-to/stop-and-resume.md shows is what the commands print."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.cli.run import text_of_unfinished
+
+GUIDE = "docs/how-to/stop-and-resume.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+
+
+def test_the_missing_runs_are_resumed(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
+) -> None:
+    new, stopped, resumed = code_blocks(GUIDE, "sh")[0].splitlines()
+    shell(new, tmp_path)
+    shell(f"{stopped.partition('#')[0]} -r 0..11", tmp_path)
+    printed = shell(f"{resumed} 2>&1", tmp_path)
+    assert code_blocks(GUIDE, "text")[1] in printed
+    assert len([line for line in printed.splitlines() if line.startswith("Study run")]) == 8
+
+
+def test_the_unfinished_runs_are_named_as_shown(code_blocks: CodeBlocks) -> None:
+    shown = code_blocks(GUIDE, "text")[0].splitlines()[-1]
+    assert shown == text_of_unfinished("Study", range(12), {12: "was interrupted"}, range(13, 20))
