@@ -1,6 +1,6 @@
 """The command `gradysim`.
 
-    gradysim new NAME
+    gradysim new NAME [--example]
     gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
     gradysim check FILE.ini [-c CONFIG]
     gradysim view FILE.ini|FILE.html...

@@ -1,13 +1,16 @@
-"""`gradysim new`: makes a folder with which to begin."""
+"""`gradysim new`: makes a directory with which to begin."""
 
 import shlex
+import sys
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli import examples
+from gradysim.cli.errors import MISTAKE, OK, say_mistake
+from gradysim.cli.options import Flag
 
 _FILES = {
     "protocols.py": "protocols.py",
@@ -17,8 +20,22 @@ _FILES = {
 """{template: file}."""
 
 
-def make_project(name: Annotated[str, Parameter(help="Of the folder, and of its .ini file.")], /) -> int:
-    """Make a folder with a protocol, scenarios and a test to begin with."""
+NameArgument = Annotated[
+    str | None,
+    Parameter(name="NAME", help="Of the directory and its .ini file; with --example that of an example."),
+]
+ExampleOption = Annotated[
+    Flag, Parameter(help="Copy the example NAME instead. Without a NAME, list the examples.")
+]
+
+
+def make_project(name: NameArgument = None, /, *, example: ExampleOption = False) -> int:
+    """Make a directory with a protocol, scenarios and a test to begin with, or with an example."""
+    if example:
+        return _list_examples() if name is None else _copy_example(name)
+    if name is None:
+        print("expected a NAME, such as `gradysim new swarm`", file=sys.stderr)
+        return MISTAKE
     folder = Path(name)
     try:
         folder.mkdir(parents=True)
@@ -34,4 +51,29 @@ def make_project(name: Annotated[str, Parameter(help="Of the folder, and of its 
     print(f"gradysim view {scenarios} -c Jittered    # with a random wait they arrive")
     print(f"gradysim run {scenarios} -c Study --jobs 2 --result-dir {shlex.quote(str(folder / 'results'))}")
     print(f"python -m pytest {shlex.quote(str(folder))}")
+    return OK
+
+
+def _list_examples() -> int:
+    width = max(map(len, examples.NAMES))
+    for name in examples.NAMES:
+        print(f"{name:{width}}  {examples.subject(name)}")
+    return OK
+
+
+def _copy_example(name: str) -> int:
+    from gradysim.scenario.errors import did_you_mean
+
+    if name not in examples.NAMES:
+        names = ", ".join(examples.NAMES)
+        suggestion = did_you_mean(name, examples.NAMES)
+        print(f"`{name}` is not an example; expected one of {names}{suggestion}", file=sys.stderr)
+        return MISTAKE
+    directory = Path(name)
+    try:
+        directory.mkdir()
+        examples.copy_files(name, directory)
+    except OSError as error:
+        return say_mistake(error)
+    print(f"cd {name}", *examples.commands(name), sep="\n")
     return OK

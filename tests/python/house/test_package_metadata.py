@@ -4,11 +4,14 @@ import re
 import shutil
 import tarfile
 import tomllib
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from gradysim.cli import examples
 
 
 @pytest.fixture
@@ -60,6 +63,22 @@ def test_the_source_distribution_leaves_out_what_git_ignores(
         packed = {name.partition("/")[2] for name in archive.getnames()}
     assert set(files) <= packed
     assert [name for name in packed if "__pycache__" in name] == []
+
+
+def test_a_wheel_has_the_files_of_all_examples(
+    root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    build = pytest.importorskip("scikit_build_core.build")
+    copied = tmp_path / "copied"
+    for name in examples.NAMES:
+        examples.copy_files(name, copied)
+    monkeypatch.chdir(root)
+    wheel = tmp_path / build.build_wheel(str(tmp_path), {"wheel.cmake": "false"})
+    with zipfile.ZipFile(wheel) as archive:
+        packed = {name for name in archive.namelist() if re.match("gradysim/(configs|examples)/", name)}
+    needed = {f"gradysim/{file.relative_to(copied)}" for file in copied.rglob("*.*")}
+    assert needed <= packed
+    assert [name for name in packed if "configs/reference" in name or "__pycache__" in name] == []
 
 
 def test_the_package_itself_needs_little(project: dict[str, Any]) -> None:
