@@ -201,8 +201,11 @@ class ViewOptions:
     seed: Integer | None = None
     """As of `gradysim run`."""
 
+    host: str = "127.0.0.1"
+    """Address that the server listens on: 0.0.0.0 for all, such as in a container."""
+
     port: Integer = 0
-    """Of the server on 127.0.0.1; 0 for a free one."""
+    """Port of the server; 0 for a free one."""
 
     browser: Annotated[bool, Parameter(negative="--no-browser", show_default=False)] = True
     """Open the page. Otherwise only its address is printed."""

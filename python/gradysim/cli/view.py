@@ -80,7 +80,7 @@ def show_live(file: Path, options: ViewOptions) -> int:
     from gradysim.replay.live import LiveView
 
     (scenario,) = check(file, options.config, str(options.run), options.settings, options.seed)
-    live = LiveView(options.port)
+    live = LiveView(options.port, options.host)
     with StopOnInterrupt() as interrupt:
         try:
             with interrupt.at_once():

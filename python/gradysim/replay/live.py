@@ -1,4 +1,4 @@
-"""Shows a run while it goes on: the page of replays, from a server on this machine, with chunks as they come.
+"""Shows a run while it goes on: the page of replays, from a server, with chunks as they come.
 
     GET /?token=T        the page
     /chunks?token=T      a WebSocket: {"run": ...}, then chunks as binary messages, then {"end": ...}
@@ -21,13 +21,19 @@ from urllib.parse import parse_qs, urlsplit
 
 from gradysim.replay.chunk import RawChunk, pack
 from gradysim.viewer.page import live_page
-from gradysim.viewer.serving import HANDSHAKE_S, LONGEST_MESSAGE_BYTES, answer, is_allowed, silent_logger
+from gradysim.viewer.serving import (
+    HANDSHAKE_S,
+    LONGEST_MESSAGE_BYTES,
+    Host,
+    answer,
+    is_allowed,
+    silent_logger,
+)
 
 if TYPE_CHECKING:
     from websockets.http11 import Request, Response
     from websockets.sync.server import ServerConnection
 
-HOST = "127.0.0.1"
 CHUNK_S = 0.1
 """Wall time between two chunks, in seconds."""
 LOOKAHEAD_S = 2.0
@@ -45,14 +51,14 @@ class LiveView:
 
     recorded: frozenset[int] | None = None
 
-    def __init__(self, port: int = 0) -> None:
-        """Listen on a port, 0 for a free one. Raises OSError if that cannot be done."""
+    def __init__(self, port: int = 0, host: str = "127.0.0.1") -> None:
+        """Listen on a host and a port, 0 for a free one. Raises OSError if that cannot be done."""
         from websockets.sync.server import serve
 
+        self._host = Host(host)
         self._token = secrets.token_urlsafe(16)
         self._run: Mapping[str, Any] | None = None
         self._end: Mapping[str, Any] | None = None
-        self._history = TemporaryFile()  # noqa: SIM115 (open as long as the view)
         self._places: list[tuple[int, int]] = []
         self.recorded_s = 0.0
         self._news = threading.Condition()
@@ -63,7 +69,7 @@ class LiveView:
         # Pings would draw from Python's random numbers, which belong to the run.
         self._server = serve(
             self._meet,
-            HOST,
+            host,
             port,
             process_request=self._answer,
             max_size=LONGEST_MESSAGE_BYTES,
@@ -73,13 +79,14 @@ class LiveView:
             compression=None,
             logger=silent_logger(__name__),
         )
+        self._history = TemporaryFile()  # noqa: SIM115 (open as long as the view)
         self._port: int = self._server.socket.getsockname()[1]
         threading.Thread(target=self._server.serve_forever, name="gradysim view", daemon=True).start()
 
     @property
     def address(self) -> str:
         """Where a browser finds the page."""
-        return f"http://{HOST}:{self._port}/?token={self._token}"
+        return f"http://{self._host.name}:{self._port}/?token={self._token}"
 
     @property
     def viewers(self) -> int:
@@ -137,7 +144,8 @@ class LiveView:
     def _answer(self, connection: "ServerConnection", request: "Request") -> "Response | None":
         """Answer a request that is not for the WebSocket, and all that is not allowed."""
         token = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
-        allowed = is_allowed(request) and secrets.compare_digest(token.encode(), self._token.encode())
+        knows_token = secrets.compare_digest(token.encode(), self._token.encode())
+        allowed = knows_token and is_allowed(request, self._host.accepted)
         return answer(connection, request, allowed, lambda: live_page(f"/chunks?token={self._token}"))
 
     def _meet(self, viewer: "ServerConnection") -> None:

@@ -21,6 +21,24 @@ HANDSHAKE_S = 2.0
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "[::1]"})
 """Names in addresses that only this machine can reach."""
 
+_WILDCARDS = frozenset({"", "0.0.0.0", "[::]"})
+"""Hosts that stand for all addresses of this machine."""
+
+
+class Host:
+    """The host that a server listens on.
+
+    Attributes:
+        name: How the address of the page names it, for browsers on this machine.
+        accepted: Names that the header `Host` of a request may have; None for any.
+    """
+
+    def __init__(self, host: str) -> None:
+        """Take a name or an address, such as `localhost`, `0.0.0.0` or `::1`."""
+        written = f"[{host}]" if ":" in host else host
+        self.name = "localhost" if written in _WILDCARDS else written
+        self.accepted = LOOPBACK_NAMES if written in LOOPBACK_NAMES else None
+
 
 def is_allowed(
     request: "Request",

@@ -21,6 +21,17 @@ def test_a_run_is_shown_and_ends_when_its_viewers_have_left(folder, mode):
     assert code == 0
 
 
+def test_a_run_is_shown_at_a_published_address(folder):
+    end, code, _ = watched("gradysim view test.ini --host 0.0.0.0", folder)
+    assert end["complete"]
+    assert code == 0
+
+
+def test_a_host_that_is_not_of_this_machine_is_named(folder, capsys):
+    assert main(["view", "test.ini", "--host", "192.0.2.1", "--no-browser"]) == 2
+    assert "192.0.2.1" in capsys.readouterr().err
+
+
 def test_a_failure_of_a_protocol_is_told_in_the_end(folder, make_scenario):
     make_scenario("class Tested(Talker):\n    def handle_packet(self, message): raise RuntimeError('spoilt')")
     end, code, error_output = watched("gradysim view test.ini", folder)

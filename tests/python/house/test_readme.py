@@ -137,11 +137,11 @@ def test_the_study_has_the_runs_and_the_files_that_are_told(
 
 def test_the_commands_of_docker_name_what_there_is(root: Path) -> None:
     lines = re.findall(r"^docker (.*)$", README.read_text(), re.MULTILINE)
-    assert len(lines) == 3
+    assert len(lines) == 4
     for name in re.findall(r"\S+/\S+", " ".join(lines)):
         assert (root / name).exists()
-    file, config = re.findall(r"gradysim run (\S+) -c (\S+)", " ".join(lines))[0]
-    load_scenarios(root / file, config)
+    for file, config in re.findall(r"gradysim (?:run|view) (\S+) -c (\S+)", " ".join(lines)):
+        load_scenarios(root / file, config)
 
 
 def test_its_commands_are_those_of_make(root: Path) -> None:

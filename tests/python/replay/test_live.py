@@ -26,6 +26,20 @@ def live():
     view.stop()
 
 
+@pytest.fixture
+def published():
+    view = LiveView(host="0.0.0.0")
+    yield view
+    view.stop()
+
+
+def status_for(live, path, *headers):
+    """The status line that a request gets."""
+    with socket.create_connection(("127.0.0.1", urlsplit(live.address).port)) as connection:
+        connection.sendall("\r\n".join([f"GET {path} HTTP/1.1", *headers, "", ""]).encode())
+        return connection.recv(1000).partition(b"\r\n")[0].decode()
+
+
 def join(live, **options):
     address = urlsplit(live.address)
     options = {"max_size": None, "ping_interval": None, "compression": None, "close_timeout": 0.1, **options}
@@ -136,10 +150,28 @@ def test_no_page_of_another_origin_gets_in(live):
 
 
 def test_no_other_name_of_this_machine_gets_in(live):
-    address = urlsplit(live.address)
-    with socket.create_connection((address.hostname, address.port)) as connection:
-        connection.sendall(f"GET /?{address.query} HTTP/1.1\r\nHost: evil.example\r\n\r\n".encode())
-        assert b" 403 " in connection.recv(1000)
+    path = f"/?{urlsplit(live.address).query}"
+    assert " 403 " in status_for(live, path, "Host: evil.example")
+
+
+def test_a_published_page_is_named_localhost(published):
+    assert urlsplit(published.address).hostname == "localhost"
+
+
+def test_a_published_page_has_any_name(published):
+    path = f"/?{urlsplit(published.address).query}"
+    assert " 200 " in status_for(published, path, "Host: simulations.example:8000")
+
+
+@pytest.mark.parametrize("path", ["/", "/?token=x"])
+def test_a_published_page_needs_the_token(published, path):
+    assert " 403 " in status_for(published, path, "Host: simulations.example:8000")
+
+
+def test_a_published_page_refuses_other_origins(published):
+    path = f"/?{urlsplit(published.address).query}"
+    headers = ("Host: simulations.example:8000", "Origin: http://evil.example")
+    assert " 403 " in status_for(published, path, *headers)
 
 
 def test_the_page_connects_to_its_server(live):

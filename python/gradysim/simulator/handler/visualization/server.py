@@ -27,7 +27,7 @@ from gradysim.viewer.page import snapshot_page
 from gradysim.viewer.serving import (
     HANDSHAKE_S,
     LONGEST_MESSAGE_BYTES,
-    LOOPBACK_NAMES,
+    Host,
     answer,
     is_allowed,
     silent_logger,
@@ -45,9 +45,6 @@ PUBLIC_VIEWER = "https://project-gradys.github.io"
 # Time limits in seconds of wall time: for the last messages of a simulation, and for any other one.
 _LAST_WORDS_S = 1.0
 _MESSAGE_S = 20.0
-
-# Hosts that listen on all addresses of this machine.
-_WILDCARDS = ("", "0.0.0.0", "[::]")
 
 
 class VisualizationException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
@@ -120,13 +117,12 @@ class VisualizationServer:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._stop: asyncio.Event | None = None
         self.port = 0
-        host = configuration.host
-        self._name = f"[{host}]" if ":" in host else host
+        self._host = Host(configuration.host)
 
     @property
     def address(self) -> str:
         """Address of the page for browsers on this machine."""
-        return f"http://{'localhost' if self._name in _WILDCARDS else self._name}:{self.port}/"
+        return f"http://{self._host.name}:{self.port}/"
 
     @property
     def wants_snapshot(self) -> bool:
@@ -232,8 +228,8 @@ class VisualizationServer:
             viewer.connection.transport.abort()
 
     def _answer(self, connection: "ServerConnection", request: "Request") -> "Response | None":
-        names = LOOPBACK_NAMES if self._name in LOOPBACK_NAMES else None
-        return answer(connection, request, is_allowed(request, names, [PUBLIC_VIEWER]), snapshot_page)
+        allowed = is_allowed(request, self._host.accepted, [PUBLIC_VIEWER])
+        return answer(connection, request, allowed, snapshot_page)
 
     def _update(self) -> None:
         """Hand the viewers what is new; without any, commands wait for the first one."""
