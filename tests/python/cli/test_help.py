@@ -34,7 +34,8 @@ def test_help_loads_nothing_heavy(folder):
         [sys.executable, "-c", code], env=environment(), capture_output=True, text=True, check=True
     )
     ours = {name for name in done.stdout.splitlines() if name.startswith("gradysim")}
-    assert {name for name in ours if not name.startswith("gradysim.cli")} == {"gradysim", "gradysim.installation"}
+    others = {name for name in ours if not name.startswith("gradysim.cli")}
+    assert others == {"gradysim", "gradysim.installation"}
     heavy = {"numpy", "pandas", "matplotlib", "sqlite3", "asyncio", "rich.progress"}
     assert not heavy & set(done.stdout.splitlines())
 
