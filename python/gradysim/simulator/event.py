@@ -1,7 +1,7 @@
-"""The clock of a simulation: pending events by their times; at equal times first come, first served.
+"""The clock of a simulation: pending events by time. Events of equal time run in the order of scheduling.
 
-Events of one instant share a list and only the instants are in a heap: telemetry of all nodes and the copies
-of a broadcast come in such groups, and cost an append each, not a sift.
+Events of one instant share a list, and only the instants are in a heap. Telemetry of all nodes and the
+receptions of a broadcast come in such groups. Each of these events costs an append instead of a sift.
 """
 
 import math
@@ -13,24 +13,24 @@ from typing import Any
 Callback = Callable[[], Any]
 
 ScheduledEvent = tuple[Callback, str]
-"""What the loop keeps of an event: its callback and its context."""
+"""What the loop stores of an event: its callback and its context."""
 
-# So many events that already ran may wait in the list of the current instant before they are dropped.
+# Largest number of past events in the list of the current instant before they are dropped.
 _RAN_AT_MOST = 1 << 16
 
 
 class EventLoopException(Exception):  # noqa: N818 (the published name)
-    """An event that cannot be scheduled, or was asked of an empty loop."""
+    """An event that cannot be scheduled, or a request to an empty loop."""
 
 
 @dataclass(slots=True)
 class Event:
-    """An event taken from the loop; ordered by its time.
+    """An event taken from the loop. Events are ordered by time.
 
     Attributes:
         timestamp: Simulated time in seconds.
-        callback: What happens then.
-        context: What it is about, for people; shown in the log.
+        callback: Called at that time.
+        context: Description for the log.
     """
 
     timestamp: float
@@ -42,11 +42,11 @@ class Event:
 
 
 class EventLoop:
-    """Pending events, and the time of the one taken last.
+    """Pending events, and the time of the event taken last.
 
     Attributes:
         crowded_instant: The latest simulated time, in seconds, at which tens of thousands of events ran; NaN
-            before the first. Who schedules yet another one for then can ask whether time stands still.
+            before the first. Code that schedules another event for it can check whether time stands still.
     """
 
     def __init__(self) -> None:
@@ -55,30 +55,30 @@ class EventLoop:
         # One list of events per instant; `_instants` is a heap of its keys without the current instant.
         self._events: dict[float, list[ScheduledEvent]] = {}
         self._instants: list[float] = []
-        # The list of the current instant and how many of it were taken; None when it is used up.
+        # The list of the current instant, and the number of events taken from it; None when it is used up.
         self._current: list[ScheduledEvent] | None = None
         self._taken = 0
-        # How many events are in the lists, with those taken from the current one.
+        # Number of events in the lists, including those taken from the current one.
         self._held = 0
 
     @property
     def current_time(self) -> float:
-        """Simulated time in seconds: that of the last event taken, 0 before the first."""
+        """Simulated time in seconds: the time of the event taken last, 0 before the first."""
         return self._current_time
 
     def __len__(self) -> int:
         return self._held if self._current is None else self._held - self._taken
 
     def schedule_event(self, timestamp: float, callback: Callback, context: str = "") -> ScheduledEvent:
-        """Have `callback()` called at `timestamp`, after all events scheduled for that time so far.
+        """Call `callback()` at `timestamp`, after all events scheduled for that time so far.
 
         Args:
             timestamp: Absolute simulated time in seconds, finite, not before `current_time`.
             callback: Takes no arguments.
-            context: What the event is about, for the log.
+            context: Description of the event for the log.
 
         Returns:
-            The event, as `cancel_event` wants it.
+            The event, for `cancel_event`.
 
         Raises:
             EventLoopException: The time is in the past or not finite, or the callback cannot be called.
@@ -88,7 +88,7 @@ class EventLoop:
         event = (callback, context)
         try:
             events = self._events.get(timestamp)
-        except TypeError:  # As a list is not hashable.
+        except TypeError:  # not hashable, such as a list
             events = None
         if events is None:
             events = self._open(timestamp)
@@ -97,7 +97,7 @@ class EventLoop:
         return event
 
     def schedule_events(self, timestamp: float, events: Iterable[ScheduledEvent]) -> None:
-        """Schedule several events for one time, in the order given; see `schedule_event`."""
+        """Schedule several events for one time, in the given order; see `schedule_event`."""
         pending = self._events.get(timestamp)
         if pending is None:
             pending = self._open(timestamp)
@@ -117,9 +117,9 @@ class EventLoop:
         return False
 
     def take_events(self, until: float = math.inf) -> Iterator[ScheduledEvent]:
-        """Remove the events one by one as they are asked for, and set the clock to the time of each.
+        """Remove events one by one as they are requested, and set the clock to the time of each.
 
-        What is scheduled and cancelled meanwhile counts. It stops before the first event after `until` (s).
+        Events scheduled or canceled in the meantime count. Stops before the first event after `until` (s).
         """
         while True:
             current = self._current
@@ -138,7 +138,7 @@ class EventLoop:
     def take_event(self, until: float = math.inf) -> ScheduledEvent | None:
         """Remove the next event and set the clock to its time; None if there is none up to `until`.
 
-        The same as the first of `take_events`, and faster for one.
+        Same as the first item of `take_events`, and faster for a single event.
         """
         current = self._current
         taken = self._taken
@@ -161,7 +161,7 @@ class EventLoop:
         return Event(self._current_time, *event)
 
     def peek_event(self) -> Event | None:
-        """Return the next event, which stays pending; None if there is none."""
+        """Return the next event without removing it; None if there is none."""
         instant = self.next_time()
         if instant is None:
             return None
@@ -175,7 +175,7 @@ class EventLoop:
         return self._next_instant()
 
     def advance_to(self, timestamp: float) -> None:
-        """Set the clock forward to a time at which no event is.
+        """Set the clock forward to a time without events.
 
         Raise EventLoopException if the time is in the past, or an event is pending before it.
         """
@@ -192,14 +192,14 @@ class EventLoop:
             self._current_time = float(timestamp)
 
     def clear(self) -> None:
-        """Forget every pending event; the clock stays."""
+        """Remove every pending event. The clock does not change."""
         self._events.clear()
         self._instants.clear()
         self._current = None
         self._held = 0
 
     def _open(self, timestamp: float) -> list[ScheduledEvent]:
-        """Return the list of events of an instant that is not found as it is given: a new one, as a rule."""
+        """Return the event list of an instant that has no key in `_events`; usually a new list."""
         try:
             valid = self._current_time <= timestamp < math.inf
             instant = float(timestamp)
@@ -210,14 +210,17 @@ class EventLoop:
                 f"cannot schedule an event at {timestamp!r}: expected a finite number of seconds, "
                 f"at or after the current time, {self._current_time} s"
             )
-        events = self._events.get(instant)  # which a Fraction becomes, and need not be equal to
+        events = self._events.get(instant)  # a Fraction becomes a float, which need not equal it
         if events is None:
             events = self._events[instant] = []
             heappush(self._instants, instant)
         return events
 
     def _turn_to_next(self, until: float) -> list[ScheduledEvent] | None:
-        """Go to the next instant with events, as the current one is used up; None if it is after `until`."""
+        """Advance to the next instant with events.
+
+        None if it is after `until`. The current one is used up.
+        """
         instant = self._next_instant()
         if instant is None or instant > until:
             return None
@@ -227,7 +230,7 @@ class EventLoop:
         return self._current
 
     def _drop_those_that_ran(self, current: list[ScheduledEvent]) -> None:
-        """Keep the list of the current instant short, however much happens in it."""
+        """Limit the length of the list of the current instant."""
         del current[:_RAN_AT_MOST]
         self._held -= _RAN_AT_MOST
         self.crowded_instant = self._current_time
@@ -239,24 +242,24 @@ class EventLoop:
             self._held -= self._taken
 
     def _next_instant(self) -> float | None:
-        """Find the next instant with events, given that the current one is used up."""
+        """Find the next instant with events. The current one is used up."""
         self._close_current()
         instants = self._instants
         while instants:
             if self._events[instants[0]]:
                 return instants[0]
-            # All its events were cancelled.
+            # All its events were canceled.
             del self._events[heappop(instants)]
         return None
 
 
 MOST_AT_ONE_INSTANT = 1_000_000
-"""Timers, or messages, of one node; the engine has the same bound. Floods stay far below: where each of a
-thousand nodes floods a message, each node sends a thousand."""
+"""Limit of timers, or of messages, of one node at one instant. The engine has the same limit. Floods stay far
+below it: if each of a thousand nodes floods one message, each node sends a thousand."""
 
 
 class InstantCount:
-    """Counts what one node does at the present instant."""
+    """Counts the actions of one node at the current instant."""
 
     __slots__ = ("_count", "_instant")
 
@@ -265,7 +268,7 @@ class InstantCount:
         self._count = 0
 
     def exceeds(self, now: float) -> bool:
-        """Count one more at that time, in simulated seconds; whether they are more than can be meant."""
+        """Count one more at `now` (s). Return whether the count exceeds `MOST_AT_ONE_INSTANT`."""
         if now != self._instant:
             self._instant = now
             self._count = 0

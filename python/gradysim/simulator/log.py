@@ -1,4 +1,4 @@
-"""Log lines that say when in the simulation, and to whom, something happened."""
+"""Log lines with simulated time and node."""
 
 import logging
 from collections.abc import Callable, Sequence
@@ -8,19 +8,19 @@ from typing import Any
 
 from gradysim.simulator.node import Node
 
-# Formatters of the simulations that log now, the latest last.
+# Formatters of the simulations that log now, in the order of installation.
 _installed: "list[SimulationFormatter]" = []
 
 
 class _RootLevel:
-    """Keeps the root logger's level low enough for all simulations that log; puts it back when none does."""
+    """Keeps the root logger's level low enough for all simulations that log, and restores it afterwards."""
 
     def __init__(self) -> None:
         self._before = logging.NOTSET
         self._set: int | None = None
 
     def follow(self, levels: Sequence[int]) -> None:
-        """Adapt to the levels of the simulations that log now; a level that somebody else has set stays."""
+        """Adapt to the levels of the simulations that log now. Keep a level that other code has set."""
         root = logging.getLogger()
         if self._set is None:
             self._before = self._set = root.level
@@ -38,16 +38,16 @@ _root_level = _RootLevel()
 class SimulationFormatter(logging.Formatter):
     """Puts level, iteration, simulated time and context in front of each message.
 
-    The text is made when a line is logged; an event that logs nothing costs two assignments.
+    The prefix is made when a line is logged. An event without log lines costs two assignments.
 
-    Several simulations may log at a time, as when they are stepped in turn: a line from the thread in which
-    one of them is running now is that simulation's and is written by no other. Any other line is written
-    once, by the one that was set up last.
+    Several simulations may log at the same time; for example, if they are stepped in turn. A line from the
+    thread that runs a simulation belongs to that simulation, and only its formatter writes it. Other lines
+    are written once, by the formatter that was installed last.
 
     Attributes:
-        thread: Identifier of the thread in which the simulation is running now; None while it is not.
-        iteration: Number of the event under way; None when there is none, and nothing is put in front.
-        context: What the event is about.
+        thread: Identifier of the thread that runs the simulation; None while it does not run.
+        iteration: Number of the current event; None outside of events: then lines get no prefix.
+        context: Description of the event.
         clock: Returns the simulated time in seconds.
     """
 
@@ -62,37 +62,37 @@ class SimulationFormatter(logging.Formatter):
 
     @property
     def prefix(self) -> str:
-        """What is put in front of a message now."""
+        """Prefix of a message logged now."""
         if self.iteration is None:
             return ""
         time = timedelta(seconds=self.clock())
         return f"[it={self.iteration} time={time} | {self.context}] "
 
     def scope_event(self, iteration: int, context: str) -> None:
-        """Say which event is under way."""
+        """Set the current event."""
         self.iteration = iteration
         self.context = context
 
     def clear_iteration(self) -> None:
-        """Say that no event is under way."""
+        """Leave the current event."""
         self.iteration = None
         self.context = ""
 
     def format(self, record: logging.LogRecord) -> str:
-        """Format a line of the log."""
+        """Format a log line."""
         return f"{record.levelname:<8} {self.prefix}{super().format(record)}"
 
     def accepts(self, record: logging.LogRecord) -> bool:
-        """Whether a line of the log is this simulation's, as said above."""
+        """Return whether this formatter writes the log line; see the class."""
         if len(_installed) == 1:
             return True
         running = [formatter for formatter in _installed if formatter.thread == record.thread]
         return self is (running or _installed)[-1]
 
     def install(self, level: int, log_file: Path | None) -> None:
-        """Write what is logged from `level` on to standard error, and to the file if there is one.
+        """Write lines from `level` on to standard error, and to the file if there is one.
 
-        A file that cannot be written is an OSError, and nothing is installed then.
+        Raise OSError if the file cannot be written. Then nothing is installed.
         """
         root = logging.getLogger()
         handlers: list[logging.Handler] = [logging.StreamHandler()]
@@ -130,8 +130,8 @@ def setup_simulation_formatter(
 ) -> SimulationFormatter:
     """Start logging for one simulation, on Python's root logger. `remove` of the formatter ends it.
 
-    It logs from INFO on, with `debug` from DEBUG on, and with `quiet` from WARNING on, also to the end of a
-    file if one is given. `clock` returns the simulated time in seconds.
+    The default level is INFO; with `debug` it is DEBUG, with `quiet` WARNING. Lines are also appended to
+    `log_file`, if given. `clock` returns the simulated time in seconds.
     """
     level = logging.WARNING if quiet else logging.DEBUG if debug else logging.INFO
     formatter = SimulationFormatter(clock)
@@ -140,7 +140,7 @@ def setup_simulation_formatter(
 
 
 class EventContext(str):
-    """What an event is about, for log lines: "Hello 3 handle_timer".
+    """Description of an event for log lines: "Hello 3 handle_timer".
 
     Attributes:
         node_id: Id of the node.
@@ -157,13 +157,13 @@ def context_of(node: Node[Any], callback: str) -> EventContext:
 
 
 def label_node(node: Node[Any]) -> str:
-    """Return a node's name for people: "ProtocolClass id"; "Node id" if it has no protocol."""
+    """Return a node's name for log lines: "ProtocolClass id"; "Node id" if it has no protocol."""
     protocol = getattr(getattr(node, "protocol_encapsulator", None), "protocol", None)
     return f"{'Node' if protocol is None else type(protocol).__name__} {node.id}"
 
 
 def format_table(headers: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Lay out a table as text, each column as wide as its longest cell."""
+    """Lay out a table as text. Each column is as wide as its longest cell."""
     lines = [headers, *rows]
     widths = [max(len(str(line[column])) for line in lines) for column in range(len(headers))]
     texts = [

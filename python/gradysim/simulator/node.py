@@ -1,4 +1,4 @@
-"""A node of a simulation: what the handlers of its parts share."""
+"""A node of a simulation: the state that its handlers share."""
 
 from typing import Any, Generic, TypeVar
 
@@ -8,14 +8,14 @@ T = TypeVar("T")
 
 
 class Node(Generic[T]):
-    """A place in the network, with a protocol; made without arguments and filled in by the simulator.
+    """A node with a position and a protocol. It is made without arguments; the simulator sets the attributes.
 
     Attributes:
-        id: Unique in the network.
-        protocol_encapsulator: Holds its protocol; anything with `handle_packet`, `handle_timer` and
+        id: Unique id in the network.
+        protocol_encapsulator: Holds the protocol; any object with `handle_packet`, `handle_timer` and
             `handle_telemetry`.
-        position: (x, y, z) in metres, now.
-        seed: Seed of the run, from which the node's streams of random numbers come.
+        position: Current (x, y, z) in meters.
+        seed: Seed of the run, from which the node's random streams follow.
     """
 
     id: int

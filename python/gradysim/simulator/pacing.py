@@ -1,4 +1,4 @@
-"""What happens between two events of a simulation: waiting for the wall clock, and running asyncio."""
+"""Actions between two events of a simulation: waiting for the wall clock, and running asyncio."""
 
 import asyncio
 import logging

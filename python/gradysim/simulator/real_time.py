@@ -57,7 +57,7 @@ _contexts = 0
 def full_speed() -> Iterator[None]:
     """Let simulations start at full speed inside the block, for scripts that test or train.
 
-    The state is global, as in the published package: the code that makes a simulation need not know of it.
+    The state is global, as in gradysim 0.8. The code that builds a simulation need not know of it.
     """
     global _contexts
     _contexts += 1
@@ -68,5 +68,5 @@ def full_speed() -> Iterator[None]:
 
 
 def is_full_speed() -> bool:
-    """Return whether this is in such a context."""
+    """Return whether a `full_speed` block is active."""
     return _contexts > 0

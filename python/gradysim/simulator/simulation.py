@@ -1,4 +1,4 @@
-"""Builds a simulation from nodes and handlers: where scripts of prototype mode begin."""
+"""Builds a simulation from nodes and handlers: the entry point of scripts for prototype mode."""
 
 import random
 from collections.abc import Callable
@@ -8,7 +8,7 @@ from gradysim.protocol.checked_values import checked_point, checked_range
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.simulator.configuration import SimulationConfiguration
-from gradysim.simulator.event import EventLoop as EventLoop  # Scripts of 0.8 import it, and Node, from here.
+from gradysim.simulator.event import EventLoop as EventLoop  # 0.8 exports it, and Node, from here
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.registry import label_of
 from gradysim.simulator.node import Node as Node
@@ -26,7 +26,7 @@ class PositionScheme:
         y_range: tuple[float, float] = (-10, 10),
         z_range: tuple[float, float] = (0, 10),
     ) -> Position:
-        """Draw a point of a box (m) uniformly, from Python's global stream of random numbers.
+        """Draw a point of a box (m) uniformly, from Python's global random stream.
 
         Raise ValueError if a range is not (low, high) of finite numbers, low <= high.
         """
@@ -68,7 +68,7 @@ class SimulationBuilder:
         return self
 
     def add_node(self, protocol: type[IProtocol], position: Position) -> int:
-        """Add a node at (x, y, z) in metres with a protocol of this class. Return its id: 0, then 1, ..."""
+        """Add a node at (x, y, z) in meters with a protocol of this class. Return its id: 0, then 1, ..."""
         place = checked_point("the position of a node", position, ValueError)
         self._nodes.append((checked_protocol_class(protocol), place))
         return len(self._nodes) - 1

@@ -111,7 +111,7 @@ class Simulator:
         return None if formatter.iteration is None else getattr(formatter.context, "node_id", None)
 
     def create_node(self, position: Position, protocol: type[IProtocol], identifier: int) -> Node[Any]:
-        """Make a node at (x, y, z) in metres with a protocol of this class. Register it with every handler.
+        """Make a node at (x, y, z) in meters with a protocol of this class. Register it with every handler.
 
         Raise ValueError if another node has this identifier, or the position is not finite.
         """

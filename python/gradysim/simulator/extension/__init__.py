@@ -1,5 +1,5 @@
-"""Equipment of a node beyond its radio and its vehicle; a protocol makes an extension for itself.
+"""Equipment of a node in addition to its radio and its vehicle. A protocol creates its own extensions.
 
-An extension goes round the contract between protocol and environment, so not all of them work in every
-mode; each one says in which it does.
+An extension bypasses the interface between protocol and environment. So not all extensions work in every
+mode; each one names its modes.
 """

@@ -11,12 +11,12 @@ from gradysim.protocol.position import Position
 from gradysim.simulator.extension.extension import Extension, mode_of, provider_of
 from gradysim.simulator.validation import checked_configuration
 
-# Nodes on the very edge of the cone are in the picture, whatever the rounding; radians.
+# Nodes on the edge of the cone are in the picture in spite of rounding; radians.
 _EDGE = 1e-6
 
 
 class DetectedNode(TypedDict):
-    """What is known of something in a picture: its position in metres; the type of all there is is "node"."""
+    """A node in a picture: its position in meters. The type is always "node"."""
 
     position: Position
     type: str
@@ -24,13 +24,13 @@ class DetectedNode(TypedDict):
 
 @dataclass
 class CameraConfiguration:
-    """A cone in which the camera sees. ValueError names a wrong value.
+    """Cone that a camera sees. ValueError names an invalid value.
 
     Attributes:
-        camera_reach: How far it sees; m, >= 0.
+        camera_reach: Largest distance of a visible node; m, >= 0.
         camera_theta: Angle between the axis of the cone and its side; degrees, 0 to 180.
-        facing_elevation: Where the axis points: 0 up, 90 to the horizon, 180 down; degrees.
-        facing_rotation: From x (North) towards y (East); degrees.
+        facing_elevation: Elevation of the axis: 0 up, 90 to the horizon, 180 down; degrees.
+        facing_rotation: Rotation of the axis from x (North) towards y (East); degrees.
     """
 
     camera_reach: float
@@ -46,15 +46,15 @@ class CameraConfiguration:
 
 
 class CameraHardware(Extension):
-    """The camera of one node, in prototype mode (it needs a mobility handler) and in integrated mode."""
+    """Camera of one node, in both modes. Prototype mode needs a mobility handler."""
 
     _warns_elsewhere = False
 
     def __init__(self, protocol: IProtocol, configuration: CameraConfiguration) -> None:
-        """Put a camera on the protocol's node.
+        """Attach a camera to the protocol's node.
 
-        Raise ReferenceError if the protocol has no provider yet, as in its constructor, and RuntimeError if
-        nobody knows where the nodes are: not in this mode, or without a mobility handler.
+        Raise ReferenceError if the protocol has no provider yet, as in its constructor. Raise RuntimeError if
+        the positions of the nodes are unknown: in other environments, or without a mobility handler.
         """
         super().__init__(protocol)
         provider = provider_of(protocol)
@@ -63,28 +63,28 @@ class CameraHardware(Extension):
                 "a camera works in prototype mode and in integrated mode, where the positions of the nodes "
                 f"are known; this node runs in {mode_of(provider)}"
             )
-        provider.node_positions()  # Says now what is missing, not at the first picture.
+        provider.node_positions()  # raises here, not at the first picture
         self._world = provider
         self._node_id = protocol.provider.get_id()
-        # These names, and `_mobility`, are what cameras of one's own that derive from this one look with.
+        # Subclasses written for 0.8 use these names and `_mobility`.
         self._configuration = checked_configuration(configuration, CameraConfiguration)
         self._camera_vector = _axis(configuration)
         self._camera_theta = math.radians(configuration.camera_theta)
 
     @property
     def _mobility(self) -> Any:
-        """The mobility handler, whose `nodes` are all there are. RuntimeError if not in prototype mode."""
+        """The mobility handler with all nodes. RuntimeError outside of prototype mode."""
         if self._provider is None:
             raise RuntimeError(
-                f"{type(self).__name__} looks at the nodes of the mobility handler, which there is in "
-                "prototype mode only; super().take_picture() tells in both modes what is seen"
+                f"{type(self).__name__} uses the nodes of the mobility handler of prototype mode; "
+                "super().take_picture() returns the visible nodes in both modes"
             )
         return self._provider.handlers["mobility"]
 
     def take_picture(self) -> list[DetectedNode]:
-        """Return the other nodes within reach and within the cone, in the order of their making.
+        """Return the other nodes within reach and within the cone, in the order of creation.
 
-        A node at the very place of the camera is always seen.
+        A node at the position of the camera is always visible.
         """
         positions = self._world.node_positions()
         place = positions[self._node_id]
@@ -106,10 +106,10 @@ class CameraHardware(Extension):
         distance = math.hypot(dx, dy, dz)
         if distance > self._configuration.camera_reach:
             return False
-        if distance == 0:  # which has no direction: products of -0 and 0 would tell one
+        if distance == 0:  # it has no direction; products of -0 and 0 would give one
             return True
         ax, ay, az = self._camera_vector
-        # The arcus tangent knows every angle; the arcus cosine fails where its argument rounds to > 1.
+        # atan2 works for every angle; acos fails if its argument rounds to > 1.
         across = math.hypot(ay * dz - az * dy, az * dx - ax * dz, ax * dy - ay * dx)
         along = ax * dx + ay * dy + az * dz
         return math.atan2(across, along) - _EDGE <= self._camera_theta

@@ -1,4 +1,4 @@
-"""The base of extensions."""
+"""Base class of extensions."""
 
 import warnings
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from gradysim.protocol.interface import IProtocol, IProvider
 
 
 class Extension:
-    """Base of extensions, which use the simulator behind a protocol's provider.
+    """Base class of extensions, which use the simulator behind a protocol's provider.
 
     A subclass finds the handlers of prototype mode in `self._provider.handlers`. In other modes `_provider`
     is None, and a warning is issued. An extension that needs only a handler given to the run should use
@@ -17,12 +17,12 @@ class Extension:
     """
 
     _provider: PythonProvider | None
-    """The node's provider in prototype mode; None in any other."""
+    """The node's provider in prototype mode; None in other modes."""
 
     _warns_elsewhere: ClassVar[bool] = True
 
     def __init__(self, protocol: IProtocol) -> None:
-        """Attach to a protocol, from its `initialize` on.
+        """Attach to a protocol, in its `initialize` or later.
 
         Raise ReferenceError if the protocol has no provider yet, as in its constructor.
         """
@@ -48,7 +48,7 @@ def provider_of(protocol: IProtocol) -> IProvider:
 
 
 def handler_of(protocol: IProtocol, label: str) -> Any:
-    """Return the handler with that label of the run that a protocol belongs to; None if there is none.
+    """Return the handler with that label in the run of a protocol; None if there is none.
 
     Both modes have handlers; other environments do not. ReferenceError if the protocol has no provider yet.
     """

@@ -1,4 +1,4 @@
-"""A radio of one's own: a node that sends farther, later or less reliably than the others."""
+"""A radio with its own settings: it sends farther, later or less reliably than the others."""
 
 from dataclasses import replace
 
@@ -10,16 +10,16 @@ from gradysim.simulator.handler.communication import CommunicationHandler
 
 
 class Radio:
-    """Sends messages over a medium with settings of its own; prototype mode only.
+    """Sends messages over a medium with its own settings; prototype mode only.
 
-    It starts with the settings of the communication handler. What others send to the node is not affected.
+    It starts with the settings of the communication handler. Messages to the node are not affected.
     """
 
     def __init__(self, protocol: IProtocol) -> None:
-        """Put one more radio on the protocol's node.
+        """Attach another radio to the protocol's node.
 
-        Raise ReferenceError if the protocol has no provider yet, as in its constructor, TypeError if the node
-        does not run in prototype mode, and RuntimeError if the simulation has no communication handler.
+        Raise ReferenceError if the protocol has no provider yet, as in its constructor. Raise TypeError if
+        the node does not run in prototype mode, and RuntimeError if there is no communication handler.
         """
         provider = provider_of(protocol)
         if not isinstance(provider, PythonProvider):
@@ -40,7 +40,7 @@ class Radio:
         delay: float | None = None,
         failure_rate: float | None = None,
     ) -> None:
-        """Change settings; None keeps one as it is.
+        """Change settings; None keeps a setting.
 
         Args:
             transmission_range: m, >= 0.
@@ -48,7 +48,7 @@ class Radio:
             failure_rate: Probability that a receiver in range misses the message; 0 to 1.
 
         Raises:
-            ValueError: A value is outside its range; nothing is changed then.
+            ValueError: A value is outside its range. Then nothing changes.
         """
         given = {"transmission_range": transmission_range, "delay": delay, "failure_rate": failure_rate}
         self._medium = replace(
@@ -56,5 +56,5 @@ class Radio:
         )
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Send a message as `IProvider.send_communication_command` does, over this radio's medium."""
+        """Send a message over the medium of this radio, like `IProvider.send_communication_command`."""
         self._handler.handle_command(command, self._node, self._medium)

@@ -1,4 +1,4 @@
-"""Lets a protocol change what the viewers of the simulation show."""
+"""Commands with which a protocol changes what the viewers of the simulation show."""
 
 import math
 from typing import Any, ClassVar
@@ -12,26 +12,29 @@ Color = tuple[float, float, float]
 
 
 class VisualizationController(Extension):
-    """Gives commands to the viewers, whichever node's protocol it belongs to.
+    """Sends commands to the viewers. Any node's protocol can create one.
 
-    Without viewers to show anything (no visualization handler, or a mode without one) the commands do
-    nothing; wrong arguments are errors all the same.
+    The commands have no effect without a visualization handler or in a mode without viewers. Invalid
+    arguments are always errors.
     """
 
     _warns_elsewhere: ClassVar[bool] = False
 
     def __init__(self, protocol: IProtocol) -> None:
-        """Take the protocol of a node; ReferenceError if it has no provider yet, as in its constructor."""
+        """Attach to the protocol of a node.
+
+        ReferenceError if it has no provider yet, as in its constructor.
+        """
         super().__init__(protocol)
         self._handler = handler_of(protocol, "visualization")
 
     def paint_node(self, node_id: int, color: Color) -> None:
-        """Give a node a color; each part from 0 to 255."""
+        """Set the color of a node; each component is from 0 to 255."""
         self._check_node(node_id)
         self._send("paint_node", node_id=node_id, color=_checked_color(color, 255))
 
     def paint_environment(self, color: Color) -> None:
-        """Give the background a color; each part is >= 0, and 1 is full brightness."""
+        """Set the color of the background; each component is >= 0, and 1 is full brightness."""
         self._send("paint_environment", color=_checked_color(color, math.inf))
 
     def resize_nodes(self, size: float) -> None:
@@ -41,7 +44,7 @@ class VisualizationController(Extension):
         self._send("resize_nodes", size=size)
 
     def show_node_id(self, node_id: int, show: bool) -> None:
-        """Show or hide the name of a node."""
+        """Show or hide the label of a node."""
         self._check_node(node_id)
         if not isinstance(show, bool):
             raise TypeError(f"show must be True or False, got {show!r}")
@@ -63,5 +66,5 @@ def _checked_color(color: Color, greatest: float) -> Color:
     parts = tuple(color) if isinstance(color, tuple | list) else ()
     if len(parts) != 3 or not all(is_in_range(part, 0, greatest) for part in parts):
         limits = "of 0 to 255" if math.isfinite(greatest) else ">= 0"
-        raise ValueError(f"a colour must be (red, green, blue), three numbers {limits}, got {color!r}")
+        raise ValueError(f"a color must be (red, green, blue), three numbers {limits}, got {color!r}")
     return (parts[0], parts[1], parts[2])

@@ -1,1 +1,1 @@
-"""The parts of a simulated world: one handler for the network, one for the timers, one for motion."""
+"""Handlers: one for communication, one for timers, one for mobility."""

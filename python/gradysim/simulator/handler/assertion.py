@@ -1,6 +1,6 @@
-"""Checks of a simulation while it runs: what must always be true, and what must be so at least once.
+"""Assertions evaluated during a run: conditions that hold always, or at least once.
 
-A decorator turns a predicate into a case, and an `AssertionHandler` evaluates its cases after each event::
+A decorator turns a predicate into a test case. An `AssertionHandler` evaluates its cases after each event::
 
     @assert_always_true_for_protocol(Drone, "below the ceiling")
     def below_the_ceiling(node: Node[Drone]) -> bool:
@@ -29,11 +29,11 @@ _SimulationPredicate = Callable[[list[Node[Any]]], bool]
 
 
 class FailedAssertionException(Exception):  # noqa: N818 (the published name)
-    """Something that must be true was not; the text says what, for which node and when."""
+    """An assertion failed. The message names the assertion, the node and the time."""
 
 
 class SimulationTestCase(ABC):  # noqa: B024 (both methods are optional)
-    """A check of one simulation; a new instance is made for each.
+    """An assertion about one simulation; each simulation gets a new instance.
 
     Attributes:
         asked: Class of the protocols whose nodes are checked; None for all nodes.
@@ -42,26 +42,26 @@ class SimulationTestCase(ABC):  # noqa: B024 (both methods are optional)
     asked: ClassVar[type[IProtocol] | None] = None
 
     def test_iteration(self, nodes: list[Node[Any]], iteration: int, timestamp: float) -> None:
-        """Called after event number `iteration`, from 0 on, at `timestamp` (s), with all nodes in order.
+        """Called after event number `iteration`, from 0 on, at `timestamp` (s), with all nodes by id.
 
         Raise FailedAssertionException if the check failed.
         """
         return
 
     def finalize(self) -> None:
-        """Called after the last event, and after the protocols' `finish`; raises as `test_iteration`."""
+        """Called after the last event and the protocols' `finish`; raises like `test_iteration`."""
         return
 
 
 def assert_always_true_for_protocol(
     protocol_type: type[_P], name: str, description: str = ""
 ) -> Callable[[_NodePredicate[_P]], type[SimulationTestCase]]:
-    """Demand that the predicate is true of every node of a protocol after every event.
+    """Assert that the predicate is true of every node of a protocol after every event.
 
     Args:
         protocol_type: Nodes with a protocol of this class, or a subclass, are checked.
-        name: Of the check, for the message of its failure.
-        description: More words for that message.
+        name: Name of the assertion, for the message of its failure.
+        description: Further text for that message.
     """
     return _decorator(_Always, name, description, _checked_class(protocol_type))
 
@@ -69,10 +69,10 @@ def assert_always_true_for_protocol(
 def assert_eventually_true_for_protocol(
     protocol_type: type[_P], name: str, description: str = ""
 ) -> Callable[[_NodePredicate[_P]], type[SimulationTestCase]]:
-    """Demand that the predicate is true of each node of a protocol after at least one event.
+    """Assert that the predicate is true of each node of a protocol after at least one event.
 
-    The arguments are those of `assert_always_true_for_protocol`. Without such nodes, or any event, there
-    is nothing to fail.
+    The arguments are those of `assert_always_true_for_protocol`. The assertion holds if there are no such
+    nodes, or no events.
     """
     return _decorator(_Eventually, name, description, _checked_class(protocol_type))
 
@@ -80,7 +80,7 @@ def assert_eventually_true_for_protocol(
 def assert_always_true_for_simulation(
     name: str, description: str = ""
 ) -> Callable[[_SimulationPredicate], type[SimulationTestCase]]:
-    """Demand that the predicate is true of the list of all nodes after every event.
+    """Assert that the predicate is true of the list of all nodes after every event.
 
     The arguments are those of `assert_always_true_for_protocol`.
     """
@@ -90,9 +90,9 @@ def assert_always_true_for_simulation(
 def assert_eventually_true_for_simulation(
     name: str, description: str = ""
 ) -> Callable[[_SimulationPredicate], type[SimulationTestCase]]:
-    """Demand that the predicate is true of the list of all nodes after at least one event.
+    """Assert that the predicate is true of the list of all nodes after at least one event.
 
-    The arguments are those of `assert_always_true_for_protocol`. Without any event it was never true.
+    The arguments are those of `assert_always_true_for_protocol`. Without events the assertion fails.
     """
     return _decorator(_Eventually, name, description)
 
@@ -118,7 +118,7 @@ class _PredicateCase(SimulationTestCase):
     title: str
 
     def _subjects(self, nodes: list[Node[Any]]) -> list[Any]:
-        """What the predicate is called with: each node of the protocol, or the list of all nodes."""
+        """Arguments of the predicate: each node of the protocol, or the list of all nodes."""
         if self.asked is None:
             return [nodes]
         return [node for node in nodes if isinstance(node.protocol_encapsulator.protocol, self.asked)]
@@ -149,12 +149,15 @@ class _Eventually(_PredicateCase):
 
 
 class AssertionHandler(INodeHandler):
-    """Evaluates cases after each event. The first that fails ends the simulation with its exception."""
+    """Evaluates assertions after each event.
+
+    The first one that fails ends the simulation with its exception.
+    """
 
     def __init__(self, assertions: Sequence[type[SimulationTestCase]]) -> None:
-        """Take the cases, which are classes.
+        """Take the assertions, which are classes.
 
-        TypeError if one is something else, such as a predicate without its decorator, or they are no list.
+        Raise TypeError if they are not a list of such classes; for example, if a decorator is missing.
         """
         if not isinstance(assertions, Iterable):
             raise TypeError(f"expected a list of cases, got {assertions!r}")
@@ -179,13 +182,14 @@ class AssertionHandler(INodeHandler):
         self._cases = [case() for case in self._assertions]
 
     def register_node(self, node: Node[Any]) -> None:
-        """Take one more node to check."""
+        """Add a node to check."""
         self._nodes.append(node)
 
     def initialize(self) -> None:
-        """See that the cases find their nodes.
+        """Check that the assertions find their nodes.
 
-        TypeError if the file of a node's protocol was loaded twice, and a case asks for the other class.
+        Raise TypeError if the file of a node's protocol was loaded twice, and an assertion names the other
+        class.
         """
         for case in self._cases:
             if case.asked is not None:
@@ -193,9 +197,9 @@ class AssertionHandler(INodeHandler):
                     _check_not_loaded_twice(node, case.asked)
 
     def after_simulation_step(self, iteration: int, timestamp: float) -> None:
-        """Evaluate all cases. FailedAssertionException if one fails.
+        """Evaluate all assertions. FailedAssertionException if one fails.
 
-        What a predicate raises goes through, with a note.
+        Exceptions of a predicate get a note.
         """
         name = ""
         try:
@@ -209,25 +213,25 @@ class AssertionHandler(INodeHandler):
             raise
 
     def stop_judging(self) -> None:
-        """Drop the cases, since the simulation ends early."""
+        """Drop the assertions, since the simulation ends early."""
         self._cases = []
 
     def finalize(self) -> None:
-        """Give each case its last word. FailedAssertionException if one fails."""
+        """Finalize each assertion. FailedAssertionException if one fails."""
         cases, self._cases = self._cases, []
         for case in cases:
             case.finalize()
 
 
 def _checked_class(protocol_type: type[_P]) -> type[_P]:
-    """The name of a class, or an instance, would be found out after the first event only."""
+    """Return the class. Raise TypeError here, since an instance or a name would fail only after an event."""
     if not isinstance(protocol_type, type):
         raise TypeError(f"expected a protocol's class, got {protocol_type!r}")
     return protocol_type
 
 
 def _check_not_loaded_twice(node: Node[Any], asked: type[IProtocol]) -> None:
-    """The same source may be two classes, and what is asked of one would silently not be of the other."""
+    """Two classes may come from the same source. An assertion about one would silently skip the other."""
     protocol = type(getattr(node.protocol_encapsulator, "protocol", None))
     if issubclass(protocol, asked):
         return

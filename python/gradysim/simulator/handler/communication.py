@@ -155,7 +155,7 @@ class CommunicationSource:
         _logger.debug("%s sends to %s: %s", self.node.id, endpoint.node.id, message)
 
     def count_at(self, now: float, medium: CommunicationMedium) -> None:
-        """Count a message without delay. CommunicationException if they are too many at one instant."""
+        """Count a message without delay. CommunicationException if there are too many at one instant."""
         if self._without_delay.exceeds(now):
             raise CommunicationException(
                 f"node {self.node.id} has sent {MOST_AT_ONE_INSTANT} messages at {readable_number(now)} s, "
@@ -178,8 +178,8 @@ class CommunicationDestination:
 
 
 MessageObserver: TypeAlias = Callable[[int, CommunicationCommand, list[int], list[int], int, float], None]
-"""Is told the id of the sender, its command, the ids of the receivers, the ids of those that the failure rate
-makes miss the message, the number of those out of range, and the delay in s."""
+"""Takes the id of the sender, its command, the ids of the receivers, the ids of those whose reception fails
+by the failure rate, the number of nodes out of range, and the delay in s."""
 
 
 class CommunicationHandler(INodeHandler):
@@ -187,7 +187,7 @@ class CommunicationHandler(INodeHandler):
 
     Attributes:
         default_medium: Medium of commands without a medium of their own.
-        on_message: Is told of each message, for a replay; None for nobody.
+        on_message: Called for each message, for a replay; None to disable it.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""What a simulation expects of each of its handlers."""
+"""Interface of handlers."""
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING, Any
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
 
 class INodeHandler(ABC):
-    """One aspect of the world, for all nodes.
+    """One aspect of the simulated world, for all nodes.
 
-    A simulation calls `inject`, then `register_node` for each node, `initialize` once, and after its last
-    event `finalize` once.
+    A simulation calls `inject`, then `register_node` for each node, and `initialize` once. It calls
+    `finalize` once, after the last event.
 
     Attributes:
-        held_up_s: Wall seconds for which the handler held the simulation up on purpose, as a pause does,
-            since the last `initialize`; a simulation in real time does not try to catch up on them.
+        held_up_s: Wall seconds for which the handler has paused the simulation since the last `initialize`. A
+            simulation in real time does not catch up on them.
     """
 
     held_up_s: float = 0.0
@@ -26,15 +26,15 @@ class INodeHandler(ABC):
     @staticmethod
     @abstractmethod
     def get_label() -> str:
-        """Return the name under which others find the handler; a simulation has one handler of each name."""
+        """Return the label of the handler, which is unique in a simulation."""
 
     @abstractmethod
     def inject(self, event_loop: EventLoop) -> None:
-        """Take the event loop of a new simulation; nodes of an earlier one are forgotten."""
+        """Take the event loop of a new simulation, and forget the nodes of an earlier one."""
 
     @abstractmethod
     def register_node(self, node: Node[Any]) -> None:
-        """Take a node of the simulation."""
+        """Add a node of the simulation."""
 
     def initialize(self) -> None:
         """Called before the first event, and before the protocols' `initialize`."""
@@ -50,20 +50,20 @@ class INodeHandler(ABC):
 
 
 class IAsyncNodeHandler(INodeHandler):
-    """A handler that waits for the world outside with asyncio.
+    """A handler that waits with asyncio for the outside world.
 
-    The simulation owns the asyncio loop. It runs the loop before each event, in real time until that event is
-    due, otherwise for one turn; it does not run while an event or a method of a handler does, so these can
-    use `asyncio_loop.run_until_complete`, or leave a task with `asyncio_loop.create_task`. A task may
-    schedule events; an exception that nobody takes from its task ends the simulation. After the last
-    `finalize` the remaining tasks are cancelled and the loop is closed.
+    The simulation owns the asyncio loop and runs it before each event: in real time until the event is due,
+    otherwise for one turn. The loop does not run during an event or a method of a handler. So these can call
+    `asyncio_loop.run_until_complete`, or start a task with `asyncio_loop.create_task`. A task may schedule
+    events. An unhandled exception of a task ends the simulation. After the last `finalize` the remaining
+    tasks are canceled and the loop is closed.
     """
 
     def inject_async(self, asyncio_loop: "asyncio.AbstractEventLoop", real_time: float) -> None:
         """Take the asyncio loop of a new simulation; called after `inject`.
 
         Args:
-            asyncio_loop: Does not run yet.
-            real_time: Simulated seconds for each wall second; 0 if the simulation runs at full speed.
+            asyncio_loop: The loop, which is not running yet.
+            real_time: Simulated seconds per wall second; 0 if the simulation runs at full speed.
         """
         return

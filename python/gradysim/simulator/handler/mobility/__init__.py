@@ -1,4 +1,4 @@
-"""Motion of the nodes. The names without a kind of vehicle, as `MobilityHandler`, are the massless ones."""
+"""Mobility handlers. Names without a kind of vehicle, such as `MobilityHandler`, are the massless ones."""
 
 from gradysim.simulator.handler.mobility.dynamic_velocity import (
     DynamicVelocityMobilityConfiguration,

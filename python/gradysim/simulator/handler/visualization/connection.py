@@ -1,4 +1,4 @@
-"""The connection to a viewer; apart, as only a server imports the package `websockets`."""
+"""Connection to a viewer. In a separate file, since only a server imports the package `websockets`."""
 
 import os
 from collections.abc import Awaitable
@@ -10,8 +10,8 @@ _PAYLOAD_BYTES = 4
 
 
 class ViewerConnection(ServerConnection):
-    """Leaves Python's `random` to the run: the library draws from it whenever it looks for a lost viewer."""
+    """Does not draw from Python's `random`, which belongs to the run; the library draws for each ping."""
 
     async def ping(self, data: Any = None) -> Awaitable[float]:
-        """Send a ping, by itself with a payload of the operating system."""
+        """Send a ping. The default payload comes from the operating system."""
         return await super().ping(os.urandom(_PAYLOAD_BYTES) if data is None else data)

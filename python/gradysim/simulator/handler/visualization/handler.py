@@ -1,4 +1,4 @@
-"""The handler that shows a simulation while it runs."""
+"""Handler that shows a simulation while it runs."""
 
 import logging
 import time
@@ -22,15 +22,15 @@ _logger = logging.getLogger(__name__)
 
 
 class VisualizationHandler(INodeHandler):
-    """Shows the simulation in web browsers while it runs; viewers may pause it.
+    """Shows a running simulation in web browsers. Viewers may pause it.
 
-    The page is at http://HOST:PORT/. The public viewer of gradysim can connect, too. The handler does not
-    keep a simulation going in which nothing else is left to happen.
+    The page is at http://HOST:PORT/. The public viewer of gradysim can connect, too. The simulation ends when
+    only the events of this handler are left.
 
     Attributes:
-        command_queue: Commands to the viewers, as VisualizationController makes them; they wait here until
-            there is a viewer.
-        nodes: What is shown, by id.
+        command_queue: Commands to the viewers, made by VisualizationController. They wait here for the first
+            viewer.
+        nodes: Shown nodes, by id.
     """
 
     def __init__(self, configuration: VisualizationConfiguration | None = None) -> None:
@@ -50,11 +50,11 @@ class VisualizationHandler(INodeHandler):
 
     @property
     def port(self) -> int | None:
-        """Where viewers can connect now; None while no simulation runs."""
+        """Port for viewers; None while no simulation runs."""
         return None if self._server is None else self._server.port
 
     def inject(self, event_loop: EventLoop) -> None:
-        """Take the event loop of a new simulation; what was left to show of an earlier one is forgotten."""
+        """Take the event loop of a new simulation, and forget the state of an earlier one."""
         self._stop()
         if self._event_loop is not None:
             self.command_queue = CommandQueue()
@@ -62,7 +62,7 @@ class VisualizationHandler(INodeHandler):
         self.nodes = {}
 
     def register_node(self, node: Node[Any]) -> None:
-        """Show one more node."""
+        """Add a node to show."""
         self.nodes[node.id] = node
 
     def initialize(self) -> None:
@@ -74,13 +74,13 @@ class VisualizationHandler(INodeHandler):
         try:
             server.start()
         except AddressInUse as error:
-            # As a rule another simulation is watched there: several side by side must not end each other.
+            # Usually another simulation uses the port. Several at once must not end each other.
             _logger.warning(
                 "%s; the simulation goes on without viewers: expected a `port` that no other simulation has",
                 error,
             )
             return
-        # A simulation that is dropped before its end leaves no thread behind.
+        # A simulation that is dropped before its end must not leave a thread behind.
         self._guard = weakref.finalize(self, server.stop)
         self._server = server
         self._publish(server)
@@ -90,7 +90,7 @@ class VisualizationHandler(INodeHandler):
             webbrowser.open(server.address)
 
     def finalize(self) -> None:
-        """Show the end, and stop to serve."""
+        """Show the final state and stop the server."""
         if self._server is not None:
             self._publish(self._server)
         self._stop()

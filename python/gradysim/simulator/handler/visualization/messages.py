@@ -55,7 +55,7 @@ class VisualizationConfiguration:
 
 
 Command = dict[str, Any]
-"""{"command": name, "payload": {...}}, of plain values; colours are tuples."""
+"""{"command": name, "payload": {...}}, of plain values; colors are tuples."""
 
 # Longer queues drop commands that later ones replace.
 _LENGTH_LIMIT = 10_000

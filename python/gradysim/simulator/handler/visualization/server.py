@@ -1,7 +1,7 @@
-"""Serves the viewers of one simulation, in a thread of its own, which ends with the simulation.
+"""Server for the viewers of one simulation, in a thread that ends with the simulation.
 
-The simulation gives it texts (`publish`) and a queue of commands; it sends them every `update_rate`. What
-the viewers want in return is whether the simulation is paused.
+The simulation passes snapshots (`publish`) and a queue of commands. The server sends them every
+`update_rate`. In return the viewers can pause the simulation.
 
     GET /           the page of gradysim, which connects to this server
     a WebSocket     the messages of `messages.py`, for scripts, that page and the public viewer
@@ -42,7 +42,7 @@ _logger = logging.getLogger(__name__)
 PUBLIC_VIEWER = "https://project-gradys.github.io"
 """Origin of the public viewer, which connects to port 5678 on localhost."""
 
-# Time limits in seconds of wall time: for the last messages of a simulation, and for any other one.
+# Time limits in seconds of wall time: for the last messages of a simulation, and for other messages.
 _LAST_WORDS_S = 1.0
 _MESSAGE_S = 20.0
 
@@ -52,7 +52,7 @@ class VisualizationException(Exception):  # noqa: N818 (named as the other handl
 
 
 class AddressInUse(VisualizationException):
-    """Something listens on the address already."""
+    """Another program listens on the address."""
 
 
 class _Viewer:
@@ -67,7 +67,7 @@ class _Viewer:
         self.news = asyncio.Event()
 
     async def write(self, greeting: str) -> None:
-        """Send what there is to send, until `leaving`. A viewer that does not read is disconnected."""
+        """Send pending messages until `leaving`. A viewer that does not read is disconnected."""
         try:
             await self._send(greeting)
             while True:
@@ -93,20 +93,23 @@ class VisualizationServer:
     """A WebSocket server for any number of viewers.
 
     Attributes:
-        port: Where it listens, from `start` on.
+        port: Port of the server, from `start` on.
     """
 
     def __init__(
         self, configuration: VisualizationConfiguration, greeting: str, commands: CommandQueue
     ) -> None:
-        """Prepare; `greeting` is the first message to each viewer, `commands` are sent to those there are."""
+        """Prepare the server.
+
+        `greeting` is the first message to each viewer; `commands` go to all viewers.
+        """
         self._configuration = configuration
         self._greeting = greeting
         self._commands = commands
         self._last_commands: dict[tuple[str, int | None], str] = {}
         self._viewers: dict[_Viewer, asyncio.Task[None]] = {}
         self._pausing: _Viewer | None = None
-        # The newest one, and the one that the viewers have.
+        # The newest snapshot, and the one that the viewers have.
         self._snapshot: str | None = None
         self._sent: str | None = None
         self._wanted = threading.Event()
@@ -126,14 +129,14 @@ class VisualizationServer:
 
     @property
     def wants_snapshot(self) -> bool:
-        """Whether the last snapshot was taken by the server, so that it is time for a new one."""
+        """Whether the server has taken the last snapshot and needs a new one."""
         return self._wanted.is_set()
 
     def start(self) -> None:
-        """Listen; returns when viewers can connect.
+        """Start to listen. Return when viewers can connect.
 
         Raises:
-            AddressInUse: Something listens there already.
+            AddressInUse: Another program listens there.
             VisualizationException: The address cannot be used.
         """
         self._thread = threading.Thread(target=self._run, name="gradysim visualization", daemon=True)
@@ -147,13 +150,13 @@ class VisualizationServer:
             raise kind(f"cannot listen for viewers on {host!r} port {port}: {error}") from error
 
     def publish(self, snapshot: str) -> None:
-        """Have this text sent with the next update, if no newer one comes before."""
+        """Send this snapshot with the next update, unless a newer one replaces it."""
         self._snapshot = snapshot
         self._wanted.clear()
 
     def wait_while_paused(self) -> None:
-        """Return when no viewer has paused the simulation; at once, as a rule."""
-        while not self._running.wait(timeout=0.2):  # With a timeout Ctrl-C gets through on every system.
+        """Return when no viewer has paused the simulation; usually at once."""
+        while not self._running.wait(timeout=0.2):  # without a timeout, Ctrl-C is blocked on some systems
             pass
 
     @property
@@ -162,15 +165,15 @@ class VisualizationServer:
         return not self._running.is_set()
 
     def stop(self) -> None:
-        """Send what is left, close every connection in order and end the thread; no-op if it has ended."""
+        """Send pending messages, close every connection and end the thread; no-op if it has ended."""
         thread, loop, stop = self._thread, self._loop, self._stop
         if thread is None:
             return
         if loop is not None and stop is not None:
-            with contextlib.suppress(RuntimeError):  # The loop is closed: the thread is at its end already.
+            with contextlib.suppress(RuntimeError):  # the loop is closed: the thread is ending
                 loop.call_soon_threadsafe(stop.set)
         if thread is threading.current_thread():
-            return  # The garbage collector may find a dropped simulation in any thread.
+            return  # the garbage collector may run in any thread
         thread.join()
         self._thread = None
 
@@ -214,7 +217,7 @@ class VisualizationServer:
             await self._take_leave()
 
     async def _take_leave(self) -> None:
-        """Let the viewers have the last messages."""
+        """Give the viewers time for the last messages."""
         for viewer in self._viewers:
             viewer.leaving = True
             viewer.news.set()
@@ -232,7 +235,7 @@ class VisualizationServer:
         return answer(connection, request, allowed, snapshot_page)
 
     def _update(self) -> None:
-        """Hand the viewers what is new; without any, commands wait for the first one."""
+        """Send new data to the viewers. Without viewers, commands wait for the first one."""
         snapshot = self._snapshot
         self._wanted.set()
         if not self._viewers:
@@ -258,7 +261,7 @@ class VisualizationServer:
     async def _meet(self, connection: "ServerConnection") -> None:
         """Serve one viewer until it leaves."""
         viewer = _Viewer(connection)
-        viewer.snapshot = self._sent  # A simulation that is paused has no newer one.
+        viewer.snapshot = self._sent  # a paused simulation has no newer one
         viewer.commands.extend(self._last_commands.values())
         writer = asyncio.create_task(viewer.write(self._greeting))
         self._viewers[viewer] = writer

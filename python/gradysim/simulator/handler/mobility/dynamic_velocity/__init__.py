@@ -1,4 +1,4 @@
-"""Vehicles that are steered by velocity, with limited speed and acceleration."""
+"""Vehicles steered by velocity, with limited speed and acceleration."""
 
 from gradysim.simulator.handler.mobility.dynamic_velocity.config import (
     DynamicVelocityMobilityConfiguration,

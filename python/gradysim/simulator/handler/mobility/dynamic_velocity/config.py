@@ -1,4 +1,4 @@
-"""Configuration and exception of vehicles that are steered by velocity."""
+"""Configuration and exception of vehicles steered by velocity."""
 
 from dataclasses import dataclass
 
@@ -6,21 +6,21 @@ from gradysim.protocol.checked_values import checked_number
 
 
 class DynamicVelocityMobilityException(Exception):  # noqa: N818 (named as the other handlers' exceptions)
-    """A command that a vehicle cannot carry out, or a node that is not known here."""
+    """A command that a vehicle cannot carry out, or a node that is not registered."""
 
 
 @dataclass
 class DynamicVelocityMobilityConfiguration:
-    """Limits of all vehicles; in the plane and along the vertical apart. ValueError names a wrong one.
+    """Limits of all vehicles, separate for the plane and the vertical. ValueError names an invalid value.
 
     Attributes:
         update_rate: Time between two updates of all positions; s, > 0.
-        max_speed_xy: Greatest speed in the plane; m/s, >= 0, may be infinite.
-        max_speed_z: Greatest speed up or down; m/s, >= 0, may be infinite.
-        max_acc_xy: Greatest acceleration in the plane; m/s², >= 0, may be infinite.
-        max_acc_z: Greatest acceleration up or down; m/s², >= 0, may be infinite.
-        tau_xy: Time constant with which the velocity in the plane follows the one asked for; s, > 0. None: it
-            follows as fast as the acceleration allows.
+        max_speed_xy: Largest speed in the plane; m/s, >= 0, may be infinite.
+        max_speed_z: Largest speed up or down; m/s, >= 0, may be infinite.
+        max_acc_xy: Largest acceleration in the plane; m/s², >= 0, may be infinite.
+        max_acc_z: Largest acceleration up or down; m/s², >= 0, may be infinite.
+        tau_xy: Time constant with which the velocity in the plane follows the desired one; s, > 0. None: only
+            the acceleration limits it.
         tau_z: The same along the vertical.
         send_telemetry: Whether nodes get telemetry.
         telemetry_decimation: Number of updates per telemetry; >= 1.

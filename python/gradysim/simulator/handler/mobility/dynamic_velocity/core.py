@@ -1,7 +1,7 @@
-"""The motion of a vehicle that is steered by velocity: pure functions of one time step.
+"""Motion of a vehicle steered by velocity: pure functions of one time step.
 
-In the plane a limit holds for the length of the vector (x, y), so that it keeps its direction; along the
-vertical it holds for the magnitude of z. Velocities are (vx, vy, vz) in m/s, positions (x, y, z) in metres.
+In the plane a limit applies to the length of the vector (x, y), which keeps its direction. Along the vertical
+it applies to |z|. Velocities are (vx, vy, vz) in m/s, positions (x, y, z) in meters.
 """
 
 import math
@@ -13,7 +13,7 @@ from gradysim.simulator.handler.mobility.dynamic_velocity.telemetry import Veloc
 def apply_acceleration_limits(
     v_current: Velocity, v_desired: Velocity, dt: float, max_acc_xy: float, max_acc_z: float
 ) -> Velocity:
-    """Bring a velocity as near to the desired one as the acceleration (m/s², >= 0) allows in `dt` (s, >= 0).
+    """Move a velocity towards the desired one, within the acceleration (m/s², >= 0), in `dt` (s, >= 0).
 
     Raise ValueError if `dt` or a limit is negative or not a number.
     """
@@ -36,9 +36,9 @@ def apply_velocity_tracking_first_order(
 ) -> Velocity:
     """Let a velocity follow the desired one like a first-order system: a = (v_desired - v_current) / tau.
 
-    The acceleration (m/s², >= 0) is limited too. A step of `dt` (s, > 0) longer than tau (s, > 0) ends at the
-    desired velocity, not beyond it. Without a tau (None), only the acceleration limits the change. ValueError
-    if a number is outside its range.
+    The acceleration (m/s², >= 0) is limited, too. A step of `dt` (s, > 0) that is longer than tau (s, > 0)
+    ends at the desired velocity, not beyond it. Without a tau (None), only the acceleration limits the
+    change. ValueError if a number is outside its range.
     """
     if not dt > 0:
         raise ValueError(f"dt must be > 0 s, got {dt!r}")
@@ -52,7 +52,7 @@ def apply_velocity_tracking_first_order(
 
 
 def apply_velocity_limits(v: Velocity, max_speed_xy: float, max_speed_z: float) -> Velocity:
-    """Cut a velocity down to the greatest speeds (m/s, >= 0). ValueError if a limit is not such a number."""
+    """Limit a velocity to the largest speeds (m/s, >= 0). ValueError if a limit is out of range."""
     _check_limit("max_speed_xy", max_speed_xy)
     _check_limit("max_speed_z", max_speed_z)
     return _limited(v, max_speed_xy, max_speed_z)
@@ -78,12 +78,12 @@ def _limited(vector: Velocity, limit_xy: float, limit_z: float) -> Velocity:
 
 
 def _times(limit: float, dt: float) -> float:
-    """The product; 0 for a step of length 0, even without a limit."""
+    """Return the product; 0 for a step of length 0, also if the limit is infinite."""
     return 0.0 if dt == 0 else limit * dt
 
 
 def _share(name: str, tau: float | None, dt: float) -> float:
-    """How much of the difference to the desired velocity one step makes up for."""
+    """Return the part of the difference to the desired velocity that one step covers."""
     if tau is None:
         return 1.0
     if not tau > 0:

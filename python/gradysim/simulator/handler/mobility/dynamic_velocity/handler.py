@@ -1,4 +1,4 @@
-"""Vehicles that are steered by velocity, with limited speed and acceleration."""
+"""Handler of vehicles steered by velocity, with limited speed and acceleration."""
 
 from collections.abc import Callable
 from typing import Any
@@ -27,13 +27,13 @@ _AT_REST: Velocity = (0.0, 0.0, 0.0)
 class DynamicVelocityMobilityHandler(INodeHandler):
     """Moves the nodes at each update: acceleration, then speed limits, then position.
 
-    A velocity holds until another one is asked for; before the first command a node is at rest. Telemetry is
-    a `DynamicVelocityTelemetry`, in an event of its own for each node, after the update.
+    A velocity holds until the next command; before the first command a node is at rest. Telemetry is a
+    `DynamicVelocityTelemetry`. It follows the update in a separate event for each node.
 
     Attributes:
         nodes: Registered nodes by id.
-        velocities: (vx, vy, vz) in m/s by id, now.
-        desired_velocities: What was asked for, by id.
+        velocities: Current (vx, vy, vz) in m/s by id.
+        desired_velocities: Commanded velocities by id.
     """
 
     def __init__(self, config: DynamicVelocityMobilityConfiguration) -> None:
@@ -64,22 +64,22 @@ class DynamicVelocityMobilityHandler(INodeHandler):
         self._updates = 0
 
     def register_node(self, node: Node[Any]) -> None:
-        """Let the node move."""
+        """Add a node to move."""
         self.nodes[node.id] = node
         self.velocities[node.id] = self.desired_velocities[node.id] = _AT_REST
         self._deliveries.append((self._delivery(node), context_of(node, "handle_telemetry")))
 
     def initialize(self) -> None:
-        """Begin to move, if there are nodes; the first update comes one `update_rate` from now."""
+        """Start to move, if there are nodes; the first update comes one `update_rate` from now."""
         if self.nodes and self._event_loop is not None:
             self._times = UpdateTimes(self._config.update_rate, self._event_loop.current_time)
             self._schedule_update(self._event_loop)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Take the velocity that a vehicle should fly; it shows from the next update on.
+        """Set the velocity that a vehicle should fly, from the next update on.
 
-        DynamicVelocityMobilityException if the node is not registered, or the command is not SET_SPEED with
-        three finite numbers, as of SetVelocityMobilityCommand.
+        Raise DynamicVelocityMobilityException if the node is not registered, or the command is not a
+        SET_SPEED with three finite numbers, as in SetVelocityMobilityCommand.
         """
         if node.id not in self.nodes:
             raise DynamicVelocityMobilityException(

@@ -1,4 +1,4 @@
-"""What a vehicle that is steered by velocity reports."""
+"""Telemetry of a vehicle steered by velocity."""
 
 from dataclasses import dataclass
 
@@ -10,10 +10,10 @@ Velocity = tuple[float, float, float]
 
 @dataclass
 class DynamicVelocityTelemetry(Telemetry):
-    """State of the vehicle now.
+    """Current state of the vehicle.
 
     Attributes:
-        current_velocity: (vx, vy, vz) in m/s; what it flies, not what it was told to.
+        current_velocity: Actual (vx, vy, vz) in m/s, not the commanded one.
     """
 
     current_velocity: Velocity
